@@ -7,7 +7,9 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Any, Protocol, TypeVar
 
+import numpy as np
 from msgspec import UNSET, Meta, Struct, UnsetType, ValidationError, convert, to_builtins
+from numpy.typing import NDArray
 
 from hypcheck.geometry.rows import PAIRS, Layout
 from hypcheck.messages import shortened
@@ -27,6 +29,31 @@ class Unsigned(Extended):
     """An Extended that is not negative."""
 
 
+class Histogram:
+    """A `table` (n, 4), ascending: the two numbers of a bin, its cases, and how many of these are not right.
+
+    JSON holds a list of its rows. It is no dataclass, since msgspec takes those for JSON objects.
+    """
+
+    def __init__(self, table: NDArray[np.int64] | None = None) -> None:
+        self.table = np.empty((0, 4), dtype=np.int64) if table is None else table
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Histogram) and np.array_equal(self.table, other.table)
+
+    __hash__ = None  # type: ignore[assignment]  # arrays can change
+
+    def as_lists(self) -> list[list[int]]:
+        """Rows [first, second, cases, amiss], as the record has them."""
+        lists: list[list[int]] = self.table.tolist()
+        return lists
+
+    @classmethod
+    def of_lists(cls, lists: list[list[int]]) -> Histogram:
+        """The bins of such rows."""
+        return cls(np.array(lists, dtype=np.int64).reshape(-1, 4))
+
+
 Kind = TypeVar("Kind")
 
 
@@ -36,14 +63,14 @@ def decoded(value: object, kind: type[Kind]) -> Kind:
     Raises msgspec.ValidationError.
     """
     try:
-        return convert(value, kind, dec_hook=_extended, from_attributes=True)
+        return convert(value, kind, dec_hook=_custom, from_attributes=True)
     except UnicodeEncodeError:  # msgspec compares texts in UTF-8
         raise ValidationError("a text has half of a character, a lone surrogate") from None
 
 
 def as_json(value: LinePart) -> Any:  # noqa: ANN401 - whatever JSON holds
     """Encode a line or a part of one for JSON, infinities as texts."""
-    return plain(to_builtins(value, enc_hook=_number))
+    return plain(to_builtins(value, enc_hook=_builtin))
 
 
 def plain(value: Any) -> Any:  # noqa: ANN401  any value that a line holds
@@ -59,7 +86,15 @@ def plain(value: Any) -> Any:  # noqa: ANN401  any value that a line holds
     return value
 
 
-def _extended(kind: type, value: object) -> object:
+def _custom(kind: type, value: object) -> object:
+    """A value of a type that JSON does not have. Raises ValueError, to which msgspec adds the path."""
+    if kind is Histogram:
+        try:
+            bins = convert(value, list[SmallBin])
+        except ValidationError as error:
+            raise ValueError(str(error)) from None
+        require_possible("", bins)
+        return Histogram.of_lists(bins)
     if not issubclass(kind, Extended):
         raise TypeError(f"no field of a line has the type {kind.__name__}")
     least = "" if kind is Unsigned else ', "-inf"'
@@ -71,7 +106,9 @@ def _extended(kind: type, value: object) -> object:
     return number
 
 
-def _number(value: object) -> float:
+def _builtin(value: object) -> object:
+    if isinstance(value, Histogram):
+        return value.as_lists()
     if not isinstance(value, float):
         raise TypeError(f"no line has a {type(value).__name__}")
     return float(value)
@@ -121,6 +158,9 @@ InvalidAxis = Annotated[tuple[_Any, ...], _THREE]
 Bin = Annotated[list[int], Meta(min_length=4, max_length=4)]
 """The two numbers of a bin, its cases, and how many of them did not end as right."""
 
+SmallBin = Annotated[list[Annotated[int, Meta(ge=-(1 << 60), le=1 << 60)]], Meta(min_length=4, max_length=4)]
+"""A Bin of numbers that fit into int64."""
+
 Truth = Annotated[int, Meta(ge=-1, le=1)]
 TruthKey = Annotated[str, one_of("-1", "0", "1")]
 AnswerKey = Annotated[str, one_of("-1", "0", "1", "2", "none")]
@@ -156,6 +196,11 @@ def numbers_of(case: _CasePart) -> tuple[str, ...]:
     return (*case.row, *(case.end or ()), *(case.axis or ()), *(case.heights or ()))
 
 
+def row_of(case: _CasePart) -> tuple[float, ...]:
+    """All numbers of a case's row as floats."""
+    return tuple(map(float.fromhex, numbers_of(case)))
+
+
 def row_fields(row: Sequence[float], layout: Layout = PAIRS) -> dict[str, Any]:
     """The fields row, end, axis and heights of a row of this layout."""
     digits = tuple(value.hex() for value in row)
@@ -173,11 +218,11 @@ class RecordLine(LinePart, frozen=True, kw_only=True, tag_field="type", tag=_typ
         return str(self.__struct_config__.tag)
 
 
-def require_possible(field: str, bins: Sequence[Bin]) -> None:
+def require_possible(name: str, bins: Sequence[Bin]) -> None:
     """Raise ValueError if a bin lies beyond FARTHEST, or has more wrong answers than cases."""
     for number, (across, up, asked, wrong) in enumerate(bins):
-        require_places((across, up), f"{field}[{number}]")
-        require_counts(asked, wrong, f"{field}[{number}]")
+        require_places((across, up), f"{name}[{number}]")
+        require_counts(asked, wrong, f"{name}[{number}]")
 
 
 def require_places(places: Sequence[int], where: str) -> None:

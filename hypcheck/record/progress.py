@@ -13,6 +13,7 @@ from hypcheck.record.fields import (
     Count,
     Extended,
     Heights,
+    Histogram,
     InvalidAxis,
     InvalidCentre,
     InvalidRow,
@@ -25,7 +26,6 @@ from hypcheck.record.fields import (
     Unsigned,
     one_of,
     require_octaves,
-    require_possible,
 )
 from hypcheck.record.lines import DescriptionPart, Retest
 
@@ -36,9 +36,6 @@ Totals = dict[str, Total]
 Label = Annotated[str, one_of("answered", "error", "crash", "timeout", "protocol", "not-run")]
 Place = tuple[Annotated[int, Meta(ge=0, le=2)], Total]
 """0 and the number of a frozen vector in its family, or 1 and that of a generated row; 2 of one of a large seed."""
-
-SavedBin = Annotated[list[Annotated[int, Meta(ge=-(1 << 60), le=1 << 60)]], Meta(min_length=4, max_length=4)]
-"""A Bin of numbers that fit into int64."""
 
 
 class SavedAllowance(LinePart, frozen=True, kw_only=True):
@@ -64,7 +61,7 @@ class PendingCases(LinePart, frozen=True, kw_only=True):
     times: Annotated[str, Meta(pattern="^([0-9a-f]{16})*$")] | UnsetType = UNSET
 
 
-class SavedAnswer(LinePart, frozen=True, kw_only=True):
+class WorstCase(LinePart, frozen=True, kw_only=True):
     """A wrong or tolerated answer that is kept; `error` is its backward error."""
 
     place: Place
@@ -81,7 +78,7 @@ class SavedAnswer(LinePart, frozen=True, kw_only=True):
     time: float | None = None
 
 
-class SavedFault(LinePart, frozen=True, kw_only=True):
+class UnansweredCase(LinePart, frozen=True, kw_only=True):
     """A case that ended without an answer that counts."""
 
     place: Place
@@ -94,7 +91,7 @@ class SavedFault(LinePart, frozen=True, kw_only=True):
     reason: str
 
 
-class SavedExplained(LinePart, frozen=True, kw_only=True):
+class Explained(LinePart, frozen=True, kw_only=True):
     """Wrong answers that the same causes explain, these as a number with a bit for each, and the worst of them.
 
     Of that, `error` is a lower end that is proved, 0 where there is none, and `exponent` floor(log2) of the error.
@@ -102,11 +99,11 @@ class SavedExplained(LinePart, frozen=True, kw_only=True):
 
     causes: Annotated[str, Meta(pattern="^[0-9a-f]+$", max_length=256)]
     cases: Annotated[int, Meta(ge=1, le=1 << 60)]
-    worst: SavedAnswer
+    worst: WorstCase
     exponent: Extended
 
 
-class SavedTally(LinePart, frozen=True, kw_only=True):
+class Tally(LinePart, frozen=True, kw_only=True):
     """The tally of a family so far, as in a group line; `dangerous`: false clears beyond the tolerance."""
 
     asked: Total
@@ -114,11 +111,11 @@ class SavedTally(LinePart, frozen=True, kw_only=True):
     mistakes: Totals
     dangerous: Total
     octaves: dict[str, Totals]
-    size_bins: list[SavedBin]
-    place_bins: list[SavedBin]
-    worst: list[SavedAnswer]
-    faults: list[SavedFault]
-    explained: list[SavedExplained] = field(default_factory=list)
+    size_bins: Histogram
+    place_bins: Histogram
+    worst: list[WorstCase]
+    faults: list[UnansweredCase]
+    explained: list[Explained] = field(default_factory=list)
     denied: Totals = field(default_factory=dict)
     fresh: Total = 0
     not_asked: Totals = field(default_factory=dict)
@@ -126,8 +123,6 @@ class SavedTally(LinePart, frozen=True, kw_only=True):
 
     def __post_init__(self) -> None:
         require_octaves(self.octaves)
-        require_possible("size_bins", self.size_bins)
-        require_possible("place_bins", self.place_bins)
 
 
 class SavedResult(LinePart, frozen=True, kw_only=True):
@@ -137,7 +132,7 @@ class SavedResult(LinePart, frozen=True, kw_only=True):
     `named`: asked cases that known failures name.
     """
 
-    tallies: dict[str, SavedTally]
+    tallies: dict[str, Tally]
     pending: list[PendingCases] = field(name="open")
     retest: Retest = field(name="again")
     outcomes: list[Label]

@@ -22,6 +22,7 @@ from dataclasses import dataclass, field, replace
 from itertools import count, islice
 
 import numpy as np
+from msgspec import structs
 
 from hypcheck.geometry.rows import Indices, Rows
 from hypcheck.implementations.implementation import Crashed, Implementation
@@ -29,7 +30,7 @@ from hypcheck.runs.cases import CaseChunk, ChunkCases
 from hypcheck.runs.judge import Criterion, Status, truth_of
 from hypcheck.runs.results import CasesResult, JudgingRules, merged_result, result_of_final
 from hypcheck.runs.score import score
-from hypcheck.runs.tally import STATUS_CODES, StatusCodes, Tally
+from hypcheck.runs.tally import EMPTY, STATUS_CODES, StatusCodes
 from hypcheck.vectors.border_lines import FARTHEST_OCTAVE, LINES, NEAREST_OCTAVE, RUNGS, RUNGS_ON_A_SIDE, SEARCHED
 
 ROUNDS = 32
@@ -203,6 +204,6 @@ def ask_search(step: SearchStep, implementation: Implementation | Crashed, rules
     searched(most, first_of(rules.criterion), ask)
     if most < len(step):
         left_out = {"slow": len(step) - most}
-        tally = Tally(counts={Status.SKIPPED.value: len(step) - most}, not_asked=left_out)
-        parts.append(CasesResult(tallies={step.family: tally}))
+        skipped = structs.replace(EMPTY, counts={Status.SKIPPED.value: len(step) - most}, not_asked=left_out)
+        parts.append(CasesResult(tallies={step.family: skipped}))
     return merged_result(parts)

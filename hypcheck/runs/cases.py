@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import COLUMNS, Position
 from hypcheck.geometry.rows import Positions, Rows
-from hypcheck.runs.diagnosis import CasePlace
+from hypcheck.record.progress import Place
 from hypcheck.runs.judge import truth_of
 from hypcheck.truth.backward_error import flip_exponents
 from hypcheck.vectors import frozen as vectors
@@ -159,7 +159,7 @@ class CaseChunk:
         number = 0 if self.seed is None else self.start // chunk_rows
         return 1 + number % 2 if number else 0
 
-    def place(self, index: int) -> CasePlace:
+    def place(self, index: int) -> Place:
         """The place of a case in the family."""
         return 0 if self.seed is None else 1 + (self.seed >= FRESH_SEEDS), self.start + index
 

@@ -18,10 +18,11 @@ from hypcheck.messages import counted
 from hypcheck.processes import Advance, interrupts_deferred
 from hypcheck.record import Recorder, RecordLine
 from hypcheck.record.lines import UNEXPLAINED, CauseLine, DriftLine, GroupLine, ImplementationLine, NotStartedLine
+from hypcheck.record.progress import Tally
 from hypcheck.runs import spread, tally
 from hypcheck.runs.causes import subject_of
 from hypcheck.runs.consistency import require_all_tallied
-from hypcheck.runs.diagnosis import causes_of
+from hypcheck.runs.diagnosis import causes_of, wrong_case
 from hypcheck.runs.executors import execution_here, execution_in_pool, keep_freed_memory
 from hypcheck.runs.judge import UNANSWERED, Status
 from hypcheck.runs.known_failures import no_longer_failing
@@ -40,7 +41,6 @@ from hypcheck.runs.results import CasesResult, JudgingRules, merged_result
 from hypcheck.runs.resume import ProgressWriter, recorded_description
 from hypcheck.runs.retest import RetestStep, result_without_retest
 from hypcheck.runs.schedule import ImplementationOpener, RunState, TaskExecution, perform_steps
-from hypcheck.runs.tally import Tally
 from hypcheck.vectors.invalid_rows import INVALID_CONTENTS
 
 if TYPE_CHECKING:
@@ -236,9 +236,9 @@ class ImplementationLines:
     def _causes(self, tallies: Mapping[str, Tally]) -> Iterator[CauseLine]:
         """Why its wrong answers are wrong. Families with right answers alone say which causes it has not."""
         clean = [family for family, each in tallies.items() if {Status.RIGHT.value} == each.counts.keys() - _NOT_ASKED]
-        diagnoses = {family: each.diagnosis for family, each in tallies.items()}
-        for each in causes_of(diagnoses, clean, self.rules.criterion, self.rules.domain):
-            worst = tally.WorstCase.of(each.worst.worst, each.worst.place, each.worst.name, self.rules.criterion)
+        for each in causes_of(tallies, clean, self.rules.criterion, self.rules.domain):
+            kept = each.worst.worst
+            worst = tally.worst_case(wrong_case(each.worst), kept.place, kept.case, self.rules.criterion)
             yield CauseLine(
                 spec=self.spec,
                 method=self.used.name,

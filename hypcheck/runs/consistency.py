@@ -19,7 +19,9 @@ from hypcheck.implementations.description import QUESTIONS, Description
 from hypcheck.implementations.implementation import MAX_FAULTS
 from hypcheck.implementations.session import MAX_HANGS, Outcome
 from hypcheck.record import RecordLine
+from hypcheck.record.fields import row_of
 from hypcheck.record.lines import GroupLine, ImplementationLine
+from hypcheck.record.progress import Tally, WorstCase
 from hypcheck.runs import border_search, judge
 from hypcheck.runs.border_search import SearchStep
 from hypcheck.runs.cases import EXPONENTS_OF, CaseChunk
@@ -28,7 +30,7 @@ from hypcheck.runs.judge import DANGEROUS, UNANSWERED, Mistake, Status
 from hypcheck.runs.plan import ConformancePlan, planned_cases
 from hypcheck.runs.results import CasesResult, InvalidRows, JudgingRules, PendingRetest
 from hypcheck.runs.schedule import RunState, Step
-from hypcheck.runs.tally import UNANSWERED_KEPT, WORST_KEPT, Tally, WorstCase
+from hypcheck.runs.tally import UNANSWERED_KEPT, WORST_KEPT
 from hypcheck.vectors.border_lines import SEARCHED
 from hypcheck.vectors.families import ALL, family_of
 from hypcheck.vectors.family import MARK
@@ -230,7 +232,7 @@ def _of_tally(family: str, tally: Tally, rules: JudgingRules) -> str:
     if tally.dangerous > min(counts[Status.WRONG.value], sum(tally.mistakes.get(each.value, 0) for each in DANGEROUS)):
         return f"{family} has {tally.dangerous} false clears beyond the tolerance, more than it has wrong answers"
     faults = _UNANSWERED | ({Status.WRONG.value} if family in INVALID_CONTENTS else set())
-    diagnosed = sum(each.cases for each in tally.diagnosis.explained.values())
+    diagnosed = sum(each.cases for each in tally.explained)
     if diagnosed != (0 if family in INVALID_CONTENTS else sum(counts[each.value] for each in FAILING)):
         return f"{family} has causes of {diagnosed} wrong answers, but another number of these"
     kept = Counter(fault.status for fault in tally.faults)
@@ -244,7 +246,7 @@ def _of_tally(family: str, tally: Tally, rules: JudgingRules) -> str:
 
 def _is_judged_so(case: WorstCase, rules: JudgingRules) -> bool:
     """Whether a worst case is judged now as the record has it."""
-    rows, answers = np.array([case.row]), np.array([case.answer], dtype=np.int8)
+    rows, answers = np.array([row_of(case)]), np.array([case.answer], dtype=np.int8)
     criterion, times = rules.criterion, None if case.time is None else np.array([case.time])
     wrong = np.flatnonzero(judge.is_amiss(rows, judge.truth_of(rows, criterion.layout), answers, times, criterion))
     for judged in judge.judged(rows, answers, wrong, criterion, times):

@@ -20,14 +20,17 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
+from msgspec import structs
 
-from hypcheck.geometry.rows import Positions, Rows
+from hypcheck.geometry.rows import Layout, Positions, Rows
 from hypcheck.implementations.description import QUESTIONS
 from hypcheck.implementations.domain import Domain, claimed
+from hypcheck.record.fields import Extended, Unsigned, numbers_of, row_fields, row_of
+from hypcheck.record.progress import Explained, Place, Tally, WorstCase
 from hypcheck.runs import judge
 from hypcheck.runs.causes import PLACES, SILENT, WIDER_ROUNDINGS, AnsweredRows, Answers, Cause, Scope, subject_of
 from hypcheck.runs.formula_errors import SWEEP_FORMULA_ERRORS, TILTED_FORMULA_ERRORS, UPRIGHT_FORMULA_ERRORS
-from hypcheck.runs.judge import Criterion, Status, WrongCase
+from hypcheck.runs.judge import Criterion, Mistake, Status, WrongCase
 from hypcheck.runs.root_causes import ROOT_CAUSES
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import is_extreme
@@ -65,59 +68,68 @@ RIGHT = "right"
 FAILING = (Status.WRONG, Status.UNDECIDED)
 """The statuses of the wrong answers that a diagnosis is about."""
 
-CasePlace = tuple[int, int]
-"""The place of a case in its family: (0, n) for the n-th frozen vector, (1, n) for the n-th generated row."""
+
+def kept_case(case: WrongCase, place: Place, name: str, layout: Layout, error: float) -> WorstCase:
+    """The wrong answer at that place with that id, for the record; `error` is what is known of its size."""
+    return WorstCase(
+        place=place,
+        case=name,
+        **row_fields(case.row, layout),
+        truth=int(case.truth),
+        answer=case.answer,
+        mistake=case.mistake.value,
+        status=case.status.value,
+        error=Unsigned(error),
+        time=case.time,
+    )
 
 
-@dataclass(frozen=True, slots=True)
-class Explained:
-    """Wrong answers that the same causes explain: how many, and the worst of them with its place and its id."""
+def wrong_case(explained: Explained) -> WrongCase:
+    """The worst of some wrong answers, as it was judged."""
+    worst = explained.worst
+    return WrongCase(
+        index=0,
+        row=row_of(worst),
+        truth=worst.truth,
+        answer=worst.answer,
+        mistake=Mistake(worst.mistake),
+        status=Status(worst.status),
+        exponent=float(explained.exponent),
+        time=worst.time,
+        least=float(worst.error),
+    )
 
-    cases: int
-    place: CasePlace
-    name: str
-    worst: WrongCase
 
-    @property
-    def rank(self) -> tuple[float, CasePlace]:
-        """The worst first: the largest error, then the first place."""
-        return -self.worst.exponent, self.place
-
-
-def together(parts: Iterable[Explained]) -> Explained:
-    """All of these, of which there must be one at least."""
-    some = tuple(parts)
-    worst = min(some, key=lambda explained: explained.rank)
-    return Explained(sum(explained.cases for explained in some), worst.place, worst.name, worst.worst)
+def _joined(parts: Sequence[Explained]) -> Explained:
+    """All of these, one at least, and the causes of the worst of them: the largest error, then the first place."""
+    worst = min(parts, key=lambda explained: (-explained.exponent, explained.worst.place))
+    return structs.replace(worst, cases=sum(explained.cases for explained in parts))
 
 
 @dataclass(frozen=True)
 class Diagnosis:
-    """Wrong answers by the set of causes that explain them, and how many right answers deny each cause, by name."""
+    """Wrong answers by the set of causes that explain them, and how many right answers deny each cause, by name.
 
-    explained: Mapping[int, Explained] = field(default_factory=dict)
-    denied: Mapping[str, int] = field(default_factory=dict)
+    A tally has the same two fields.
+    """
 
-    @classmethod
-    def of(cls, explained: Iterable[tuple[int, Explained]], denied: Mapping[str, int]) -> Diagnosis:
-        """The diagnosis with all of these, of which some may have the same set of causes."""
-        by_set: dict[int, list[Explained]] = {}
-        for causes, explanation in explained:
-            by_set.setdefault(causes, []).append(explanation)
-        return cls({causes: together(by_set[causes]) for causes in sorted(by_set)}, dict(sorted(denied.items())))
+    explained: list[Explained] = field(default_factory=list)
+    denied: dict[str, int] = field(default_factory=dict)
 
 
-def merged(parts: Iterable[Diagnosis]) -> Diagnosis:
-    """The diagnosis of all answers of these, which may come in any order."""
-    some = tuple(parts)
+def merged(parts: Iterable[Diagnosis | Tally]) -> Diagnosis:
+    """The diagnosis of all answers of these, which may come in any order; sets of causes ascend."""
     denied: Counter[str] = Counter()
-    for part in some:
+    by_set: dict[int, list[Explained]] = {}
+    for part in parts:
         denied.update(part.denied)
-    return Diagnosis.of((item for part in some for item in part.explained.items()), denied)
+        for explained in part.explained:
+            by_set.setdefault(int(explained.causes, 16), []).append(explained)
+    return Diagnosis([_joined(by_set[causes]) for causes in sorted(by_set)], dict(sorted(denied.items())))
 
 
 def diagnose(
-    answered: AnsweredRows, wrong: Sequence[WrongCase], right: Sequence[int], named: Sequence[tuple[CasePlace, str]]
+    answered: AnsweredRows, wrong: Sequence[WrongCase], right: Sequence[int], named: Sequence[tuple[Place, str]]
 ) -> Diagnosis:
     """The diagnosis of answers to rows: the wrong cases, their places and ids, and the indices of the right answers."""
     failing = [(case, told) for case, told in zip(wrong, named, strict=True) if case.status in FAILING]
@@ -139,8 +151,21 @@ def diagnose(
         )
         if against:
             denied[cause.name] = round(against * share)
-    explained = (Explained(1, at, name, case) for case, (at, name) in failing)
-    return Diagnosis.of(zip(sets, explained, strict=True), denied)
+    by_set: dict[int, list[tuple[WrongCase, tuple[Place, str]]]] = {}
+    for causes, one in zip(sets, failing, strict=True):
+        by_set.setdefault(causes, []).append(one)
+    layout = answered.criterion.layout
+    return Diagnosis(
+        [_explained(causes, by_set[causes], layout) for causes in sorted(by_set)],
+        dict(sorted(denied.items())),
+    )
+
+
+def _explained(causes: int, some: Sequence[tuple[WrongCase, tuple[Place, str]]], layout: Layout) -> Explained:
+    """Wrong answers with their places and ids, all explained by the same causes."""
+    case, (place, name) = min(some, key=lambda one: (-one[0].exponent, one[1][0]))
+    worst = kept_case(case, place, name, layout, case.least)
+    return Explained(causes=f"{causes:x}", cases=len(some), worst=worst, exponent=Extended(case.exponent))
 
 
 def _against(cause: Cause, answered: AnsweredRows, answers: Answers, first: int = 0) -> int:
@@ -210,7 +235,7 @@ class _Left:
             families[key[0]] += explained.cases
             del self.explained[key]
         if taken:
-            self.taken.append(CountedCause(cause, families, together(taken.values())))
+            self.taken.append(CountedCause(cause, families, _joined(list(taken.values()))))
 
 
 def _bits(some: Iterable[Cause]) -> int:
@@ -223,20 +248,20 @@ CLEAN = 16
 
 
 def causes_of(
-    diagnoses: Mapping[str, Diagnosis], clean: Sequence[str], criterion: Criterion, domain: Domain
+    diagnoses: Mapping[str, Diagnosis | Tally], clean: Sequence[str], criterion: Criterion, domain: Domain
 ) -> list[CountedCause]:
     """The causes that stand, of the diagnoses of all families, most wrong answers first, what is unexplained last.
 
     `clean` families were asked and have no wrong answer.
     """
-    by_subject: dict[str, dict[str, Diagnosis]] = {}
+    by_subject: dict[str, dict[str, Diagnosis | Tally]] = {}
     for family, diagnosis in diagnoses.items():
         if diagnosis.explained:
-            worst = next(iter(diagnosis.explained.values())).worst
-            by_subject.setdefault(subject_of(len(worst.row), criterion), {})[family] = diagnosis
+            numbers = numbers_of(diagnosis.explained[0].worst)
+            by_subject.setdefault(subject_of(len(numbers), criterion), {})[family] = diagnosis
     if not by_subject:
         return []
-    explaining = {causes for diagnosis in diagnoses.values() for causes in diagnosis.explained}
+    explaining = {int(each.causes, 16) for diagnosis in diagnoses.values() for each in diagnosis.explained}
     suspects = [cause for cause in CAUSES if any(causes & _bits([cause]) for causes in explaining)]
     denied: Counter[str] = Counter()
     for answered in _right_answers(clean, criterion, domain):
@@ -248,7 +273,7 @@ def causes_of(
         for one in _standing(part, denied):
             named.setdefault(one.cause.name if one.cause else "", []).append(one)
     return sorted(
-        map(_joined, named.values()),
+        map(_in_all_families, named.values()),
         key=lambda counted: (counted.cause is None, -counted.cases, _BITS[counted.cause.name] if counted.cause else 0),
     )
 
@@ -274,19 +299,17 @@ def _right_answers(clean: Sequence[str], criterion: Criterion, domain: Domain) -
         yield AnsweredRows(rows, truth, given, criterion)
 
 
-def _joined(some: list[CountedCause]) -> CountedCause:
+def _in_all_families(some: list[CountedCause]) -> CountedCause:
     families: Counter[str] = Counter()
     for counted in some:
         families.update(counted.families)
-    return CountedCause(some[0].cause, dict(sorted(families.items())), together(counted.worst for counted in some))
+    return CountedCause(some[0].cause, dict(sorted(families.items())), _joined([counted.worst for counted in some]))
 
 
-def _standing(diagnoses: Mapping[str, Diagnosis], elsewhere: Mapping[str, int]) -> list[CountedCause]:
+def _standing(diagnoses: Mapping[str, Diagnosis | Tally], elsewhere: Mapping[str, int]) -> list[CountedCause]:
     """The causes that stand, of families with rows of one subject; `elsewhere` denies them in other families."""
     denied = Counter(merged(diagnoses.values()).denied) + Counter(elsewhere)
-    left = _Left(
-        {(family, causes): each for family, one in diagnoses.items() for causes, each in one.explained.items()}
-    )
+    left = _Left({(family, int(each.causes, 16)): each for family, one in diagnoses.items() for each in one.explained})
 
     def of(scope: Scope) -> list[Cause]:
         """The causes of this scope that explain something, and that right answers hardly deny."""

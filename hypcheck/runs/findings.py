@@ -29,8 +29,8 @@ from hypcheck.implementations.domain import EVERYWHERE, claimed
 from hypcheck.implementations.method import Method
 from hypcheck.implementations.session import Answered
 from hypcheck.record.lines import FindingLine, GroupLine, MapLine
+from hypcheck.record.progress import Place
 from hypcheck.runs import judge, tally
-from hypcheck.runs.diagnosis import CasePlace
 from hypcheck.runs.judge import DEFAULT_TOLERANCE, Criterion
 from hypcheck.runs.score import score
 from hypcheck.truth import exact, float_filter
@@ -95,7 +95,7 @@ class Batch:
         """The id of a case."""
         return self.ids[index]
 
-    def place(self, index: int) -> CasePlace:
+    def place(self, index: int) -> Place:
         """The place of a case in the family."""
         return 1, self.start + index
 

@@ -19,11 +19,13 @@ from hypcheck.geometry.rows import Indices, Layout, Rows
 from hypcheck.implementations.domain import Domain, claimed
 from hypcheck.implementations.implementation import Implementation
 from hypcheck.messages import counted
+from hypcheck.record.fields import row_of
+from hypcheck.record.progress import UnansweredCase
 from hypcheck.runs import judge
 from hypcheck.runs.hunt_place import RowPlace, place_of_row
 from hypcheck.runs.judge import DEFAULT_TOLERANCE, Criterion, Mistake, Status, WrongCase
-from hypcheck.runs.score import Score, score
-from hypcheck.runs.tally import STATUSES, UnansweredCase, counts_of
+from hypcheck.runs.score import Score, score, unanswered_case
+from hypcheck.runs.tally import STATUSES, counts_of
 from hypcheck.tables.numbers import hex_of
 from hypcheck.truth.passage_error import first_contact
 from hypcheck.vectors.draw import Integers
@@ -230,8 +232,10 @@ class Hunt:
             for index, reason in scored.reasons.items():
                 status = STATUSES[scored.status[index]]
                 if status not in self.unanswered:
-                    row = tuple(scored.rows[index].tolist())
-                    self.unanswered[status] = UnansweredCase((1, self.asked + index), "", row, status.value, reason)
+                    row, place = scored.rows[index].tolist(), (1, self.asked + index)
+                    self.unanswered[status] = unanswered_case(
+                        row, scored.status[index], reason, place, "", self.target.layout
+                    )
             self.counts.update(counts_of(scored.status))
             yield part, scored
 
@@ -269,7 +273,7 @@ def hunt_lines(run: Hunt, most: int) -> Iterator[str]:
         yield ""
         yield f"{status.value}: {counted(run.counts[status.value], 'row')}; the first: {fault.reason}"
         if status is not Status.NOT_RUN:
-            yield titled("row", _row(fault.row, run.target))
+            yield titled("row", _row(row_of(fault), run.target))
 
 
 def _answers(number: int) -> str:

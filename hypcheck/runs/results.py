@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 
 import numpy as np
+from msgspec import structs
 from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import REFUSED
@@ -21,14 +22,15 @@ from hypcheck.implementations.domain import Domain, claimed
 from hypcheck.implementations.implementation import Crashed, Implementation
 from hypcheck.implementations.session import Outcome
 from hypcheck.record.lines import Retest
+from hypcheck.record.progress import Place, Tally
 from hypcheck.runs import judge, tally
 from hypcheck.runs.cases import CaseChunk, ChunkCases, cases_of_chunk, flip_exponents_of
 from hypcheck.runs.causes import AnsweredRows
-from hypcheck.runs.diagnosis import CasePlace, Diagnosis, diagnose
+from hypcheck.runs.diagnosis import Diagnosis, diagnose
 from hypcheck.runs.judge import Criterion, Status, WrongCase
 from hypcheck.runs.known_failures import KnownFailure, entries_about
 from hypcheck.runs.score import Score, as_slice, score, status_of, unanswered_cases
-from hypcheck.runs.tally import STATUS_CODES, Tally, counts_of
+from hypcheck.runs.tally import STATUS_CODES, counts_of
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import is_extreme
 from hypcheck.vectors.format import CaseFile
@@ -154,7 +156,7 @@ class InvalidRows:
         """The id of a case."""
         return self.file.cases[index].id
 
-    def place(self, index: int) -> CasePlace:
+    def place(self, index: int) -> Place:
         """The place of a case among the invalid rows."""
         return 0, index
 
@@ -177,7 +179,7 @@ def ask_chunk(chunk: CaseChunk, implementation: Implementation | Crashed, rules:
     return replace(result, pending=_pending(chunk, indices[kept], scored.part(kept)), outcomes=answered.outcomes)
 
 
-def ask_invalid_rows(asked: InvalidRows, implementation: Implementation | Crashed) -> CasesResult:
+def ask_invalid_rows(asked: InvalidRows, implementation: Implementation | Crashed, rules: JudgingRules) -> CasesResult:
     """Ask the invalid rows: each must be answered 127."""
     file = asked.file
     answered = implementation.classify(file.rows)
@@ -188,9 +190,10 @@ def ask_invalid_rows(asked: InvalidRows, implementation: Implementation | Crashe
         if answer != REFUSED:
             columns = " and ".join(file.cases[index].columns)
             reasons[index] = f"answered {answer}; a row with an invalid {columns} must be refused: {REFUSED}"
-    found = unanswered_cases(file.rows, status, reasons, asked, np.arange(len(status)))
-    tally = Tally(asked=len(status), counts=counts_of(status), faults=found)
-    return CasesResult(tallies={asked.family: tally}, outcomes=answered.outcomes)
+    layout = rules.criterion.layout
+    faults = unanswered_cases(file.rows, status, reasons, asked, np.arange(len(status)), layout)
+    tallied = structs.replace(tally.EMPTY, asked=len(status), counts=counts_of(status), faults=faults)
+    return CasesResult(tallies={asked.family: tallied}, outcomes=answered.outcomes)
 
 
 def result_of_final(
@@ -207,11 +210,15 @@ def result_of_final(
     """
     asked = AnsweredRows(scored.rows, scored.truth, scored.answers, scored.criterion, scored.times)
     wrong, excusing = _excused(list(scored.judged()), made.chunk, indices, asked, rules)
-    tally = scored.tally(made.chunk, indices, flip_exponents_of(made, indices), left_out=left_out, wrong=wrong)
+    tallied = scored.tally(made.chunk, indices, flip_exponents_of(made, indices), left_out=left_out, wrong=wrong)
     fresh = len(indices) if rules.are_fresh(made.chunk) else 0
     diagnosed = _diagnosed(made.chunk, indices, scored, asked, wrong)
     return CasesResult(
-        tallies={made.chunk.family: replace(tally, diagnosis=diagnosed, fresh=fresh)},
+        tallies={
+            made.chunk.family: structs.replace(
+                tallied, explained=diagnosed.explained, denied=diagnosed.denied, fresh=fresh
+            )
+        },
         excusing=frozenset(excusing),
         named=frozenset(_named_cases(made.chunk, indices, rules.known)),
     )

@@ -20,33 +20,19 @@ from msgspec import UNSET, structs
 from numpy.typing import NDArray
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.rows import PAIRS, Layout
 from hypcheck.implementations.description import Description
 from hypcheck.implementations.session import Allowance, Outcome
 from hypcheck.record import Record, Recorder, RecordLine, plain
-from hypcheck.record.fields import Extended, Unsigned, as_json, decoded, numbers_of, row_fields
+from hypcheck.record.fields import as_json, decoded
 from hypcheck.record.lines import DescriptionPart, HeaderLine, ImplementationLine, NotStartedLine
-from hypcheck.record.progress import (
-    PendingCases,
-    ProgressLine,
-    SavedAllowance,
-    SavedAnswer,
-    SavedExplained,
-    SavedFault,
-    SavedResult,
-    SavedState,
-    SavedTally,
-)
+from hypcheck.record.progress import PendingCases, ProgressLine, SavedAllowance, SavedResult, SavedState
 from hypcheck.record.writer import Provenance, header
 from hypcheck.runs.cases import PACE, CaseChunk, Pace
 from hypcheck.runs.consistency import require_lines, require_state
-from hypcheck.runs.diagnosis import Diagnosis, Explained
 from hypcheck.runs.fingerprint import code_fingerprint
-from hypcheck.runs.judge import Mistake, Status, WrongCase
 from hypcheck.runs.plan import ConformancePlan, rules_of, steps_of
 from hypcheck.runs.results import CasesResult, PendingRetest
 from hypcheck.runs.schedule import RunState
-from hypcheck.runs.tally import Histogram, Tally, UnansweredCase, WorstCase
 
 FREE_OPTIONS = ("workers", "cluster")
 """Options that may differ, because the result does not depend on them."""
@@ -75,7 +61,6 @@ class ProgressWriter:
     def __init__(self, recorder: Recorder, number: int, declared: Description, cases: int, pace: Pace = PACE) -> None:
         self._recorder, self._pace = recorder, pace
         self._number, self._declared, self._cases = number, recorded_description(declared), cases
-        self._layout = declared.asked.layout
         self._due = time.monotonic() + pace.progress_s
 
     def offer(self, state: RunState) -> None:
@@ -93,7 +78,7 @@ class ProgressWriter:
                 number=self._number,
                 declared=self._declared,
                 cases=self._cases,
-                state=saved_state(state, self._layout),
+                state=saved_state(state),
                 program=code_fingerprint(),
             )
         )
@@ -220,11 +205,11 @@ def _shown(value: object) -> str:
     return "missing" if value is None else json.dumps(value, ensure_ascii=False)
 
 
-def saved_state(state: RunState, layout: Layout = PAIRS) -> SavedState:
-    """The state as a line of progress has it, its rows of that layout."""
+def saved_state(state: RunState) -> SavedState:
+    """The state as a line of progress has it."""
     left = state.left
     allowance = SavedAllowance(restarts=left.restarts, faults=left.faults, over=left.over, hangs=left.hangs)
-    return SavedState(done=state.done, left=allowance, total=saved_result(state.total, layout))
+    return SavedState(done=state.done, left=allowance, total=saved_result(state.total))
 
 
 def restored_state(content: SavedState) -> RunState:
@@ -235,10 +220,10 @@ def restored_state(content: SavedState) -> RunState:
     return RunState(Allowance(**structs.asdict(content.left)), content.done, restored_result(content.total))
 
 
-def saved_result(result: CasesResult, layout: Layout = PAIRS) -> SavedResult:
-    """The result as a line of progress has it, its rows of that layout."""
+def saved_result(result: CasesResult) -> SavedResult:
+    """The result as a line of progress has it."""
     return SavedResult(
-        tallies={family: _saved_tally(tally, layout) for family, tally in result.tallies.items()},
+        tallies=dict(result.tallies),
         pending=[_saved_open(each) for each in result.pending],
         retest=result.retest,
         outcomes=sorted(outcome.label for outcome in result.outcomes),
@@ -250,7 +235,7 @@ def saved_result(result: CasesResult, layout: Layout = PAIRS) -> SavedResult:
 def restored_result(content: SavedResult) -> CasesResult:
     """The result in a line of progress. Raises as restored_state does."""
     return CasesResult(
-        tallies={family: _restored_tally(tally) for family, tally in content.tallies.items()},
+        tallies=content.tallies,
         pending=tuple(map(_restored_open, content.pending)),
         retest=content.retest,
         outcomes=frozenset(outcome for outcome in Outcome if outcome.label in content.outcomes),
@@ -280,86 +265,6 @@ def _restored_open(content: PendingCases) -> PendingRetest:
     if times is not None and len(times) != len(answers):
         raise ValueError(f"{chunk.family} has {len(times)} times for {len(answers)} answers")
     return PendingRetest(chunk, np.concatenate([np.arange(*run) for run in content.indices]), answers, times)
-
-
-def _saved_tally(tally: Tally, layout: Layout) -> SavedTally:
-    return SavedTally(
-        asked=tally.asked,
-        counts=dict(tally.counts),
-        mistakes=dict(tally.mistakes),
-        dangerous=tally.dangerous,
-        octaves={exponent: dict(counts) for exponent, counts in tally.octaves.items()},
-        size_bins=tally.size_bins.as_lists(),
-        place_bins=tally.place_bins.as_lists(),
-        worst=[SavedAnswer(**_saved_case(case, layout)) for case in tally.worst],
-        faults=[SavedFault(**_saved_case(case, layout)) for case in tally.faults],
-        explained=[_saved_explained(causes, each, layout) for causes, each in tally.diagnosis.explained.items()],
-        denied=dict(tally.diagnosis.denied),
-        fresh=tally.fresh,
-        not_asked=dict(tally.not_asked),
-        answers={truth: dict(counts) for truth, counts in tally.answers.items()},
-    )
-
-
-def _restored_tally(content: SavedTally) -> Tally:
-    return Tally(
-        asked=content.asked,
-        fresh=content.fresh,
-        not_asked=content.not_asked,
-        counts=content.counts,
-        mistakes=content.mistakes,
-        answers=content.answers,
-        dangerous=content.dangerous,
-        octaves=content.octaves,
-        size_bins=Histogram.of_lists(content.size_bins),
-        place_bins=Histogram.of_lists(content.place_bins),
-        worst=tuple(WorstCase(**_restored_case(case)) for case in content.worst),
-        faults=tuple(UnansweredCase(**_restored_case(case)) for case in content.faults),
-        diagnosis=Diagnosis(
-            {int(each.causes, 16): _restored_explained(each) for each in content.explained}, content.denied
-        ),
-    )
-
-
-def _saved_explained(causes: int, each: Explained, layout: Layout) -> SavedExplained:
-    case = each.worst
-    worst = SavedAnswer(
-        place=each.place,
-        case=each.name,
-        **row_fields(case.row, layout),
-        truth=int(case.truth),
-        answer=case.answer,
-        mistake=case.mistake.value,
-        status=case.status.value,
-        error=Unsigned(case.least),
-        time=case.time,
-    )
-    return SavedExplained(causes=f"{causes:x}", cases=each.cases, worst=worst, exponent=Extended(case.exponent))
-
-
-def _restored_explained(content: SavedExplained) -> Explained:
-    saved = content.worst
-    case = WrongCase(
-        index=0,
-        row=tuple(map(float.fromhex, numbers_of(saved))),
-        truth=saved.truth,
-        answer=saved.answer,
-        mistake=Mistake(saved.mistake),
-        status=Status(saved.status),
-        exponent=float(content.exponent),
-        time=saved.time,
-        least=float(saved.error),
-    )
-    return Explained(content.cases, saved.place, saved.case, case)
-
-
-def _saved_case(case: WorstCase | UnansweredCase, layout: Layout) -> Json:
-    return {**asdict(case), **row_fields(case.row, layout)}
-
-
-def _restored_case(case: SavedAnswer | SavedFault) -> Json:
-    told = {name: value for name, value in structs.asdict(case).items() if name not in ("end", "axis", "heights")}
-    return {**told, "row": tuple(map(float.fromhex, numbers_of(case)))}
 
 
 def _runs(indices: NDArray[np.intp]) -> list[tuple[int, int]]:

@@ -82,7 +82,7 @@ def perform_task(
     elif isinstance(task, SearchStep):
         result = ask_search(task, implementation, rules)
     else:
-        result = ask_invalid_rows(task, implementation)
+        result = ask_invalid_rows(task, implementation, rules)
     return TaskResult(result, implementation.allowance)
 
 

@@ -17,10 +17,11 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck.geometry.rows import CANNOT_SAY, Floats, Indices, Positions, Rows
+from hypcheck.geometry.rows import CANNOT_SAY, Floats, Indices, Layout, Positions, Rows
 from hypcheck.implementations.session import Answered, Outcome
+from hypcheck.record.fields import row_fields
+from hypcheck.record.progress import Place, Tally, UnansweredCase, WorstCase
 from hypcheck.runs import judge, tally
-from hypcheck.runs.diagnosis import CasePlace
 from hypcheck.runs.judge import DANGEROUS, Criterion, Mistake, Status, WrongCase
 from hypcheck.runs.tally import (
     STATUS_CODES,
@@ -28,13 +29,12 @@ from hypcheck.runs.tally import (
     UNANSWERED_KEPT,
     WORST_KEPT,
     StatusCodes,
-    Tally,
-    UnansweredCase,
-    WorstCase,
     answer_counts,
     by_exponent,
     counts_of,
     kept_unanswered,
+    rank_of,
+    worst_case,
 )
 
 _ENDED = np.array(
@@ -49,7 +49,7 @@ class CaseSource(Protocol):
         """The id of a case."""
         ...
 
-    def place(self, index: int) -> CasePlace:
+    def place(self, index: int) -> Place:
         """The place of a case in the family."""
         ...
 
@@ -150,10 +150,10 @@ class Score:
             size_bins=tally.by_size(self.rows, amiss),
             place_bins=tally.by_place(self.rows, amiss),
             worst=self._worst(cases, source, indices),
-            faults=unanswered_cases(self.rows, self.status, self.reasons, source, indices),
+            faults=unanswered_cases(self.rows, self.status, self.reasons, source, indices, self.criterion.layout),
         )
 
-    def _worst(self, wrong: Iterable[WrongCase], source: CaseSource, indices: Indices) -> tuple[WorstCase, ...]:
+    def _worst(self, wrong: Iterable[WrongCase], source: CaseSource, indices: Indices) -> list[WorstCase]:
         ranked = sorted(wrong, key=lambda case: (_exponent_first(case), case.index))
         chosen = ranked[:WORST_KEPT]
         if chosen and math.isfinite(chosen[-1].exponent) and not chosen[-1].least:
@@ -161,12 +161,12 @@ class Score:
             last = _exponent_first(chosen[-1])
             chosen += [case for case in ranked[WORST_KEPT:] if _exponent_first(case) == last]
         measured = (
-            WorstCase.of(
+            worst_case(
                 case, source.place(int(indices[case.index])), source.name(int(indices[case.index])), self.criterion
             )
             for case in chosen
         )
-        return tuple(sorted(measured, key=lambda case: case.rank)[:WORST_KEPT])
+        return sorted(measured, key=rank_of)[:WORST_KEPT]
 
 
 def score(rows: Rows, truth: Positions, answered: Answered, criterion: Criterion) -> Score:
@@ -184,24 +184,34 @@ def status_of(answered: Answered) -> StatusCodes:
     return status
 
 
+def unanswered_case(
+    row: Sequence[float], status: int, reason: str, place: Place, name: str, layout: Layout
+) -> UnansweredCase:
+    """The row at that place with that id, which ended with a status (of STATUS_CODES) other than a valid answer."""
+    return UnansweredCase(
+        place=place, case=name, **row_fields(row, layout), status=STATUSES[status].value, reason=reason
+    )
+
+
 def unanswered_cases(
-    rows: Rows, status: StatusCodes, reasons: Mapping[int, str], source: CaseSource, indices: Indices
-) -> tuple[UnansweredCase, ...]:
+    rows: Rows,
+    status: StatusCodes,
+    reasons: Mapping[int, str],
+    source: CaseSource,
+    indices: Indices,
+    layout: Layout,
+) -> list[UnansweredCase]:
     """The first rows in `reasons` of each status, at most UNANSWERED_KEPT."""
     if not reasons:
-        return ()
+        return []
     places = np.sort(np.fromiter(reasons, dtype=np.intp, count=len(reasons)))
     first = (places[status[places] == code][:UNANSWERED_KEPT].tolist() for code in set(status[places].tolist()))
+    chosen = [(place, int(indices[place])) for some in first for place in some]
     return kept_unanswered(
-        UnansweredCase(
-            source.place(int(indices[place])),
-            source.name(int(indices[place])),
-            tuple(rows[place].tolist()),
-            STATUSES[status[place]].value,
-            reasons[place],
+        unanswered_case(
+            rows[place].tolist(), status[place], reasons[place], source.place(case), source.name(case), layout
         )
-        for some in first
-        for place in some
+        for place, case in chosen
     )
 
 

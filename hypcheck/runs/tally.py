@@ -1,8 +1,8 @@
 """Tallies of cases: counts by status, histograms over sizes and places, and the worst cases.
 
-Tallies of parts add up to that of the whole in any order: counts are sums, and the cases that are kept with their rows
-depend on their places in the family, not on the order in which they were judged. A tally of all cases of a family
-becomes a line of the record.
+A tally is a struct of the record, so a run that is interrupted writes it as it is. Tallies of parts add up to that of
+the whole in any order: counts are sums, and the cases that are kept with their rows depend on their places in the
+family, not on the order in which they were judged. A tally of all cases of a family becomes a line of the record.
 """
 
 from __future__ import annotations
@@ -10,18 +10,17 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
 
 import numpy as np
 from msgspec import UNSET, UnsetType
 from numpy.typing import NDArray
 
-from hypcheck.geometry.rows import Layout, Mask, Positions, Rows
+from hypcheck.geometry.rows import Mask, Positions, Rows
 from hypcheck.record import lines
-from hypcheck.record.fields import Unsigned, row_fields
+from hypcheck.record.fields import Histogram, Unsigned, row_of
 from hypcheck.record.lines import GroupLine
+from hypcheck.record.progress import Place, Tally, UnansweredCase, WorstCase
 from hypcheck.runs import diagnosis, judge
-from hypcheck.runs.diagnosis import CasePlace, Diagnosis
 from hypcheck.runs.judge import Criterion, Status, WrongCase
 from hypcheck.truth.passage_error import first_contact
 
@@ -32,28 +31,6 @@ FAR = 63
 
 _LEAST, _GREATEST = 2.0**-1000, 2.0**1000
 _DENSE = 1 << 16
-
-
-@dataclass(frozen=True, eq=False)
-class Histogram:
-    """A `table` (n, 4), ascending: the two numbers of a bin, its cases, and how many of these are not RIGHT."""
-
-    table: Integers = field(default_factory=lambda: np.empty((0, 4), dtype=np.int64))
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, Histogram) and np.array_equal(self.table, other.table)
-
-    __hash__ = None  # type: ignore[assignment]  # arrays can change
-
-    def as_lists(self) -> list[list[int]]:
-        """Rows [first, second, cases, amiss], as the record has them."""
-        lists: list[list[int]] = self.table.tolist()
-        return lists
-
-    @classmethod
-    def of_lists(cls, lists: list[list[int]]) -> Histogram:
-        """The bins of such rows."""
-        return cls(np.array(lists, dtype=np.int64).reshape(-1, 4))
 
 
 def by_size(rows: Rows, amiss: Mask) -> Histogram:
@@ -136,84 +113,34 @@ STATUS_CODES: Mapping[Status, int] = {status: code for code, status in enumerate
 StatusCodes = NDArray[np.int8]
 
 
-@dataclass(frozen=True, slots=True)
-class WorstCase:
-    """A wrong or tolerated answer that is kept with its row; `error` is its backward error, `time` a wrong time."""
-
-    place: CasePlace
-    case: str
-    row: tuple[float, ...]
-    truth: int
-    answer: int
-    mistake: str
-    status: str
-    error: float
-    time: float | None = None
-
-    @classmethod
-    def of(cls, case: WrongCase, place: CasePlace, name: str, criterion: Criterion) -> WorstCase:
-        """The case at that place with that id, its error measured."""
-        return cls(
-            place=place,
-            case=name,
-            row=case.row,
-            truth=int(case.truth),
-            answer=case.answer,
-            mistake=case.mistake.value,
-            status=case.status.value,
-            error=judge.measured(case, criterion.question),
-            time=case.time,
-        )
-
-    @property
-    def rank(self) -> tuple[bool, float, CasePlace]:
-        """Wrong before tolerated, then the largest error, then the first."""
-        return self.status != Status.WRONG, -self.error, self.place
+def worst_case(case: WrongCase, place: Place, name: str, criterion: Criterion) -> WorstCase:
+    """The case at that place with that id, its error measured."""
+    return diagnosis.kept_case(case, place, name, criterion.layout, judge.measured(case, criterion.question))
 
 
-@dataclass(frozen=True, slots=True)
-class UnansweredCase:
-    """A case without a valid answer, and the reason."""
-
-    place: CasePlace
-    case: str
-    row: tuple[float, ...]
-    status: str
-    reason: str
+def rank_of(case: WorstCase) -> tuple[bool, float, Place]:
+    """Wrong before tolerated, then the largest error, then the first."""
+    return case.status != Status.WRONG, -case.error, case.place
 
 
-@dataclass(frozen=True)
-class Tally:
-    """The results of some cases of one family, in numbers.
-
-    `asked` does not include skipped rows, of which `not_asked` counts the reasons (implementations.domain.ROWS).
-    `fresh` of those asked are rows that nobody knew before. `counts` are by status, SKIPPED included. `mistakes` count
-    wrong and tolerated answers by kind. `answers` count answers by what is true and by what was answered, as in the
-    record's line. `dangerous` counts answers that claim clear in contact, beyond the tolerance
-    and not excused. `octaves` count statuses by floor(log2) of the cases' distance to the nearest other position.
-    `size_bins` and `place_bins` are histograms over sizes and places. `worst` are the worst cases, the worst first, and
-    `faults` the first cases without a valid answer, by place. `diagnosis` says which causes explain wrong answers,
-    of an implementation under test.
-    """
-
-    asked: int = 0
-    fresh: int = 0
-    not_asked: Mapping[str, int] = field(default_factory=dict)
-    counts: Mapping[str, int] = field(default_factory=dict)
-    mistakes: Mapping[str, int] = field(default_factory=dict)
-    answers: Mapping[str, Mapping[str, int]] = field(default_factory=dict)
-    dangerous: int = 0
-    octaves: Mapping[str, Mapping[str, int]] = field(default_factory=dict)
-    size_bins: Histogram = field(default_factory=Histogram)
-    place_bins: Histogram = field(default_factory=Histogram)
-    worst: tuple[WorstCase, ...] = ()
-    faults: tuple[UnansweredCase, ...] = ()
-    diagnosis: Diagnosis = field(default_factory=Diagnosis)
+EMPTY = Tally(
+    asked=0,
+    counts={},
+    mistakes={},
+    dangerous=0,
+    octaves={},
+    size_bins=Histogram(),
+    place_bins=Histogram(),
+    worst=[],
+    faults=[],
+)
+"""The tally of no case."""
 
 
 def merged_tally(tallies: Iterable[Tally]) -> Tally:
     """The tally of all cases of these tallies, which may come in any order."""
     parts = tuple(tallies)
+    diagnosed = diagnosis.merged(parts)
     return Tally(
         asked=sum(part.asked for part in parts),
         fresh=sum(part.fresh for part in parts),
@@ -225,9 +152,10 @@ def merged_tally(tallies: Iterable[Tally]) -> Tally:
         octaves=_added_tables(part.octaves for part in parts),
         size_bins=added(part.size_bins for part in parts),
         place_bins=added(part.place_bins for part in parts),
-        worst=tuple(sorted((case for part in parts for case in part.worst), key=lambda case: case.rank)[:WORST_KEPT]),
+        worst=sorted((case for part in parts for case in part.worst), key=rank_of)[:WORST_KEPT],
         faults=kept_unanswered(case for part in parts for case in part.faults),
-        diagnosis=diagnosis.merged(part.diagnosis for part in parts),
+        explained=diagnosed.explained,
+        denied=diagnosed.denied,
     )
 
 
@@ -263,31 +191,39 @@ def group_line(
         size_bins=tallied.size_bins.as_lists(),
         place_bins=tallied.place_bins.as_lists(),
         worst=[worst_line(case, criterion) for case in tallied.worst],
-        faults=UNSET if failing is UNSET else _unanswered_lines(tallied, criterion.layout),
+        faults=UNSET if failing is UNSET else _unanswered_lines(tallied),
         failing=failing,
     )
 
 
-def _unanswered_lines(tallied: Tally, layout: Layout) -> list[lines.FaultPart]:
+def _unanswered_lines(tallied: Tally) -> list[lines.FaultPart]:
     """The unanswered cases of the record's line: the first of each status, then the first up to UNANSWERED_KEPT."""
     first = {fault.status: fault for fault in reversed(tallied.faults)}.values()
     others = [fault for fault in tallied.faults if fault not in first]
     chosen = [*first, *others[: max(0, UNANSWERED_KEPT - len(first))]]
     return [
-        lines.FaultPart(case=fault.case, **row_fields(fault.row, layout), status=fault.status, reason=fault.reason)
+        lines.FaultPart(
+            case=fault.case,
+            row=fault.row,
+            end=fault.end,
+            axis=fault.axis,
+            heights=fault.heights,
+            status=fault.status,
+            reason=fault.reason,
+        )
         for fault in sorted(chosen, key=lambda fault: fault.place)
     ]
 
 
-def _added(parts: Iterable[Mapping[str, int]]) -> Mapping[str, int]:
+def _added(parts: Iterable[Mapping[str, int]]) -> dict[str, int]:
     total: Counter[str] = Counter()
     for part in parts:
         total.update(part)
     return dict(total)
 
 
-def _added_tables(parts: Iterable[Mapping[str, Mapping[str, int]]]) -> Mapping[str, Mapping[str, int]]:
-    total: dict[str, Mapping[str, int]] = {}
+def _added_tables(parts: Iterable[Mapping[str, Mapping[str, int]]]) -> dict[str, dict[str, int]]:
+    total: dict[str, dict[str, int]] = {}
     for part in parts:
         for key, counts in part.items():
             total[key] = _added((total.get(key, {}), counts))
@@ -327,7 +263,7 @@ def by_exponent(exponents: NDArray[np.float64], status: StatusCodes) -> dict[str
     return table
 
 
-def kept_unanswered(faults: Iterable[UnansweredCase]) -> tuple[UnansweredCase, ...]:
+def kept_unanswered(faults: Iterable[UnansweredCase]) -> list[UnansweredCase]:
     """The first cases of each status, at most UNANSWERED_KEPT."""
     kept: list[UnansweredCase] = []
     seen: Counter[str] = Counter()
@@ -335,20 +271,23 @@ def kept_unanswered(faults: Iterable[UnansweredCase]) -> tuple[UnansweredCase, .
         seen[fault.status] += 1
         if seen[fault.status] <= UNANSWERED_KEPT:
             kept.append(fault)
-    return tuple(kept)
+    return kept
 
 
 def worst_line(case: WorstCase, criterion: Criterion) -> lines.WrongAnswer:
-    """A wrong or tolerated answer as the record has it."""
+    """The worst case for a line of the record, its error in units of the precision too."""
     return lines.WrongAnswer(
         case=case.case,
-        **row_fields(case.row, criterion.layout),
+        row=case.row,
+        end=case.end,
+        axis=case.axis,
+        heights=case.heights,
         truth=case.truth,
         answer=case.answer,
         mistake=case.mistake,
         status=case.status,
-        backward_error=Unsigned(case.error),
+        backward_error=case.error,
         backward_error_u=Unsigned(judge.in_units(case.error, criterion.unit)),
         time=UNSET if case.time is None else case.time,
-        first=UNSET if case.time is None else first_contact(case.row),
+        first=UNSET if case.time is None else first_contact(row_of(case)),
     )

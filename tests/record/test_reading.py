@@ -14,7 +14,7 @@ from hypcheck.record import SCHEMA, Record, Recorder, integrity, read
 from hypcheck.record.fields import FARTHEST, decoded
 from hypcheck.record.lines import DriftLine, FooterLine, GroupLine, HeaderLine, ImplementationLine
 from hypcheck.record.measurements import AccuracyLine, BoundingLine
-from hypcheck.record.progress import SavedTally
+from hypcheck.record.progress import Tally
 from hypcheck.record.reader import recorded_cases
 from tests.support.records import GrowingText, resealed
 
@@ -81,7 +81,7 @@ def test_record_line_with_impossible_bins_is_refused_and_one_with_the_farthest_b
     names = {"method": "m", "title": "m", "exact": False, "question": "position", "precision": "float64", "family": "f"}
     for kind, line in (
         (GroupLine, {"type": "group", **names, "asked": 1, "worst": [], **counts}),
-        (SavedTally, {"asked": 1, "dangerous": 0, "worst": [], "faults": [], **counts}),
+        (Tally, {"asked": 1, "dangerous": 0, "worst": [], "faults": [], **counts}),
     ):
         decoded(line, kind)
         with pytest.raises(ValidationError, match=field):

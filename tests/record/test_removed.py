@@ -13,15 +13,23 @@ from msgspec import structs
 from hypcheck.cli.recording import recording
 from hypcheck.errors import InputError, SystemLimitError
 from hypcheck.record import read
-from hypcheck.record.fields import as_json, decoded
+from hypcheck.record.fields import Histogram, as_json, decoded
 from hypcheck.record.lines import DescriptionPart, DriftLine, Retest
-from hypcheck.record.progress import ProgressLine, SavedAllowance, SavedResult, SavedState, SavedTally
+from hypcheck.record.progress import ProgressLine, SavedAllowance, SavedResult, SavedState, Tally
 from hypcheck.record.reader import FILE, GROWING
 from hypcheck.record.writer import GrowingFile
 from tests.record.test_reading import DESCRIPTION
 
-ONE = SavedTally(
-    asked=1, counts={}, mistakes={}, dangerous=0, octaves={}, size_bins=[], place_bins=[], worst=[], faults=[]
+ONE = Tally(
+    asked=1,
+    counts={},
+    mistakes={},
+    dangerous=0,
+    octaves={},
+    size_bins=Histogram(),
+    place_bins=Histogram(),
+    worst=[],
+    faults=[],
 )
 RESULT = SavedResult(
     tallies={"ring": ONE}, pending=[], retest=Retest(asked=0, within=0, beyond=0), outcomes=[], excusing=[], named=[]

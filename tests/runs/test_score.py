@@ -11,7 +11,8 @@ from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.implementations.session import Answered, Outcome
 from hypcheck.runs.judge import Criterion, Mistake, Status
 from hypcheck.runs.score import as_slice, score
-from hypcheck.runs.tally import STATUSES, UnansweredCase
+from hypcheck.runs.tally import STATUSES
+from tests.support.records import unanswered_case
 
 OUTSIDE, RING, TOUCH, CROSS, INSIDE = (
     (1.0, 1.0, 1.0, 1.0, 5.0, 0.0, 0.0),
@@ -96,7 +97,7 @@ def test_a_tally_names_worst_cases_and_faults_by_their_indices_in_the_family(sco
     assert tally.dangerous == 1  # the crossing taken for clear; the tangency is tolerated
     assert tally.size_bins.as_lists() == [[0, 0, 5, 4], [0, 1, 1, 1], [1, 1, 1, 1]]
     assert {case.case for case in tally.worst} == {"mine/11", "mine/13", "mine/14"}
-    assert tally.faults == (UnansweredCase((1, 99), "mine/99", CROSS, "crash", "it left"),)
+    assert tally.faults == [unanswered_case((1, 99), "mine/99", CROSS, "crash", "it left")]
 
 
 @pytest.mark.parametrize(

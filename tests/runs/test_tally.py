@@ -9,17 +9,20 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from msgspec import UNSET
+from msgspec import UNSET, structs
 
-from hypcheck.geometry.rows import CANNOT_SAY
+from hypcheck.geometry.rows import CANNOT_SAY, SWEEPS
 from hypcheck.implementations.session import Answered, Outcome
+from hypcheck.record.fields import Histogram
 from hypcheck.runs import judge, tally
 from hypcheck.runs.judge import Criterion
 from hypcheck.runs.score import score
-from hypcheck.runs.tally import UnansweredCase, WorstCase
+from hypcheck.runs.tally import EMPTY
 from tests.support import inside
+from tests.support.records import unanswered_case, worst_case
 
 CRITERION = Criterion(tolerance=Fraction(0))
+ROW = (2.0, 17.8, 0.25, 0.15, 1.0, 0.0, 0.0)
 
 
 def rows_near_contact(n):
@@ -107,8 +110,8 @@ def test_sparse_and_dense_histograms_give_the_same_counts():
     assert found == tally.added(tally.by_size(rows[i::3], amiss[i::3]) for i in range(3))
     assert found.table[:, 2:].sum(axis=0).tolist() == [3000, amiss.sum()]
     assert found.as_lists() == sorted(found.as_lists())
-    assert tally.Histogram.of_lists(found.as_lists()) == found
-    assert tally.added([]) == tally.Histogram()
+    assert Histogram.of_lists(found.as_lists()) == found
+    assert tally.added([]) == Histogram()
 
 
 def line_of(tallied):
@@ -131,7 +134,7 @@ def test_tallies_of_parts_add_up_to_the_whole_in_any_order():
         first = tally.merged_tally(parts[i] for i in order[:2])
         total = tally.merged_tally([tally.merged_tally(parts[i] for i in order[2:]), first])
         assert line_of(total) == expected
-    assert tally.merged_tally([]) == tally.Tally()
+    assert tally.merged_tally([]) == EMPTY
 
 
 def test_tally_keeps_the_cases_with_the_largest_errors():
@@ -145,28 +148,27 @@ def test_tally_keeps_the_cases_with_the_largest_errors():
 
 def test_tally_keeps_wrong_before_tolerated_answers_and_the_first_of_equal_ones():
     def case(number, status, error):
-        return WorstCase((1, number), f"case-{number}", (1.0,), 0, 1, "false-clear", status, error)
+        return worst_case((1, number), f"case-{number}", ROW, 0, 1, "false-clear", status, error)
 
     kept = [case(0, "tolerated", 9.0), case(1, "wrong", 1.0), case(2, "wrong", 2.0), case(3, "wrong", 1.0)]
-    merged = tally.merged_tally([tally.Tally(worst=(each,)) for each in kept])
-    assert [each.place[1] for each in merged.worst] == [2, 1, 3]
-    assert tally.Histogram() != [[]]
+    merged = tally.merged_tally([structs.replace(EMPTY, worst=[case]) for case in kept])
+    assert [case.place[1] for case in merged.worst] == [2, 1, 3]
+    assert Histogram() != [[]]
 
 
 def test_tally_keeps_a_case_of_each_status_however_many_others_came_first():
-    faults = [UnansweredCase((1, n), f"case-{n}", (1.0,), "error", "why") for n in range(20)]
+    faults = [unanswered_case((1, n), f"case-{n}", ROW, "error", "why") for n in range(20)]
     faults += [
-        UnansweredCase((1, 20 + n), f"case-{20 + n}", (1.0,), name, "why")
-        for n, name in enumerate(("crash", "timeout"))
+        unanswered_case((1, 20 + n), f"case-{20 + n}", ROW, name, "why") for n, name in enumerate(("crash", "timeout"))
     ]
-    tallied = tally.merged_tally([tally.Tally(faults=(fault,)) for fault in reversed(faults)])
+    tallied = tally.merged_tally([structs.replace(EMPTY, faults=[fault]) for fault in reversed(faults)])
     assert Counter(fault.status for fault in tallied.faults) == {"error": 5, "crash": 1, "timeout": 1}
     shown = [(fault.case, fault.status) for fault in line_of(tallied).faults]
     assert shown == [*((f"case-{n}", "error") for n in range(3)), ("case-20", "crash"), ("case-21", "timeout")]
     faults += [
-        UnansweredCase((1, n), f"case-{n}", (1.0,), name, "why") for n, name in ((22, "not-run"), (23, "protocol"))
+        unanswered_case((1, n), f"case-{n}", ROW, name, "why") for n, name in ((22, "not-run"), (23, "protocol"))
     ]
-    shown = [fault.status for fault in line_of(tally.Tally(faults=tuple(faults))).faults]
+    shown = [fault.status for fault in line_of(structs.replace(EMPTY, faults=faults)).faults]
     assert shown == ["error", "crash", "timeout", "not-run", "protocol"]
 
 
@@ -210,10 +212,10 @@ def test_rows_of_one_scene_are_in_one_size_bin_wherever_their_spheroids_are():
 def test_line_of_a_worst_answer_has_the_time_of_a_way_and_bounds_of_its_first_contact():
     """A ball of radius 1/2 comes along the x axis from 5 to 1 and meets the throat of radius 1 at 3/2: at 7/8."""
     way = (1.0, 4.0, 0.5, 0.5, 5.0, 0.0, 0.0, 1.0, 0.0, 0.0)
-    case = WorstCase((1, 0), "mine/0", way, 1, 1, "late", "wrong", 0.25, time=0.9375)
+    case = worst_case((1, 0), "mine/0", way, 1, 1, "late", "wrong", 0.25, 0.9375, layout=SWEEPS)
     found = tally.worst_line(case, Criterion("passage", tolerance=Fraction(0)))
     assert (found.case, found.mistake, found.time, found.backward_error) == ("mine/0", "late", 0.9375, 0.25)
     assert found.first[0] <= 0.875 <= found.first[1] < found.first[0] + 1e-9
-    still = WorstCase((1, 1), "mine/1", way[:7], 1, 0, "false-contact", "wrong", 0.25)
+    still = worst_case((1, 1), "mine/1", way[:7], 1, 0, "false-contact", "wrong", 0.25)
     found = tally.worst_line(still, CRITERION)
     assert (found.case, found.row[4], found.time, found.first) == ("mine/1", (5.0).hex(), UNSET, UNSET)

@@ -8,7 +8,10 @@ from typing import Any
 from jsonschema import Draft202012Validator
 from jsonschema.validators import extend
 
+from hypcheck.geometry.rows import PAIRS
+from hypcheck.record.fields import Unsigned, row_fields
 from hypcheck.record.integrity import sealed
+from hypcheck.record.progress import UnansweredCase, WorstCase
 from hypcheck.record.writer import GrowingFile
 
 
@@ -26,6 +29,26 @@ class GrowingText(GrowingFile):
     def renew(self, data):
         """Replace the whole content."""
         self.text = data.decode()
+
+
+def worst_case(place, case, row, truth, answer, mistake, status, error, time=None, *, layout=PAIRS):
+    """A wrong or tolerated answer as a tally keeps it."""
+    return WorstCase(
+        place=place,
+        case=case,
+        **row_fields(row, layout),
+        truth=truth,
+        answer=answer,
+        mistake=mistake,
+        status=status,
+        error=Unsigned(error),
+        time=time,
+    )
+
+
+def unanswered_case(place, case, row, status, reason, layout=PAIRS):
+    """A case without a valid answer as a tally keeps it."""
+    return UnansweredCase(place=place, case=case, **row_fields(row, layout), status=status, reason=reason)
 
 
 def resealed(lines):

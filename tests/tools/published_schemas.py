@@ -15,7 +15,7 @@ from typing import Any
 import msgspec
 
 import hypcheck
-from hypcheck.record.fields import Extended, Unsigned
+from hypcheck.record.fields import Extended, Histogram, SmallBin, Unsigned
 from hypcheck.record.lines import SCHEMA, NotStartedLine
 from hypcheck.record.reader import LINES
 from hypcheck.report.summary import SCHEMA as SUMMARY_SCHEMA
@@ -58,9 +58,7 @@ def summary_schema() -> Json:
 
 def components(kinds: Iterable[type]) -> tuple[list[Json], Json]:
     """References to these kinds, and the definitions of them and of all their parts."""
-    references, definitions = msgspec.json.schema_components(
-        kinds, schema_hook=_extended, ref_template="#/$defs/{name}"
-    )
+    references, definitions = msgspec.json.schema_components(kinds, schema_hook=_custom, ref_template="#/$defs/{name}")
     whole = [list(references), {_named(name): _untitled(each) for name, each in definitions.items()}]
     text = re.sub(r'"#/\$defs/(\w+)"', lambda match: f'"#/$defs/{_named(match[1])}"', json.dumps(whole))
     found: tuple[list[Json], Json] = tuple(json.loads(text))
@@ -94,7 +92,9 @@ def _untitled(definition: Json) -> Json:
     return {key: value for key, value in definition.items() if key != "title"} | text
 
 
-def _extended(kind: type) -> Json:
+def _custom(kind: type) -> Json:
+    if kind is Histogram:
+        return msgspec.json.schema(list[SmallBin])
     if not issubclass(kind, Extended):
         raise TypeError(f"no line has a {kind.__name__}")
     if kind is Unsigned:

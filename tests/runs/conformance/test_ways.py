@@ -6,20 +6,24 @@ import json
 
 import numpy as np
 import pytest
+from msgspec import structs
 
 from hypcheck.cli.main import main
 from hypcheck.geometry.rows import SWEEPS
 from hypcheck.implementations.description import Description
 from hypcheck.implementations.session import Allowance
 from hypcheck.record import read
+from hypcheck.record.fields import as_json, decoded
 from hypcheck.record.lines import GroupLine, ImplementationLine
+from hypcheck.record.progress import SavedState
 from hypcheck.runs.cases import CaseChunk
 from hypcheck.runs.plan import invalid_rows
 from hypcheck.runs.results import CasesResult, PendingRetest
 from hypcheck.runs.resume import restored_state, saved_state
 from hypcheck.runs.schedule import RunState
-from hypcheck.runs.tally import Tally, UnansweredCase, WorstCase
+from hypcheck.runs.tally import EMPTY
 from hypcheck.vectors import frozen
+from tests.support.records import unanswered_case, worst_case
 from tests.tools.miniatures import function
 
 FEW = ("--families", "way-tunnelling", "--count", "6")
@@ -138,14 +142,14 @@ def test_invalid_ways_are_chosen_by_declared_refuses_tilt_and_heights():
 
 
 def test_saved_progress_keeps_ends_and_times_of_ways():
-    worst = WorstCase((1, 0), "way-anywhere/1/1/0", ROW, 1, 1, "late", "wrong", 0.5, 0.75)
-    lost = UnansweredCase((1, 1), "way-anywhere/1/1/1", (*ROW, 0.0, 3.0, 4.0), "crash", "it crashed")
+    worst = worst_case((1, 0), "way-anywhere/1/1/0", ROW, 1, 1, "late", "wrong", 0.5, 0.75, layout=SWEEPS)
+    lost = unanswered_case((1, 1), "way-anywhere/1/1/1", (*ROW, 0.0, 3.0, 4.0), "crash", "it crashed", SWEEPS)
     pending = PendingRetest(
         CaseChunk("way-anywhere", 1, 2, 4), np.arange(2), np.array([1, 0], dtype=np.int8), np.array([0.25, np.nan])
     )
-    total = CasesResult({"way-anywhere": Tally(asked=2, worst=(worst,), faults=(lost,))}, (pending,))
-    back = restored_state(saved_state(RunState(Allowance(1, 1), 1, total), SWEEPS)).total
-    assert back.tallies["way-anywhere"].worst == (worst,)
-    assert back.tallies["way-anywhere"].faults == (lost,)
+    total = CasesResult({"way-anywhere": structs.replace(EMPTY, asked=2, worst=[worst], faults=[lost])}, (pending,))
+    state = decoded(as_json(saved_state(RunState(Allowance(1, 1), 1, total))), SavedState)
+    back = restored_state(state).total
+    assert back.tallies == total.tallies
     np.testing.assert_array_equal(back.pending[0].times, pending.times)
     assert back.pending[0].answers.tolist() == [1, 0]

@@ -24,7 +24,7 @@ from hypcheck.runs.known_failures import KnownFailure
 from hypcheck.runs.plan import ConformancePlan, planned_cases, rules_of, steps_of
 from hypcheck.runs.resume import restored_state, saved_state
 from hypcheck.runs.schedule import RunState, perform_steps
-from hypcheck.runs.tally import Tally
+from hypcheck.runs.tally import EMPTY
 from tests.support.records import resealed
 
 KNOWN = (KnownFailure(None, "ring", float("inf"), "the ring"), KnownFailure("axis/1/1/300", None, 9.0, "near"))
@@ -143,12 +143,12 @@ def test_edited_progress_line_is_refused_with_the_reason(edit, said):
 
 def test_finished_run_without_all_its_cases_ends_with_70():
     cases = planned_cases(plan_of("builtin:fast"), Description("fast"))
-    whole = {family: Tally(number, counts={"right": number}) for family, number in cases.items()}
+    whole = {family: structs.replace(EMPTY, asked=number, counts={"right": number}) for family, number in cases.items()}
     require_all_tallied(whole, cases)
     for tallies in (
         {},
-        {**whole, "ring": Tally(9, counts={"right": 9})},
-        {**whole, "more": Tally(1, counts={"right": 1})},
+        {**whole, "ring": structs.replace(EMPTY, asked=9, counts={"right": 9})},
+        {**whole, "more": structs.replace(EMPTY, asked=1, counts={"right": 1})},
     ):
         with pytest.raises(MissingCasesError, match="this run proves nothing") as caught:
             require_all_tallied(tallies, cases)
