@@ -15,7 +15,7 @@ from hypcheck.report.advice import advice_facts, best_rival_facts, own_method_fa
 from hypcheck.report.benchmark_facts import sentences_of
 from hypcheck.report.changes import change_facts
 from hypcheck.report.drawings import ALONE, ReportContext
-from hypcheck.report.facts import cause_facts
+from hypcheck.report.facts import Failure, cause_facts
 from hypcheck.report.formats import WrittenReport
 from hypcheck.report.messages import error_text, settings_facts
 from hypcheck.report.run_facts import (
@@ -98,19 +98,25 @@ def _line(text: str, width: int | None) -> str:
 
 
 def _failures(record: Record, verdict_sentence: str) -> Iterator[str]:
-    """The failures that neither the verdict, `said`, nor the causes of wrong answers name."""
+    """The failures that neither the verdict nor the causes of wrong answers name.
+
+    What an implementation does in several families is one of them; cases that were not asked come after the reason.
+    """
     explained = {line.method for line in record.of(CauseLine)}
-    unexplained = [
-        failure
-        for failure in failures(record)
-        if failure.message not in verdict_sentence
-        and not (failure.kind == Status.WRONG.value and failure.name in explained)
-    ]
-    for failure in unexplained[:MOST_FAILURES]:
-        named = failure.case is None or failure.case in failure.message
-        yield f"  ✗ {failure.message}" if named else f"  ✗ {failure.case}: {failure.message}"
-    if len(unexplained) > MOST_FAILURES:
-        yield f"  ✗ and {counted(len(unexplained) - MOST_FAILURES, 'more failure')}; junit.xml lists them all"
+    alike: dict[tuple[str, ...], list[Failure]] = {}
+    for failure in failures(record):
+        of_cause = failure.kind == Status.WRONG.value and failure.name in explained
+        if failure.message not in verdict_sentence and not of_cause:
+            behaviour = failure.subject == "implementation" and failure.case is not None
+            alike.setdefault((failure.name, failure.kind) if behaviour else (str(len(alike)),), []).append(failure)
+    ordered = sorted(alike.values(), key=lambda some: some[0].kind == Status.NOT_RUN.value)
+    for first, *others in ordered[:MOST_FAILURES]:
+        named = first.case is None or first.case in first.message
+        also = f"; so in {counted(len(others), 'more family', 'more families')}" if others else ""
+        yield f"  ✗ {first.message}{also}" if named else f"  ✗ {first.case}: {first.message}{also}"
+    if len(ordered) > MOST_FAILURES:
+        rest = sum(map(len, ordered[MOST_FAILURES:]))
+        yield f"  ✗ and {counted(rest, 'more failure')}; junit.xml lists them all"
 
 
 def _causes(record: Record) -> Iterator[str]:
