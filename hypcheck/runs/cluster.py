@@ -100,7 +100,7 @@ def cluster_client(address: str) -> Iterator[Client]:
         with _client(address, Security()) as client:  # connects as dask's settings say
             yield client
     else:
-        with local_cluster(int(local[1])) as (found, security), _client(found, security) as client:
+        with local_cluster(int(local[1])) as (cluster, security), _client(cluster, security) as client:
             yield client
 
 
@@ -154,7 +154,7 @@ def _no_scheduler(address: str, error: BaseException) -> InputError:
     chain = [error]  # dask wraps errors of connections, and tries again until its time is over
     while (before := chain[-1].__cause__ or chain[-1].__context__) is not None:
         chain.append(before)
-    reasons = [each.strerror for each in chain if isinstance(each, OSError) and each.strerror]
+    reasons = [error.strerror for error in chain if isinstance(error, OSError) and error.strerror]
     if reasons:
         reason = reasons[-1].lower()
     elif isinstance(error, (TimeoutError, asyncio.TimeoutError)):
@@ -196,14 +196,14 @@ def _require_same_versions(node: str, there: Mapping[str, Any], here: Mapping[st
             )
 
 
-def _require_same_files(found: Mapping[str, Any], address: str) -> None:
+def _require_same_files(files: Mapping[str, Any], address: str) -> None:
     """Raise InputError if a worker has other files of hypcheck, though its version is the same.
 
     `found` are the fingerprints by worker; an OSError stands for a worker that was lost before it answered. A worker
     that replaces it is checked when it performs its first task.
     """
     here = code_fingerprint()
-    for worker, there in found.items():
+    for worker, there in files.items():
         if there != here and not isinstance(there, OSError):
             raise InputError(f"--cluster {address}: worker {worker} {OTHER_FILES}")
 

@@ -235,21 +235,23 @@ class ImplementationLines:
 
     def _causes(self, tallies: Mapping[str, Tally]) -> Iterator[CauseLine]:
         """Why its wrong answers are wrong. Families with right answers alone say which causes it has not."""
-        clean = [family for family, each in tallies.items() if {Status.RIGHT.value} == each.counts.keys() - _NOT_ASKED]
-        for each in causes_of(tallies, clean, self.rules.criterion, self.rules.domain):
-            kept = each.worst.worst
-            worst = tally.worst_case(wrong_case(each.worst), kept.place, kept.case, self.rules.criterion)
+        clean = [
+            family for family, tallied in tallies.items() if {Status.RIGHT.value} == tallied.counts.keys() - _NOT_ASKED
+        ]
+        for counted_cause in causes_of(tallies, clean, self.rules.criterion, self.rules.domain):
+            kept = counted_cause.worst.worst
+            worst = tally.worst_case(wrong_case(counted_cause.worst), kept.place, kept.case, self.rules.criterion)
             yield CauseLine(
                 spec=self.spec,
                 method=self.used.name,
-                cause=each.cause.name if each.cause else UNEXPLAINED,
-                sentence=each.cause.sentence if each.cause else "no known cause gives these answers",
-                remedy=each.cause.remedy_in(self.used.language)
-                if each.cause
+                cause=counted_cause.cause.name if counted_cause.cause else UNEXPLAINED,
+                sentence=counted_cause.cause.sentence if counted_cause.cause else "no known cause gives these answers",
+                remedy=counted_cause.cause.remedy_in(self.used.language)
+                if counted_cause.cause
                 else "look at the worst of them with replay",
-                claim=each.cause.claim if each.cause else "",
-                cases=each.cases,
-                families=dict(each.families),
+                claim=counted_cause.cause.claim if counted_cause.cause else "",
+                cases=counted_cause.cases,
+                families=dict(counted_cause.families),
                 worst=tally.worst_line(worst, self.rules.criterion),
             )
 

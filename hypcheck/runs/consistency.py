@@ -117,14 +117,14 @@ def require_state(state: RunState, steps: Iterable[Step], plan: ConformancePlan,
     waiting = _require_steps(state, steps)
     for trouble in (
         _of_allowance(state, plan),
-        *(_of_open(each, waiting, rules) for each in total.pending),
-        *(_of_tally(family, each, rules) for family, each in total.tallies.items()),
-        *(_of_fresh(family, each, plan, unfinished=True) for family, each in total.tallies.items()),
+        *(_of_open(pending, waiting, rules) for pending in total.pending),
+        *(_of_tally(family, tally, rules) for family, tally in total.tallies.items()),
+        *(_of_fresh(family, tally, plan, unfinished=True) for family, tally in total.tallies.items()),
         _of_result(total, rules),
     ):
         if trouble:
             raise ValueError(trouble)
-    places = [(each.chunk.family, each.chunk.seed, each.chunk.start) for each in total.pending]
+    places = [(pending.chunk.family, pending.chunk.seed, pending.chunk.start) for pending in total.pending]
     if len(set(places)) < len(places):
         raise ValueError("cases of one chunk are pending twice")
 
@@ -132,8 +132,8 @@ def require_state(state: RunState, steps: Iterable[Step], plan: ConformancePlan,
 def _require_steps(state: RunState, steps: Iterable[Step]) -> list[CaseChunk]:
     """The chunks whose cases may be pending after the steps that are done; all other cases must be tallied."""
     counted = Counter({family: sum(tally.counts.values()) for family, tally in state.total.tallies.items()})
-    for each in state.total.pending:
-        counted[each.chunk.family] += len(each.indices)
+    for pending in state.total.pending:
+        counted[pending.chunk.family] += len(pending.indices)
     done: Counter[str] = Counter()
     waiting: list[CaseChunk] = []
     number = 0
@@ -172,9 +172,9 @@ def _of_allowance(state: RunState, plan: ConformancePlan) -> str:
     return "cases were not asked, though the implementation was not given up" if stopped and not left.over else ""
 
 
-def _of_open(each: PendingRetest, waiting: Sequence[CaseChunk], rules: JudgingRules) -> str:
+def _of_open(pending: PendingRetest, waiting: Sequence[CaseChunk], rules: JudgingRules) -> str:
     """Pending cases must be part of a planned chunk, and each must have an answer that the question allows."""
-    chunk, indices = each.chunk, each.indices
+    chunk, indices = pending.chunk, pending.indices
     known = (*QUESTIONS[rules.criterion.question].answers, CANNOT_SAY)
     whole = [
         part.between(chunk.start - part.start, chunk.stop - part.start)
@@ -184,7 +184,7 @@ def _of_open(each: PendingRetest, waiting: Sequence[CaseChunk], rules: JudgingRu
     ]
     if chunk not in whole or int(indices[0]) != 0 or int(indices[-1]) != len(chunk) - 1:
         return f"{chunk.family} has pending cases from {chunk.start} to {chunk.stop} that no step leaves pending"
-    if not np.isin(each.answers, known).all():
+    if not np.isin(pending.answers, known).all():
         return f"{chunk.family} has pending cases with answers that do not exist"
     return ""
 
@@ -197,14 +197,14 @@ def _of_sums(
 ) -> str:
     """The numbers about one family, of a line or of a tally, must agree with each other."""
     counts = Counter(sums.counts)
-    if not {*counts} <= {each.value for each in Status} or not {*sums.mistakes} <= {each.value for each in Mistake}:
+    if not {*counts} <= {name.value for name in Status} or not {*sums.mistakes} <= {name.value for name in Mistake}:
         return f"{family} has a status or a mistake that does not exist"
-    off, wrong = sum(counts[each.value] for each in _OFF), counts[Status.WRONG.value]
+    off, wrong = sum(counts[status.value] for status in _OFF), counts[Status.WRONG.value]
     skipped = counts[Status.SKIPPED.value]
-    asked = sums.asked == sum(counts.values()) - skipped and (sums.fresh or 0) <= sums.asked
-    asked = asked and (sums.not_asked is UNSET or sum(sums.not_asked.values()) == skipped)
+    asked_agree = sums.asked == sum(counts.values()) - skipped and (sums.fresh or 0) <= sums.asked
+    asked_agree = asked_agree and (sums.not_asked is UNSET or sum(sums.not_asked.values()) == skipped)
     answers = [number for row in (sums.answers or {}).values() for number in row.values()]
-    asked = asked and (not answers or sum(answers) == sums.asked) and min(answers, default=0) >= 0
+    asked_agree = asked_agree and (not answers or sum(answers) == sums.asked) and min(answers, default=0) >= 0
     if family in INVALID_CONTENTS:
         agree = not (sums.mistakes or answers or exponents or any(bins) or sums.worst)
     else:
@@ -221,7 +221,11 @@ def _of_sums(
             and len(sums.worst) == min(WORST_KEPT, off)
             and sum(case.status == Status.WRONG for case in sums.worst) == min(WORST_KEPT, wrong)
         )
-    return "" if asked and agree else f"{family} has counts, mistakes, bins and worst cases that contradict each other"
+    return (
+        ""
+        if asked_agree and agree
+        else f"{family} has counts, mistakes, bins and worst cases that contradict each other"
+    )
 
 
 def _of_tally(family: str, tally: Tally, rules: JudgingRules) -> str:
@@ -229,11 +233,13 @@ def _of_tally(family: str, tally: Tally, rules: JudgingRules) -> str:
     trouble = _of_sums(family, tally, tally.octaves, (tally.size_bins.as_lists(), tally.place_bins.as_lists()))
     if trouble:
         return trouble
-    if tally.dangerous > min(counts[Status.WRONG.value], sum(tally.mistakes.get(each.value, 0) for each in DANGEROUS)):
+    if tally.dangerous > min(
+        counts[Status.WRONG.value], sum(tally.mistakes.get(mistake.value, 0) for mistake in DANGEROUS)
+    ):
         return f"{family} has {tally.dangerous} false clears beyond the tolerance, more than it has wrong answers"
     faults = _UNANSWERED | ({Status.WRONG.value} if family in INVALID_CONTENTS else set())
-    diagnosed = sum(each.cases for each in tally.explained)
-    if diagnosed != (0 if family in INVALID_CONTENTS else sum(counts[each.value] for each in FAILING)):
+    diagnosed = sum(explained.cases for explained in tally.explained)
+    if diagnosed != (0 if family in INVALID_CONTENTS else sum(counts[status.value] for status in FAILING)):
         return f"{family} has causes of {diagnosed} wrong answers, but another number of these"
     kept = Counter(fault.status for fault in tally.faults)
     if kept != Counter({name: min(UNANSWERED_KEPT, counts[name]) for name in faults if counts[name]}):
@@ -261,7 +267,7 @@ def _of_result(total: CasesResult, rules: JudgingRules) -> str:
     """The numbers about all families together must agree."""
     counts: Counter[str] = sum((Counter(tally.counts) for tally in total.tallies.values()), Counter())
     again, known = total.retest, rules.known
-    answered = total.pending or any(counts[each.value] for each in (Status.RIGHT, *_OFF, Status.ABSTAINED))
+    answered = total.pending or any(counts[status.value] for status in (Status.RIGHT, *_OFF, Status.ABSTAINED))
     outcomes = {outcome for outcome in _ENDED_AS if counts[outcome.label]} | ({Outcome.ANSWERED} if answered else set())
     if not outcomes <= total.outcomes:
         return "cases have a status with which no question ended"

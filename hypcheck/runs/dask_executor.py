@@ -258,8 +258,8 @@ class ImplementationPlugin(WorkerPlugin):  # type: ignore[misc]  # of a package 
     def _close_idle(self) -> None:
         while not self._over.wait(IDLE / 4):
             with self._lock:
-                old = [each for each in self._idle if time.monotonic() > each[0] + IDLE]
-                self._idle = [each for each in self._idle if each not in old]
+                old = [idle for idle in self._idle if time.monotonic() > idle[0] + IDLE]
+                self._idle = [idle for idle in self._idle if idle not in old]
             for _, implementation in old:
                 implementation.close()
 

@@ -132,7 +132,9 @@ def diagnose(
     answered: AnsweredRows, wrong: Sequence[WrongCase], right: Sequence[int], named: Sequence[tuple[Place, str]]
 ) -> Diagnosis:
     """The diagnosis of answers to rows: the wrong cases, their places and ids, and the indices of the right answers."""
-    failing = [(case, told) for case, told in zip(wrong, named, strict=True) if case.status in FAILING]
+    failing = [
+        (case, place_and_name) for case, place_and_name in zip(wrong, named, strict=True) if case.status in FAILING
+    ]
     if not failing:
         return Diagnosis()
     witnesses = list(right[:: max(1, -(-len(right) // WITNESSES))])
@@ -261,7 +263,7 @@ def causes_of(
             by_subject.setdefault(subject_of(len(numbers), criterion), {})[family] = diagnosis
     if not by_subject:
         return []
-    explaining = {int(each.causes, 16) for diagnosis in diagnoses.values() for each in diagnosis.explained}
+    explaining = {int(explained.causes, 16) for diagnosis in diagnoses.values() for explained in diagnosis.explained}
     suspects = [cause for cause in CAUSES if any(causes & _bits([cause]) for causes in explaining)]
     denied: Counter[str] = Counter()
     for answered in _right_answers(clean, criterion, domain):
@@ -309,7 +311,13 @@ def _in_all_families(some: list[CountedCause]) -> CountedCause:
 def _standing(diagnoses: Mapping[str, Diagnosis | Tally], elsewhere: Mapping[str, int]) -> list[CountedCause]:
     """The causes that stand, of families with rows of one subject; `elsewhere` denies them in other families."""
     denied = Counter(merged(diagnoses.values()).denied) + Counter(elsewhere)
-    left = _Left({(family, int(each.causes, 16)): each for family, one in diagnoses.items() for each in one.explained})
+    left = _Left(
+        {
+            (family, int(explained.causes, 16)): explained
+            for family, one in diagnoses.items()
+            for explained in one.explained
+        }
+    )
 
     def of(scope: Scope) -> list[Cause]:
         """The causes of this scope that explain something, and that right answers hardly deny."""

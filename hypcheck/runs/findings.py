@@ -202,19 +202,19 @@ def reason_for(finding: FindingLine, known: Iterable[KnownFinding]) -> str | Non
     return next(matching, None)
 
 
-def finding_drift(found: Sequence[FindingLine], known: Sequence[KnownFinding], *, complete: bool) -> list[str]:
+def finding_drift(lines: Sequence[FindingLine], known: Sequence[KnownFinding], *, complete: bool) -> list[str]:
     """A sentence for each difference between the findings and the known ones.
 
     These are errors inside the stated regimes that are not known and, in a complete run, known ones that did not occur.
     """
-    unknown = [each for each in found if each.inside and reason_for(each, known) is None]
+    unknown = [line for line in lines if line.inside and reason_for(line, known) is None]
     sentences = [
-        f"{each.formula} errs on {each.family} inside its stated regimes (cause: {each.cause}), which is not a known "
-        f"finding; see {each.first_case}"
-        for each in unknown
+        f"{line.formula} errs on {line.family} inside its stated regimes (cause: {line.cause}), which is not a known "
+        f"finding; see {line.first_case}"
+        for line in unknown
     ]
-    seen = {(each.formula, each.cause, each.family) for each in found if each.inside}
-    listed = [(each.formula, each.cause, family) for each in known for family in each.families] if complete else []
+    seen = {(line.formula, line.cause, line.family) for line in lines if line.inside}
+    listed = [(entry.formula, entry.cause, family) for entry in known for family in entry.families] if complete else []
     sentences += [
         f"{formula} no longer errs on {family} (cause: {cause}), but is listed as a known finding"
         for formula, cause, family in listed

@@ -36,7 +36,7 @@ _BLOCK_BYTES = 1 << 20
 
 def fingerprints(specs: Iterable[str], *others: Path | None) -> dict[str, str]:
     """The sha256 of the files that SPECs name or start, and of other files, by path, as far as they exist."""
-    named = [path for spec in specs for path in (*(each.path for each in files_of(spec)), *_started(spec))]
+    named = [path for spec in specs for path in (*(file.path for file in files_of(spec)), *_started(spec))]
     paths = [*named, *(path for path in others if path is not None)]
     return {str(path): sha256(path) for path in dict.fromkeys(paths)}
 
@@ -47,7 +47,7 @@ def _started(spec: str) -> list[Path]:
 
 def not_hashed(specs: Iterable[str]) -> list[str]:
     """What SPECs start that no look at them tells, in words without a full stop; once each."""
-    return list(dict.fromkeys(each for spec in specs for each in started_files(spec).missing))
+    return list(dict.fromkeys(sentence for spec in specs for sentence in started_files(spec).missing))
 
 
 @dataclass(frozen=True, slots=True)
@@ -168,7 +168,7 @@ def module_sha256(text: str) -> str:
     spec = parse_spec(text)
     if spec.kind != "python" or is_file(spec.words[0]):
         return ""
-    return next((sha256(each.path) for each in files_of(text)), "(not found)")
+    return next((sha256(file.path) for file in files_of(text)), "(not found)")
 
 
 _PACKAGE = Path(hypcheck.__file__).parent

@@ -147,7 +147,7 @@ def _formula_errors() -> Iterator[Cause]:
             rule = SlippedRule(delta=(*factors[:place], other, *factors[place + 1 :]))
             yield slip(f"delta-{name}-{place + 1}", f", at the term {term} of Δ, {what}", why, right, rule)
     yield slip(
-        "delta-negative", " Δ < 0 were asked for", why, right, SlippedRule(delta=tuple(-each for each in factors))
+        "delta-negative", " Δ < 0 were asked for", why, right, SlippedRule(delta=tuple(-factor for factor in factors))
     )
     right = "three roots are positive exactly where c2 < 0 and c1 > 0"
     why = "With Δ > 0 and c0 < 0, Descartes' rule gives three positive roots exactly where c2 < 0 and c1 > 0"
@@ -293,7 +293,7 @@ def _angle(turn: Callable[[Floats], Floats]) -> Rule:
 
 
 def _in_float32(*values: Floats) -> Axes:
-    x, y, z = (each.astype(np.float32).astype(np.float64) for each in values)
+    x, y, z = (value.astype(np.float32).astype(np.float64) for value in values)
     return x, y, z
 
 

@@ -206,16 +206,18 @@ def _decisions(program: Program) -> set[str]:
     names: set[str] = set()
     for step in program.steps:
         chosen = step.arguments[1:] if step.operation == "select" else ()
-        of_constants = bool(chosen) and all(isinstance(each, int) or each in names for each in chosen)
+        of_constants = bool(chosen) and all(isinstance(argument, int) or argument in names for argument in chosen)
         if OPERATIONS[step.operation].gives == BOOLEAN or of_constants:
             names.add(step.name)
     return names
 
 
-def _intermediate(name: str, said: str, machine: Any, exact: object, unit: float | None) -> Intermediate:  # noqa: ANN401
+def _intermediate(name: str, operation: str, machine: Any, exact: object, unit: float | None) -> Intermediate:  # noqa: ANN401
     value = number_of(machine)
     error = None if unit is None else relative_error(value, exact)
-    return Intermediate(name, said, value, exact, None if error is None or unit is None else error / unit, unit is None)
+    return Intermediate(
+        name, operation, value, exact, None if error is None or unit is None else error / unit, unit is None
+    )
 
 
 def _culprit(wrong: Step, values: Mapping[str, Intermediate]) -> str | None:
@@ -224,11 +226,11 @@ def _culprit(wrong: Step, values: Mapping[str, Intermediate]) -> str | None:
     return max(numbers, key=_absolute_error).name if numbers else None
 
 
-def _absolute_error(each: Intermediate) -> tuple[int, Fraction]:
+def _absolute_error(intermediate: Intermediate) -> tuple[int, Fraction]:
     """A key that sorts by error; numbers that are not finite, or undefined in exact arithmetic, come last."""
-    if not isinstance(each.value, Fraction) or not isinstance(each.exact, (Fraction, QuadraticSurd)):
+    if not isinstance(intermediate.value, Fraction) or not isinstance(intermediate.exact, (Fraction, QuadraticSurd)):
         return (1, Fraction(0))
-    return (0, abs(rational(each.exact - each.value)))
+    return (0, abs(rational(intermediate.exact - intermediate.value)))
 
 
 SHOWN_FORMULAS = tuple(name for name, formula in FORMULAS.items() if formula.classifies_pairs or name == "dual")
@@ -302,16 +304,16 @@ def _nearest(
     nothing.
     """
     comparable = _comparable(used.question)
-    found = [compared for formula in comparable if (compared := compare_formula(formula, format_name, row))]
+    comparisons = [compared for formula in comparable if (compared := compare_formula(formula, format_name, row))]
     if answer is None:
-        return FormulaChoice(found[0], f"there being no answer to compare formulas with{instead}")
+        return FormulaChoice(comparisons[0], f"there being no answer to compare formulas with{instead}")
     meant = _positions(answer, used.question)
     errs = truth not in meant
-    for compared in found:
+    for compared in comparisons:
         left = _positions(compared.answer, compared.formula.question)
         if meant & left and (truth not in left) is errs:
             return FormulaChoice(compared, f"which in {format_name} answers as {used.name} does{instead}")
-    return FormulaChoice(found[0], f"though no formula in {format_name} answers as {used.name} does{instead}")
+    return FormulaChoice(comparisons[0], f"though no formula in {format_name} answers as {used.name} does{instead}")
 
 
 def _comparable(question: str) -> Iterator[Formula]:
@@ -326,5 +328,5 @@ def _positions(answer: int, question: str) -> set[Position]:
     """The positions for which the answer to the question is right."""
     if question == "position":
         return {Position(answer)}
-    asked = Position[question.upper()]
-    return {asked} if answer else set(Position) - {asked}
+    position = Position[question.upper()]
+    return {position} if answer else set(Position) - {position}

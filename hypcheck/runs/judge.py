@@ -278,8 +278,8 @@ def in_units(error: float, unit: Fraction) -> float:
 
 def in_words(answer: int, question: str) -> str:
     """An answer in words: what is true of the row, or yes or no to the question; any other answer as its number."""
-    asked = QUESTIONS[question]
-    labels = _SUBJECTS[asked.layout].labels if asked.position is None else _YES_OR_NO
+    facts = QUESTIONS[question]
+    labels = _SUBJECTS[facts.layout].labels if facts.position is None else _YES_OR_NO
     return labels.get(answer, str(answer)).format(question)
 
 
@@ -293,10 +293,10 @@ def truth_in_words(truth: int, question: str) -> str:
 
 def mistake_of(truth: int, answer: int, question: str) -> Mistake:
     """The kind of a wrong answer, which is neither right nor CANNOT_SAY."""
-    asked = QUESTIONS[question]
-    if answer == asked.contact:
+    facts = QUESTIONS[question]
+    if answer == facts.contact:
         return Mistake.FALSE_CONTACT
-    return Mistake.FALSE_CLEAR if truth == _SUBJECTS[asked.layout].contact else Mistake.WRONG_SIDE
+    return Mistake.FALSE_CLEAR if truth == _SUBJECTS[facts.layout].contact else Mistake.WRONG_SIDE
 
 
 _TOGETHER = 256

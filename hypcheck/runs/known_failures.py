@@ -113,8 +113,8 @@ _BEGINS = re.compile(r"""\s*\[\[\s*["']?known_failure["']?\s*\]\]""")
 
 def _lines_of(text: str, entries: int) -> list[str]:
     """The end of "FILE, line 3" for each entry; empty texts unless each begins with [[known_failure]] on a line."""
-    found = [f", line {number}" for number, line in enumerate(text.splitlines(), start=1) if _BEGINS.match(line)]
-    return found if len(found) == entries else [""] * entries
+    places = [f", line {number}" for number, line in enumerate(text.splitlines(), start=1) if _BEGINS.match(line)]
+    return places if len(places) == entries else [""] * entries
 
 
 def _entry(item: Any, where: str) -> KnownFailure:  # noqa: ANN401  whatever TOML holds
@@ -155,8 +155,8 @@ def _require_case(name: str) -> None:
     if "/" in name:
         parse_case_id(name)
         return
-    found = _FROZEN_ID.fullmatch(name)
-    family = found["family"] if found else name
+    match = _FROZEN_ID.fullmatch(name)
+    family = match["family"] if match else name
     if family not in frozen.ALL_NAMES or family in INVALID_CONTENTS:
         raise InputError(f"there is no case {name!r}; {suggestion(family, _families(), otherwise='cases are of')}")
     ids = frozen_vectors(family).ids
@@ -204,7 +204,7 @@ def _quoted(text: str) -> str:
 
 
 def no_longer_failing(
-    entries: Sequence[KnownFailure], used: AbstractSet[int], asked: AbstractSet[str], subjects: AbstractSet[str]
+    entries: Sequence[KnownFailure], used: AbstractSet[int], asked_cases: AbstractSet[str], subjects: AbstractSet[str]
 ) -> list[str]:
     """A sentence for each entry that excused no case, though its case, its family or what its cause is about was asked.
 
@@ -214,7 +214,7 @@ def no_longer_failing(
 
     def was_asked(entry: KnownFailure) -> bool:
         about = {cause.subject for cause in excusable_causes().get(entry.cause or "", ())}
-        return entry.case in asked or entry.family in asked or bool(about & subjects)
+        return entry.case in asked_cases or entry.family in asked_cases or bool(about & subjects)
 
     return [
         f"the {entry.subject} no longer fails, but is listed as a known failure ({entry.reason})"
@@ -268,8 +268,8 @@ def _stays(entry: KnownFailure, failing: Mapping[str, float], record: Record) ->
     """Whether an entry excused a case of some implementation in this run."""
     if entry.family is not None:
         return entry.family in failing
-    said = sum(f"the {entry.subject} no longer fails" in line.sentence for line in record.of(DriftLine))
-    return said < len(record.of(ImplementationLine))
+    obsolete = sum(f"the {entry.subject} no longer fails" in line.sentence for line in record.of(DriftLine))
+    return obsolete < len(record.of(ImplementationLine))
 
 
 def _rounded_up(error: float) -> float:

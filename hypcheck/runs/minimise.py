@@ -65,8 +65,10 @@ def complexity(row: Row) -> Complexity:
 
 def simpler_than(rows: Iterable[Row], limit: Complexity, layout: Layout = PAIRS) -> Rows:
     """The distinct valid rows of a layout below a complexity, float64 (n, its columns), the simplest first."""
-    found = {row: complexity(row) for row in set(rows) if _valid(row, layout)}
-    chosen = sorted((row for row in found if found[row] < limit), key=lambda row: (found[row], row))
+    complexities = {row: complexity(row) for row in set(rows) if _valid(row, layout)}
+    chosen = sorted(
+        (row for row in complexities if complexities[row] < limit), key=lambda row: (complexities[row], row)
+    )
     return np.array(chosen, dtype=np.float64).reshape(len(chosen), len(chosen[0]) if chosen else len(layout.upright))
 
 
@@ -137,7 +139,7 @@ def same_query(row: Row, layout: Layout) -> Iterator[Row]:
 
 
 def _times(signs: Sequence[float], vector: Sequence[float]) -> list[float]:
-    return [sign * each for sign, each in zip(signs, vector, strict=True)]
+    return [sign * number for sign, number in zip(signs, vector, strict=True)]
 
 
 def _units(lengths: list[float]) -> set[float]:
@@ -181,8 +183,8 @@ def brought_back(row: Row, layout: Layout) -> Iterator[Row]:
         changed |= {(alpha, gamma, 1.0, 1.0, radius, 0.0, height) for radius in (0.0, 1.0, alpha + 1)}
     limit = complexity(row)[0]
     ways = [
-        (each, max(columns, key=lambda column: abs(each[column])), name, far)
-        for each, (name, columns), far in product(sorted(changed), MOVERS.items(), (False, True))
+        (row, max(columns, key=lambda column: abs(row[column])), name, far)
+        for row, (name, columns), far in product(sorted(changed), MOVERS.items(), (False, True))
     ]
     # Only if the other numbers leave room for one that is not 0.
     ways = [way for way in ways if sum(map(characters, way[0])) - characters(way[0][way[1]]) + 1 < limit]
@@ -258,7 +260,7 @@ def minimise(target: HuntTarget, case: ReplayCase) -> Minimised:
     variants: tuple[Variants, ...] = _VARIANTS[target.layout][target.layout.has_axis(row)]
     if target.layout.has_heights(row):
         variants = (one_changed_between_ends,)
-    while any(_improve(run, each) for each in variants):
+    while any(_improve(run, variant) for variant in variants):
         pass
     return run
 

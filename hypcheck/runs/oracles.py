@@ -67,10 +67,10 @@ def _exact(row: list[float]) -> Opinion:
     """The exact decision with a checked certificate; a decision without a valid proof counts as undecided."""
     pair = Pair.from_row(row)
     decision = exact.decide(pair.lengths)
-    found = prove(pair, decision)
-    if found == Certificate(Position.CONTACT):
+    certificate = prove(pair, decision)
+    if certificate == Certificate(Position.CONTACT):
         return Opinion(decision.position, decision.tangent, stage="by the exact rule")
-    proved = found.position is decision.position and check_certificate(pair, found)
+    proved = certificate.position is decision.position and check_certificate(pair, certificate)
     return Opinion(decision.position, decision.tangent, _name_of_kind(decision), "proved") if proved else _REFUSED
 
 
@@ -85,9 +85,9 @@ def _nearest(rows: Rows) -> list[Opinion]:
     """
     if PAIRS.has_heights(rows):
         return [Opinion(least.position(Pair.from_row(row)), stage="least value") for row in rows.tolist()]
-    found = nearest_rows.positions(np.ascontiguousarray(rows))
-    values = zip(found.position.tolist(), found.tangent.tolist(), found.stage.tolist(), strict=True)
-    return [Opinion(Position(each), tangent, None, STAGES[stage]) for each, tangent, stage in values]
+    decided = nearest_rows.positions(np.ascontiguousarray(rows))
+    values = zip(decided.position.tolist(), decided.tangent.tolist(), decided.stage.tolist(), strict=True)
+    return [Opinion(Position(position), tangent, None, STAGES[stage]) for position, tangent, stage in values]
 
 
 def _roots(row: list[float]) -> Opinion:
@@ -96,14 +96,14 @@ def _roots(row: list[float]) -> Opinion:
     Of an upright pair the coefficient rule in exact rationals must read the same position from the coefficients.
     """
     pair = Pair.from_row(row)
-    found = roots.classify_by_roots(pair)
-    if found.kind is None:
-        return Opinion(found.position, found.tangent, None, "root pattern")
+    decided = roots.classify_by_roots(pair)
+    if decided.kind is None:
+        return Opinion(decided.position, decided.tangent, None, "root pattern")
     rule = _coefficient_rule()(dict(zip(COLUMNS, pair.upright.row, strict=True)))
-    stage = "signs suffice" if found.literal is not None else "signs are ambiguous"
-    if found.position != rule:
+    stage = "signs suffice" if decided.literal is not None else "signs are ambiguous"
+    if decided.position != rule:
         stage = f"{_RULE} says {Position(rule).label}"
-    return Opinion(found.position, found.tangent, found.kind.value, stage)
+    return Opinion(decided.position, decided.tangent, decided.kind.value, stage)
 
 
 _RULE = "coefficient rule"
@@ -121,8 +121,8 @@ def _heights(row: list[float]) -> Opinion:
 
 def _mesh(row: list[float]) -> Opinion:
     """FCL's distance to two meshes with the hyperboloid between them; undecided inside its band."""
-    found = mesh_oracle.verdict(Pair.from_row(row))
-    return Opinion(found.position, stage=found.outcome.value)
+    verdict = mesh_oracle.verdict(Pair.from_row(row))
+    return Opinion(verdict.position, stage=verdict.outcome.value)
 
 
 ORACLES = {
@@ -207,14 +207,14 @@ def _oracle_line(oracle: str, batch: Batch, rows: Rows) -> OracleLine:
         stages=dict(sorted(Counter(opinion.stage for opinion in opinions).items())),
         seconds=seconds,
         disagreeing=len(disagreements),
-        disagreements=sorted(disagreements, key=lambda each: each.case)[:DISAGREEMENTS_KEPT],
+        disagreements=sorted(disagreements, key=lambda disagreement: disagreement.case)[:DISAGREEMENTS_KEPT],
     )
 
 
-def merged_lines(found: Iterable[OracleLine]) -> list[OracleLine]:
+def merged_lines(lines: Iterable[OracleLine]) -> list[OracleLine]:
     """One line for each oracle and family, in that order; the order of the parts does not matter."""
     parts: dict[tuple[str, str], list[OracleLine]] = {}
-    for line in found:
+    for line in lines:
         parts.setdefault((line.oracle, line.family), []).append(line)
     return [_sum(parts[key]) for key in sorted(parts)]
 
@@ -223,7 +223,7 @@ def _sum(parts: Sequence[OracleLine]) -> OracleLine:
     stages: Counter[str] = Counter()
     for part in parts:
         stages.update(part.stages)
-    disagreements = (each for part in parts for each in part.disagreements)
+    disagreements = (disagreement for part in parts for disagreement in part.disagreements)
     return OracleLine(
         oracle=parts[0].oracle,
         family=parts[0].family,
@@ -232,7 +232,7 @@ def _sum(parts: Sequence[OracleLine]) -> OracleLine:
         stages=dict(sorted(stages.items())),
         seconds=sum(part.seconds for part in parts),
         disagreeing=sum(part.disagreeing for part in parts),
-        disagreements=sorted(disagreements, key=lambda each: each.case)[:DISAGREEMENTS_KEPT],
+        disagreements=sorted(disagreements, key=lambda disagreement: disagreement.case)[:DISAGREEMENTS_KEPT],
     )
 
 
@@ -244,11 +244,11 @@ def _difference(batch: Batch, index: int, opinion: Opinion) -> tuple[str, str] |
     """The exact decision and the opinion in words if they contradict each other, else None."""
     decision = batch.decisions[index]
     kind = _name_of_kind(decision)
-    said = f"{decision.position.label}, tangent: {decision.tangent}{'' if kind is None else f', {kind}'}"
+    exact_words = f"{decision.position.label}, tangent: {decision.tangent}{'' if kind is None else f', {kind}'}"
     if opinion.stage.startswith(_RULE) or opinion == _REFUSED:
-        return said, opinion.stage
+        return exact_words, opinion.stage
     if opinion.position is None:
         return None
     same = opinion.position is decision.position
     same &= opinion.tangent in (None, decision.tangent) and (None in (opinion.kind, kind) or opinion.kind == kind)
-    return None if same else (said, f"{opinion.position.label}, tangent: {opinion.tangent}, {opinion.kind}")
+    return None if same else (exact_words, f"{opinion.position.label}, tangent: {opinion.tangent}, {opinion.kind}")

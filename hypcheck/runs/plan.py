@@ -190,7 +190,7 @@ def planned_size(plan: ConformancePlan) -> int:
 def _cases_of(plan: ConformancePlan, families: Iterable[Family]) -> dict[str, int]:
     """The number of frozen vectors and of generated rows of each family, fresh ones included."""
     seeds = 1 if plan.fresh is None else 2
-    return {each.name: frozen_count(each.name) + plan.count * each.times * seeds for each in families}
+    return {family.name: frozen_count(family.name) + plan.count * family.times * seeds for family in families}
 
 
 def known_failures_of(plan: ConformancePlan) -> tuple[KnownFailure, ...]:
@@ -200,19 +200,19 @@ def known_failures_of(plan: ConformancePlan) -> tuple[KnownFailure, ...]:
 
 def families_not_asked(plan: ConformancePlan, used: Description) -> dict[str, dict[str, int]]:
     """The families of which an implementation is asked no row, with their numbers of rows, by domain.FAMILIES."""
-    asked, found = planned_cases(plan, used), {reason: dict[str, int]() for reason in domain.FAMILIES}
+    planned, by_reason = planned_cases(plan, used), {reason: dict[str, int]() for reason in domain.FAMILIES}
     chosen = {family.name for family in select(plan.families, tilted=True, ended=True, layout=None)}
     for name, cases in _cases_of(plan, ALL.values()).items():
-        if name in asked or not cases:
+        if name in planned or not cases:
             continue
         other = ALL[name].layout is not used.asked.layout
         lacking = "heights" if ALL[name].ended and not used.heights else "tilt"
         unwanted = "filter" if plan.filtered else "extreme" if ALL[name].extreme else ""
         reason = unwanted if name not in chosen and unwanted else "question" if other else lacking
-        found[reason][name] = cases
+        by_reason[reason][name] = cases
     searched = () if not plan.filtered or used.asked.layout is not PAIRS else searched_chunks()
-    found["filter"] |= {chunk.family: len(chunk) for chunk in searched}
-    return {reason: families for reason, families in found.items() if families}
+    by_reason["filter"] |= {chunk.family: len(chunk) for chunk in searched}
+    return {reason: families for reason, families in by_reason.items() if families}
 
 
 def require_named(plan: ConformancePlan, used: Description) -> None:
@@ -238,11 +238,11 @@ def require_named(plan: ConformancePlan, used: Description) -> None:
                 f"--families names {name}, a family of tilted spheroids, and {used.name} takes none; leave it out, or "
                 'let its description say "tilt": true'
             )
-        found = _reasons_for(plan, family, rules)
-        if found:
+        reasons = _reasons_for(plan, family, rules)
+        if reasons:
             raise InputError(
                 f"--families names {name}, and {used.name} is asked no row of it: "
-                f"{' and '.join(f'{number:,} are {domain.ROWS[reason]}' for reason, number in found.items())}; "
+                f"{' and '.join(f'{number:,} are {domain.ROWS[reason]}' for reason, number in reasons.items())}; "
                 "leave it out, or set --precision or --domain"
             )
 
@@ -255,13 +255,13 @@ def _reasons_for(plan: ConformancePlan, family: Family, rules: JudgingRules) -> 
     some = [frozen_vectors(family.name).rows] if frozen_count(family.name) else []
     if plan.count:
         some.append(family.rows(plan.seed, min(plan.count, BLOCK)))
-    found: Counter[str] = Counter()
+    counts: Counter[str] = Counter()
     for rows in some:
         inside, reasons = rules.asked_of(family.name, rows)
         if len(inside):
             return {}
-        found.update(reasons)
-    return dict(found)
+        counts.update(reasons)
+    return dict(counts)
 
 
 def steps_of(plan: ConformancePlan, used: Description) -> Iterator[Step]:

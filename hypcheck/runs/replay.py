@@ -205,13 +205,13 @@ def replay(case: ReplayCase, implementation: Implementation, criterion: Criterio
     """
     declared, used = implementation.declared, implementation.description
     case = of_question(case, used)
-    asked = used.asked.layout
-    if asked.has_heights(case.row) and not used.heights:
+    layout = used.asked.layout
+    if layout.has_heights(case.row) and not used.heights:
         raise InputError(
             f"{case.name} has heights at which the hyperboloid ends, and {used.name} takes none; its description must "
             'have "takes": ["heights"]'
         )
-    if asked.has_axis(case.row) and not asked.has_heights(case.row) and not used.tilt:
+    if layout.has_axis(case.row) and not layout.has_heights(case.row) and not used.tilt:
         raise InputError(
             f'{case.name} has an axis, but {used.name} takes only upright spheroids; its description must have "tilt": '
             "true"
@@ -248,11 +248,11 @@ def _causes(truth: ProvedTruth, judgement: ReplayJudgement, criterion: Criterion
     """The causes about places whose rules give this wrong answer: those in exact arithmetic, else one of rounding."""
     if judgement.answer is None or judgement.mistake is None:
         return ()
-    truths, given = (np.array([each], dtype=np.int8) for each in (truth.decision.position, judgement.answer))
+    truths, given = (np.array([value], dtype=np.int8) for value in (truth.decision.position, judgement.answer))
     answered = AnsweredRows(np.array([truth.pair.row]), truths, given, criterion)
-    found = [cause for cause in (*PLACES, *WIDER_ROUNDINGS) if cause.rule(answered)[0] == judgement.answer]
-    exactly = [cause for cause in found if cause.scope is Scope.PLACE]
-    return tuple(exactly or found[:1])
+    causes = [cause for cause in (*PLACES, *WIDER_ROUNDINGS) if cause.rule(answered)[0] == judgement.answer]
+    exactly = [cause for cause in causes if cause.scope is Scope.PLACE]
+    return tuple(exactly or causes[:1])
 
 
 def truth_of(pair: Pair) -> ProvedTruth:
@@ -298,22 +298,22 @@ def _alone(scored: Score, truth: ProvedTruth | Passage) -> ReplayJudgement:
     status, answer = STATUSES[scored.status[0]], int(scored.answers[0])
     if not scored.answered[0]:
         return ReplayJudgement(status, None, scored.reasons.get(0, ""))
-    found = ReplayJudgement(status, answer)
+    judgement = ReplayJudgement(status, answer)
     if scored.times is not None and answer == HIT:
         row, time = tuple(scored.rows[0].tolist()), float(scored.times[0])
-        found = replace(found, time=time, radii=radii_off(row, time) if scored.truth[0] == HIT else 0.0)
+        judgement = replace(judgement, time=time, radii=radii_off(row, time) if scored.truth[0] == HIT else 0.0)
     for case in scored.judged():
         error = _error(case, truth, scored.criterion)
         in_units = judge.in_units(error, scored.criterion.unit)
-        found = replace(found, status=case.status, mistake=case.mistake, error=error, error_u=in_units)
-    return found
+        judgement = replace(judgement, status=case.status, mistake=case.mistake, error=error, error_u=in_units)
+    return judgement
 
 
 def _error(case: WrongCase, truth: ProvedTruth | Passage, criterion: Criterion) -> float:
     """How wrong an answer is; of a tilted spheroid the end that says what the status says, as `flips` shows it."""
     if isinstance(truth, ProvedTruth) and not truth.pair.is_upright:
         targets = judge.right_positions(Position(case.truth), case.answer, criterion.question)
-        ends = [each for target in targets if isinstance(each := truth.flips[target], tuple)]
+        ends = [flip for target in targets if isinstance(flip := truth.flips[target], tuple)]
         return min(low if case.status is Status.WRONG else high for low, high in ends)
     return judge.measured(case, criterion.question)
 
@@ -341,5 +341,5 @@ def _skipped(case: ReplayCase, used: Description, criterion: Criterion) -> str |
     if not representable(rows, criterion.precision)[0]:
         return f"a number of the row is neither zero nor normal in {criterion.precision}"
     with np.errstate(all="ignore"):
-        asked = used.domain.holds(rows, extreme=is_extreme(case.name), layout=used.asked.layout)[0]
-    return None if asked else "the row lies outside the implementation's domain"
+        inside = used.domain.holds(rows, extreme=is_extreme(case.name), layout=used.asked.layout)[0]
+    return None if inside else "the row lies outside the implementation's domain"

@@ -90,11 +90,11 @@ def _claims_json(description: Description) -> dict[str, Any]:
 
 
 def _choice_json(choice: FormulaChoice) -> dict[str, Any]:
-    compared, told = choice.comparison, {"why": choice.why, "own": choice.own}
+    compared, content = choice.comparison, {"why": choice.why, "own": choice.own}
     if compared is None:
-        return told
+        return content
     return {
-        **told,
+        **content,
         "formula": compared.formula.name,
         "question": compared.formula.question,
         "format": compared.format,
@@ -102,17 +102,21 @@ def _choice_json(choice: FormulaChoice) -> dict[str, Any]:
         "exact_answer": compared.exact_answer,
         "first_wrong": compared.first_wrong,
         "culprit": compared.culprit,
-        "table": [_value(each) for each in compared.values.values()],
+        "table": [_value(value) for value in compared.values.values()],
     }
 
 
-def _value(each: Intermediate) -> dict[str, Any]:
+def _value(intermediate: Intermediate) -> dict[str, Any]:
     return {
-        "name": each.name,
-        "operation": each.operation,
-        "value": each.value if isinstance(each.value, bool) else number_text(each.value, DIGITS),
-        "exact": each.exact if isinstance(each.exact, bool) else number_text(each.exact, DIGITS),
-        "error_u": each.error_u,
+        "name": intermediate.name,
+        "operation": intermediate.operation,
+        "value": intermediate.value
+        if isinstance(intermediate.value, bool)
+        else number_text(intermediate.value, DIGITS),
+        "exact": intermediate.exact
+        if isinstance(intermediate.exact, bool)
+        else number_text(intermediate.exact, DIGITS),
+        "error_u": intermediate.error_u,
     }
 
 
@@ -200,8 +204,8 @@ def _judgement_lines(done: Replay) -> Iterator[str]:
     if judgement.answer is not None:
         time = "" if judgement.time is None else f", first at {judgement.time!r}"
         yield from _titled("answer", answer_said(judgement.answer, done.criterion.question) + time)
-    said = (judgement.status.value, _mistake(done), judgement.reason)
-    yield from _titled("judged", "; ".join(part for part in said if part))
+    words = (judgement.status.value, _mistake(done), judgement.reason)
+    yield from _titled("judged", "; ".join(part for part in words if part))
     if done.skipped is not None:
         yield from _titled("note", f"verify skips this case: {done.skipped}")
 
@@ -240,41 +244,48 @@ def answer_said(answer: int, question: str) -> str:
     return f"{answer}, {'' if answer else 'not '}{question}"
 
 
-def _choice_lines(choice: FormulaChoice, truth: Position, asked: str) -> Iterator[str]:
+def _choice_lines(choice: FormulaChoice, truth: Position, question: str) -> Iterator[str]:
     compared = choice.comparison
     if compared is None:
         yield from _titled("values", f"none: {choice.why}")
         return
     formula = compared.formula
-    other = () if choice.own else (f"these are not the values of {asked} itself, whose steps cannot be shown",)
+    other = () if choice.own else (f"these are not the values of {question} itself, whose steps cannot be shown",)
     yield from _titled("values", f"of {formula.name}, {choice.why};", f"{formula.name} is {formula.title}", *other)
     yield ""
     yield from _table(compared)
     yield ""
-    about = () if choice.own else (f"about {formula.name}, not about {asked}:",)
+    about = () if choice.own else (f"about {formula.name}, not about {question}:",)
     yield from _titled("finding", *about, *finding(compared, truth))
 
 
 def _table(compared: FormulaComparison) -> Iterator[str]:
     head = ("", "name", "computed as", compared.format, "exact", "error in u")
-    rows = [head, *(_row(compared, each) for each in compared.values.values())]
+    rows = [head, *(_row(compared, intermediate) for intermediate in compared.values.values())]
     widths = [max(len(row[column]) for row in rows) for column in range(len(head))]
     for row in rows:
         cells = [text.ljust(width) for text, width in zip(row[:-1], widths, strict=False)]
         yield "  ".join([*cells, row[-1].rjust(widths[-1])]).rstrip()
 
 
-def _row(compared: FormulaComparison, each: Intermediate) -> Sequence[str]:
-    error = "" if each.error_u is None else f"{each.error_u:.3g}"
-    return (_mark(compared, each), each.name, each.operation, number_text(each.value), number_text(each.exact), error)
+def _row(compared: FormulaComparison, intermediate: Intermediate) -> Sequence[str]:
+    error = "" if intermediate.error_u is None else f"{intermediate.error_u:.3g}"
+    return (
+        _mark(compared, intermediate),
+        intermediate.name,
+        intermediate.operation,
+        number_text(intermediate.value),
+        number_text(intermediate.exact),
+        error,
+    )
 
 
-def _mark(compared: FormulaComparison, each: Intermediate) -> str:
-    if each.name == compared.first_wrong:
+def _mark(compared: FormulaComparison, intermediate: Intermediate) -> str:
+    if intermediate.name == compared.first_wrong:
         return _FIRST
-    if each.name == compared.culprit:
+    if intermediate.name == compared.culprit:
         return _CULPRIT
-    return _OTHER if each.decided_otherwise else ""
+    return _OTHER if intermediate.decided_otherwise else ""
 
 
 def finding(compared: FormulaComparison, truth: Position) -> Iterator[str]:

@@ -73,7 +73,7 @@ class CasesResult:
     def cases(self) -> int:
         """The number of all its cases: asked, skipped and pending."""
         counted = sum(sum(tally.counts.values()) for tally in self.tallies.values())
-        return counted + sum(len(each.indices) for each in self.pending)
+        return counted + sum(len(pending.indices) for pending in self.pending)
 
     @property
     def broke_protocol_throughout(self) -> bool:
@@ -86,11 +86,11 @@ def merged_result(results: Iterable[CasesResult]) -> CasesResult:
     parts = tuple(results)
     tallies: dict[str, list[Tally]] = {}
     for part in parts:
-        for family, each in part.tallies.items():
-            tallies.setdefault(family, []).append(each)
+        for family, tallied in part.tallies.items():
+            tallies.setdefault(family, []).append(tallied)
     return CasesResult(
         tallies={family: tally.merged_tally(some) if len(some) > 1 else some[0] for family, some in tallies.items()},
-        pending=tuple(each for part in parts for each in part.pending),
+        pending=tuple(pending for part in parts for pending in part.pending),
         retest=Retest(
             asked=sum(part.retest.asked for part in parts),
             within=sum(part.retest.within for part in parts),
@@ -179,9 +179,11 @@ def ask_chunk(chunk: CaseChunk, implementation: Implementation | Crashed, rules:
     return replace(result, pending=_pending(chunk, indices[kept], scored.part(kept)), outcomes=answered.outcomes)
 
 
-def ask_invalid_rows(asked: InvalidRows, implementation: Implementation | Crashed, rules: JudgingRules) -> CasesResult:
+def ask_invalid_rows(
+    invalid: InvalidRows, implementation: Implementation | Crashed, rules: JudgingRules
+) -> CasesResult:
     """Ask the invalid rows: each must be answered 127."""
-    file = asked.file
+    file = invalid.file
     answered = implementation.classify(file.rows)
     status, reasons = status_of(answered), dict(answered.reasons)
     for index in np.flatnonzero(answered.answered).tolist():
@@ -191,9 +193,9 @@ def ask_invalid_rows(asked: InvalidRows, implementation: Implementation | Crashe
             columns = " and ".join(file.cases[index].columns)
             reasons[index] = f"answered {answer}; a row with an invalid {columns} must be refused: {REFUSED}"
     layout = rules.criterion.layout
-    faults = unanswered_cases(file.rows, status, reasons, asked, np.arange(len(status)), layout)
+    faults = unanswered_cases(file.rows, status, reasons, invalid, np.arange(len(status)), layout)
     tallied = structs.replace(tally.EMPTY, asked=len(status), counts=counts_of(status), faults=faults)
-    return CasesResult(tallies={asked.family: tallied}, outcomes=answered.outcomes)
+    return CasesResult(tallies={invalid.family: tallied}, outcomes=answered.outcomes)
 
 
 def result_of_final(
@@ -208,11 +210,11 @@ def result_of_final(
 
     `left_out` counts rows of the chunk that were not asked, by reason.
     """
-    asked = AnsweredRows(scored.rows, scored.truth, scored.answers, scored.criterion, scored.times)
-    wrong, excusing = _excused(list(scored.judged()), made.chunk, indices, asked, rules)
+    answered = AnsweredRows(scored.rows, scored.truth, scored.answers, scored.criterion, scored.times)
+    wrong, excusing = _excused(list(scored.judged()), made.chunk, indices, answered, rules)
     tallied = scored.tally(made.chunk, indices, flip_exponents_of(made, indices), left_out=left_out, wrong=wrong)
     fresh = len(indices) if rules.are_fresh(made.chunk) else 0
-    diagnosed = _diagnosed(made.chunk, indices, scored, asked, wrong)
+    diagnosed = _diagnosed(made.chunk, indices, scored, answered, wrong)
     return CasesResult(
         tallies={
             made.chunk.family: structs.replace(
@@ -260,18 +262,18 @@ def _excused(
     """These cases, those that known failures cover EXCUSED, and the numbers of these failures."""
     places = [place for place, case in enumerate(wrong) if case.status is Status.WRONG and rules.known]
     cases = [(wrong[place].index, chunk.name(int(indices[wrong[place].index]))) for place in places]
-    found, excusing = list(wrong), set[int]()
+    judged, excusing = list(wrong), set[int]()
     about = entries_about(rules.known, cases, chunk.family, answered, fresh=rules.are_fresh(chunk))
     for place, numbers in zip(places, about, strict=True):
         case, error_u = wrong[place], 0.0
-        if any(rules.known[each].max_u < math.inf for each in numbers):  # to measure takes a thousand times as long
+        if any(rules.known[number].max_u < math.inf for number in numbers):  # to measure takes a thousand times as long
             measured = judge.measured(case, rules.criterion.question)
             error_u = judge.in_units(measured, rules.criterion.unit)
-        covering = [each for each in numbers if error_u <= rules.known[each].max_u]
+        covering = [number for number in numbers if error_u <= rules.known[number].max_u]
         if covering:
-            found[place] = replace(case, status=Status.EXCUSED)
+            judged[place] = replace(case, status=Status.EXCUSED)
             excusing.update(covering)
-    return found, excusing
+    return judged, excusing
 
 
 def _named_cases(chunk: CaseChunk, indices: Indices, known: Sequence[KnownFailure]) -> Iterator[str]:

@@ -45,14 +45,14 @@ Json = dict[str, Any]
 
 def recorded_description(description: Description) -> DescriptionPart:
     """An implementation's description as the record has it."""
-    told = asdict(description)
+    content = asdict(description)
     for name in ("tilt", "times", "heights"):
-        if not told[name]:  # as in records from before there was such a key
-            del told[name]
-    for setting in told["domain"]["settings"]:
+        if not content[name]:  # as in records from before there was such a key
+            del content[name]
+    for setting in content["domain"]["settings"]:
         if setting["axis"] is None:
             del setting["axis"]
-    return decoded(told, DescriptionPart)
+    return decoded(content, DescriptionPart)
 
 
 class ProgressWriter:
@@ -224,7 +224,7 @@ def saved_result(result: CasesResult) -> SavedResult:
     """The result as a line of progress has it."""
     return SavedResult(
         tallies=dict(result.tallies),
-        pending=[_saved_open(each) for each in result.pending],
+        pending=[_saved_open(pending) for pending in result.pending],
         retest=result.retest,
         outcomes=sorted(outcome.label for outcome in result.outcomes),
         excusing=sorted(result.excusing),
@@ -244,12 +244,12 @@ def restored_result(content: SavedResult) -> CasesResult:
     )
 
 
-def _saved_open(each: PendingRetest) -> PendingCases:
+def _saved_open(pending: PendingRetest) -> PendingCases:
     return PendingCases(
-        chunk=astuple(each.chunk),
-        indices=_runs(each.indices),
-        answers=each.answers.tobytes().hex(),
-        times=UNSET if each.times is None else each.times.astype("<f8").tobytes().hex(),
+        chunk=astuple(pending.chunk),
+        indices=_runs(pending.indices),
+        answers=pending.answers.tobytes().hex(),
+        times=UNSET if pending.times is None else pending.times.astype("<f8").tobytes().hex(),
     )
 
 

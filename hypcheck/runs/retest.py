@@ -78,7 +78,7 @@ class RetestStep:
 
     def of(self, some: tuple[PendingRetest, ...]) -> RetestStep:
         """The step with its part of all pending cases."""
-        return replace(self, pending=tuple(each for each in some if self.asks(each.chunk)))
+        return replace(self, pending=tuple(pending for pending in some if self.asks(pending.chunk)))
 
 
 @dataclass(frozen=True)
@@ -99,20 +99,20 @@ ChangedAnswers = dict[int, tuple[Status, str]]
 """The status of cases with another answer than before, and the reason; TOLERATED if rounding can explain the change."""
 
 
-def retest(asked: RetestStep, implementation: Implementation | Crashed, rules: JudgingRules) -> CasesResult:
+def retest(step: RetestStep, implementation: Implementation | Crashed, rules: JudgingRules) -> CasesResult:
     """Ask the pending cases again, and judge all of them; cases with a changed answer get the status of the change."""
-    if not asked.pending:
+    if not step.pending:
         return CasesResult()
-    sample, changes, outcomes = _sample(asked.pending, rules.criterion), ChangedAnswers(), set[Outcome]()
+    sample, changes, outcomes = _sample(step.pending, rules.criterion), ChangedAnswers(), set[Outcome]()
     implementation.close()  # so that a fresh process is asked
     asking = retest_questions(
         sample.truth,
         sample.moments,
         lambda: implementation.proven_batch,
         rules.seed,
-        asked.number,
-        asked.part,
-        asked.pace,
+        step.number,
+        step.part,
+        step.pace,
     )
     for places, batch in asking:
         answered = implementation.classify(sample.rows[places], batch=batch)
@@ -129,7 +129,7 @@ def retest(asked: RetestStep, implementation: Implementation | Crashed, rules: J
     within = sum(status is Status.TOLERATED for status, _ in changes.values())
     beyond = sum(status is Status.NONDETERMINISTIC for status, _ in changes.values())
     changed = Retest(asked=len(sample.rows), within=within, beyond=beyond)
-    return replace(_judged(asked.pending, sample, changes, rules), retest=changed, outcomes=frozenset(outcomes))
+    return replace(_judged(step.pending, sample, changes, rules), retest=changed, outcomes=frozenset(outcomes))
 
 
 def result_without_retest(some: tuple[PendingRetest, ...], rules: JudgingRules) -> CasesResult:
@@ -138,20 +138,20 @@ def result_without_retest(some: tuple[PendingRetest, ...], rules: JudgingRules) 
 
 
 def _sample(some: tuple[PendingRetest, ...], criterion: Criterion) -> _Sample:
-    made = tuple(cases_of_chunk(each.chunk) for each in some)
+    made = tuple(cases_of_chunk(pending.chunk) for pending in some)
     both = tuple(zip(made, some, strict=True))
     return _Sample(
         made,
-        _stacked([part.rows[each.indices] for part, each in both], criterion.layout),
-        np.concatenate([part.positions[each.indices] for part, each in both]),
+        _stacked([part.rows[pending.indices] for part, pending in both], criterion.layout),
+        np.concatenate([part.positions[pending.indices] for part, pending in both]),
         _first_answers(some),
-        np.concatenate([_moments(each) for each in some]),
+        np.concatenate([_moments(pending) for pending in some]),
     )
 
 
 def _first_answers(some: tuple[PendingRetest, ...]) -> Answered:
-    times = [each.times for each in some if each.times is not None]
-    return Answered.of(np.concatenate([each.answers for each in some]), np.concatenate(times) if times else None)
+    times = [pending.times for pending in some if pending.times is not None]
+    return Answered.of(np.concatenate([pending.answers for pending in some]), np.concatenate(times) if times else None)
 
 
 def _differs(before: Answered, places: Indices, now: Answered) -> Mask:
@@ -167,10 +167,10 @@ def _stacked(parts: list[Rows], layout: Layout) -> Rows:
     return np.concatenate(as_wide(parts, layout))
 
 
-def _moments(each: PendingRetest) -> NDArray[np.int64]:
-    if each.chunk.movement == 1:
-        return np.full(len(each.indices), -1)
-    return (each.chunk.start + each.indices) % each.chunk.movement
+def _moments(pending: PendingRetest) -> NDArray[np.int64]:
+    if pending.chunk.movement == 1:
+        return np.full(len(pending.indices), -1)
+    return (pending.chunk.start + pending.indices) % pending.chunk.movement
 
 
 def _change(sample: _Sample, place: int, answered: Answered, offset: int, criterion: Criterion) -> tuple[Status, str]:
@@ -199,14 +199,14 @@ def _judged(
     """The result of all cases of the round, judged by their first answers unless a change makes these invalid."""
     results, start = [], 0
     lost = {place: change for place, change in changes.items() if change[0] is not Status.TOLERATED}
-    for made, each in zip(sample.made, some, strict=True):
-        stop = start + len(each.indices)
-        part = as_slice(each.indices)
+    for made, pending in zip(sample.made, some, strict=True):
+        stop = start + len(pending.indices)
+        part = as_slice(pending.indices)
         scored = score(
-            made.by_column[part], made.positions[part], Answered.of(each.answers, each.times), rules.criterion
+            made.by_column[part], made.positions[part], Answered.of(pending.answers, pending.times), rules.criterion
         )
         scored = scored.without({place - start: lost[place] for place in lost if start <= place < stop})
-        results.append(result_of_final(made, each.indices, scored, rules))
+        results.append(result_of_final(made, pending.indices, scored, rules))
         start = stop
     return merged_result(results)
 

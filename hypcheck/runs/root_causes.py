@@ -99,13 +99,13 @@ def _roots(n: Numbers) -> NDArray[np.complex128]:
     c2, c1, c0 = n.c2, n.c1, -n.A * n.B
     with np.errstate(all="ignore"):
         finite = np.isfinite(c2) & np.isfinite(c1) & np.isfinite(c0)
-    found = np.full((len(c2), 3), complex(np.nan, np.nan))
+    zeros = np.full((len(c2), 3), complex(np.nan, np.nan))
     companions = np.zeros((int(finite.sum()), 3, 3))
     companions[:, 0] = -np.column_stack([c2, c1, c0])[finite]
     companions[:, 1, 0] = companions[:, 2, 1] = 1
     if len(companions):
-        found[finite] = np.sort_complex(np.linalg.eigvals(companions))
-    return found
+        zeros[finite] = np.sort_complex(np.linalg.eigvals(companions))
+    return zeros
 
 
 def _within(answered: AnsweredRows, sizes: Floats, answers: Answers) -> Answers:

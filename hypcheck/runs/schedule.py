@@ -117,7 +117,9 @@ class RunState:
         """The state after one more step, whose task started with the full limits."""
         before = self.total
         if isinstance(step, RetestStep):
-            before = replace(before, pending=tuple(each for each in before.pending if not step.asks(each.chunk)))
+            before = replace(
+                before, pending=tuple(pending for pending in before.pending if not step.asks(pending.chunk))
+            )
         return RunState(self.left.after(done.left, limits), self.done + 1, merged_result([before, done.result]))
 
 
@@ -192,10 +194,10 @@ def perform_steps(some: Iterable[Step], execution: TaskExecution, state: RunStat
         for entry in queue.due(state):
             allowance = state.allowance(execution.limits)
             entry.future = execution.executor.submit(execution.function, task=entry.step, allowance=allowance)
-        if (found := queue.take()) is None:
+        if (finished := queue.take()) is None:
             queue.wait()
             continue
-        step, done = found
+        step, done = finished
         given_up = state.left.over
         state = state.after(step, done, execution.limits)
         if state.left.over and not given_up:
@@ -256,7 +258,7 @@ class _TaskQueue:
         steps = 1 if self._one_by_one(state) else self._execution.workers * STEPS_AHEAD
         while len(self._entries) < steps and (step := next(self._coming, None)) is not None:
             self._entries.append(_QueuedStep(step, not isinstance(step, RetestStep)))
-        for entry in takewhile(lambda each: isinstance(each.step, RetestStep), self._entries):
+        for entry in takewhile(lambda queued: isinstance(queued.step, RetestStep), self._entries):
             if isinstance(entry.step, RetestStep) and not entry.ready:  # all of its cases are pending only now
                 entry.step, entry.ready = entry.step.of(state.total.pending), True
         return bool(self._entries)

@@ -38,7 +38,8 @@ from hypcheck.runs.tally import (
 )
 
 _ENDED = np.array(
-    [STATUS_CODES[Status.RIGHT if each is Outcome.ANSWERED else Status(each.label)] for each in Outcome], dtype=np.int8
+    [STATUS_CODES[Status.RIGHT if outcome is Outcome.ANSWERED else Status(outcome.label)] for outcome in Outcome],
+    dtype=np.int8,
 )
 
 
@@ -85,11 +86,11 @@ class Score:
     @property
     def mistakes(self) -> Counter[Mistake]:
         """The number of wrong answers by kind of mistake."""
-        found: Counter[Mistake] = Counter()
+        counts: Counter[Mistake] = Counter()
         pairs = zip(self.truth[self.wrong].tolist(), self.answers[self.wrong].tolist(), strict=True)
         for (truth, answer), number in Counter(pairs).items():
-            found[judge.mistake_of(truth, answer, self.criterion.question)] += number
-        return found
+            counts[judge.mistake_of(truth, answer, self.criterion.question)] += number
+        return counts
 
     def judged(self, wrong: Indices | None = None) -> Iterator[WrongCase]:
         """The wrong answers, or those at the given indices, each with its backward error and whether it passes."""
@@ -101,14 +102,14 @@ class Score:
         if len(places) == len(self.rows):
             return self
         chosen: slice | Indices = as_slice(places)
-        found = enumerate(places.tolist()) if self.reasons else ()
+        numbered = enumerate(places.tolist()) if self.reasons else ()
         return Score(
             self.criterion,
             self.rows[chosen],
             self.truth[chosen],
             self.answers[chosen],
             self.status[chosen],
-            {place: self.reasons[before] for place, before in found if before in self.reasons},
+            {place: self.reasons[before] for place, before in numbered if before in self.reasons},
             None if self.times is None else self.times[chosen],
         )
 

@@ -117,7 +117,9 @@ def _plain(rows: Rows) -> Answers:
 
 def _mesh(rows: Rows) -> Answers:
     opinions = ORACLES["mesh"].ask(rows)
-    return np.array([CANNOT_SAY if each.position is None else each.position for each in opinions], dtype=np.int8)
+    return np.array(
+        [CANNOT_SAY if opinion.position is None else opinion.position for opinion in opinions], dtype=np.int8
+    )
 
 
 TIMING_ROUNDS = 9
@@ -174,7 +176,7 @@ def upright_lines(family: str, start: int, stop: int, plan: SelfCheckPlan, share
     head = batch.head(plan.judged)
     exponents = flip_exponents(head.rows)
     with shared_meshes():
-        groups = [findings.method_group(each, head, exponents, plan) for each in methods_of(plan)]
+        groups = [findings.method_group(method, head, exponents, plan) for method in methods_of(plan)]
     return FamilyLines(found, groups, opinions)
 
 
@@ -248,16 +250,16 @@ class _SelfCheck:
 
     def _perform(self, tasks: Sequence[Callable[[], Any]], advance: Advance) -> None:
         """Do the tasks, in processes where the plan has several workers; record their results in that order."""
-        found: list[FindingLine] = []
+        recorded: list[FindingLine] = []
         opinions: list[OracleLine] = []
         with closing(in_order(_done, tasks, self.plan.workers, 0, ahead=len(tasks))) as results:
             self._record_derivation(*next(results))
             advance(1)
             for made in results:
-                found += self._record_family(made)
+                recorded += self._record_family(made)
                 opinions += made.oracles
                 advance(1)
-        self._record_drift(found)
+        self._record_drift(recorded)
         self._record_oracles(opinions)
 
     def _record_derivation(self, equations: Sequence[EquationCheck], proofs: Sequence[Proof]) -> None:
@@ -270,20 +272,20 @@ class _SelfCheck:
 
     def _record_family(self, made: FamilyLines) -> list[FindingLine]:
         """Record a family's lines; returns its findings with the reasons of those that are known."""
-        found = [msgspec.structs.replace(each, reason=findings.reason_for(each, self.known)) for each in made.findings]
-        for line in (*found, *made.groups):
+        known = [msgspec.structs.replace(line, reason=findings.reason_for(line, self.known)) for line in made.findings]
+        for line in (*known, *made.groups):
             self.recorder.add(line)
         if any(line.exact and set(line.counts) - {Status.RIGHT.value, Status.SKIPPED.value} for line in made.groups):
             self.outcome.codes.add(Exit.WRONG)
-        return found
+        return known
 
-    def _record_drift(self, found: Sequence[FindingLine]) -> None:
-        for sentence in findings.finding_drift(found, self.known, complete=self.plan.complete):
+    def _record_drift(self, recorded: Sequence[FindingLine]) -> None:
+        for sentence in findings.finding_drift(recorded, self.known, complete=self.plan.complete):
             self.recorder.add(lines.DriftLine(sentence=sentence))
             self.outcome.codes.add(Exit.WRONG)
 
-    def _record_oracles(self, found: Iterable[OracleLine]) -> None:
-        for line in oracles.merged_lines(found):
+    def _record_oracles(self, opinions: Iterable[OracleLine]) -> None:
+        for line in oracles.merged_lines(opinions):
             self.recorder.add(line)
             if line.disagreeing:
                 self.outcome.codes.add(Exit.ORACLES_DISAGREE)
@@ -295,7 +297,7 @@ class _SelfCheck:
 
     def _time(self, advance: Advance) -> None:
         rows, methods = timed_rows(self.plan.seed), timed_methods(meshes=MESH in self.plan.oracles)
-        timings = measure([timing_entry(each, rows) for each in methods], TIMING_ROUNDS, advance=advance)
+        timings = measure([timing_entry(method, rows) for method in methods], TIMING_ROUNDS, advance=advance)
         for method, timing in zip(methods, timings, strict=True):
             self.recorder.add(timing_line(method, timing))
 

@@ -63,55 +63,55 @@ class StartedFiles:
             return
         for node in ast.walk(tree):
             for name in _imported(node, path):
-                for found in _modules(name, folders):
-                    self.add(found, folders)
+                for module in _modules(name, folders):
+                    self.add(module, folders)
             if isinstance(node, ast.Call) and _name_of(node.func) in _DYNAMIC:
                 self.missing[f"what {path} loads as it runs ({_name_of(node.func)})"] = None
 
 
 def started_files(text: str) -> StartedFiles:
     """The files of a SPEC that exist, with what they load. Raises InputError if the text is not a SPEC."""
-    spec, found = parse_spec(text), StartedFiles()
+    spec, files = parse_spec(text), StartedFiles()
     if spec.kind == "library":
-        found.add(spec.words[0], ())
+        files.add(spec.words[0], ())
     elif spec.kind == "python":
-        _add_function(spec, found)
+        _add_function(spec, files)
     elif spec.kind == "command":
-        _add_command(spec, found)
-    return found
+        _add_command(spec, files)
+    return files
 
 
-def _add_function(spec: Spec, found: StartedFiles) -> None:
+def _add_function(spec: Spec, files: StartedFiles) -> None:
     target = spec.words[0]
     if is_file(target):
-        found.add(target, [os.path.dirname(target), *_python_path()])
+        files.add(target, [os.path.dirname(target), *_python_path()])
         return
     folders = [os.getcwd(), *_python_path()]
     for path in _modules(target, folders):
-        found.add(path, folders)
+        files.add(path, folders)
 
 
-def _add_command(spec: Spec, found: StartedFiles) -> None:
+def _add_command(spec: Spec, files: StartedFiles) -> None:
     """Add the files in the words; what a program from the PATH reads besides is not known, unless it is Python."""
     program = spec.words[0]
     known = program if os.sep in program else shutil.which(program)
     python = os.path.basename(program).startswith("python")
     if known is not None:
-        found.add(known, [os.path.dirname(known), *_python_path()])
+        files.add(known, [os.path.dirname(known), *_python_path()])
     for before, word in zip(spec.words, spec.words[1:], strict=False):
         if python and before == "-m":
             folders = [os.getcwd(), *_python_path()]
             for path in (*_modules(word, folders), *_modules(f"{word}.__main__", folders)):
-                found.add(path, folders)
+                files.add(path, folders)
             continue
         for token in _tokens(word, first_is_program=before == "-c"):
             if os.path.isdir(token) and token not in (".", ".."):
-                found.missing[f"the folder {token}"] = None
-            found.add(token, [os.path.dirname(token), *_python_path()])
+                files.missing[f"the folder {token}"] = None
+            files.add(token, [os.path.dirname(token), *_python_path()])
     interpreter = len(spec.words) > 1 and os.sep not in program
     script = known is not None and not known.endswith(_PYTHON) and _is_script(known)
     if not python and (interpreter or script):
-        found.missing[f"what {program} loads besides"] = None
+        files.missing[f"what {program} loads besides"] = None
 
 
 def _tokens(word: str, *, first_is_program: bool) -> Iterator[str]:
@@ -123,11 +123,11 @@ def _tokens(word: str, *, first_is_program: bool) -> Iterator[str]:
         words = shlex.split(word)
     except ValueError:
         words = word.split()
-    for place, each in enumerate(words):
-        program = shutil.which(each) if first_is_program and not place and os.sep not in each else None
+    for place, token in enumerate(words):
+        program = shutil.which(token) if first_is_program and not place and os.sep not in token else None
         if program is not None:
             yield program
-        for part in each.rpartition("=")[2].split(os.pathsep):
+        for part in token.rpartition("=")[2].split(os.pathsep):
             if part and (os.path.isfile(part) or os.path.isdir(part)):
                 yield part
 
@@ -140,23 +140,23 @@ def _is_script(path: str) -> bool:
 
 
 def _python_path() -> list[str]:
-    return [each for each in os.environ.get("PYTHONPATH", "").split(os.pathsep) if each]
+    return [folder for folder in os.environ.get("PYTHONPATH", "").split(os.pathsep) if folder]
 
 
 def _imported(node: ast.AST, path: str) -> Iterator[str]:
     """The names of modules that a statement may import: relative ones as paths from the file's folder."""
     if isinstance(node, ast.Import):
-        yield from (each.name for each in node.names)
+        yield from (alias.name for alias in node.names)
     elif isinstance(node, ast.ImportFrom):
         stem = node.module or ""
         if node.level:
             folder = os.path.join(os.path.dirname(path), *[os.pardir] * (node.level - 1))
             stem = os.path.normpath(os.path.join(folder, *stem.split("."))) + os.sep
             yield stem
-            yield from (os.path.join(stem, each.name) for each in node.names)
+            yield from (os.path.join(stem, alias.name) for alias in node.names)
             return
         yield stem
-        yield from (f"{stem}.{each.name}" for each in node.names)
+        yield from (f"{stem}.{alias.name}" for alias in node.names)
 
 
 def _modules(name: str, folders: Sequence[str]) -> Iterator[str]:
@@ -166,9 +166,9 @@ def _modules(name: str, folders: Sequence[str]) -> Iterator[str]:
         return
     parts = [part for part in name.split(".") if part]
     for folder in folders:
-        found = [path for depth in range(1, len(parts) + 1) for path in _existing(os.path.join(folder, *parts[:depth]))]
-        if found:
-            yield from found
+        paths = [path for depth in range(1, len(parts) + 1) for path in _existing(os.path.join(folder, *parts[:depth]))]
+        if paths:
+            yield from paths
             return
 
 
@@ -183,8 +183,8 @@ def _extensions(stem: str) -> list[str]:
     folder, name = os.path.split(stem)
     with suppress(OSError):
         entries = sorted(os.listdir(folder or "."))
-        found = (each for each in entries if each.startswith(f"{name}.") and each.endswith((".so", ".pyd")))
-        return [os.path.join(folder, each) for each in found]
+        names = (entry for entry in entries if entry.startswith(f"{name}.") and entry.endswith((".so", ".pyd")))
+        return [os.path.join(folder, entry) for entry in names]
     return []
 
 
@@ -210,14 +210,14 @@ def _needed(path: str) -> list[str]:
     except (struct.error, ValueError):
         return []
     origin = os.path.dirname(path) or "."
-    searched = [each for kind in (_RPATH, _RUNPATH) for text in tags.get(kind, ()) for each in text.split(":")]
-    folders = [each.replace("${ORIGIN}", origin).replace("$ORIGIN", origin) for each in searched if each]
-    folders += [each for each in os.environ.get("LD_LIBRARY_PATH", "").split(":") if each]
-    found = []
+    searched = [path for kind in (_RPATH, _RUNPATH) for text in tags.get(kind, ()) for path in text.split(":")]
+    folders = [folder.replace("${ORIGIN}", origin).replace("$ORIGIN", origin) for folder in searched if folder]
+    folders += [folder for folder in os.environ.get("LD_LIBRARY_PATH", "").split(":") if folder]
+    libraries = []
     for name in tags.get(_NEEDED, ()):
         places = [name] if "/" in name else [os.path.join(folder, name) for folder in folders]
-        found += [os.path.normpath(place) for place in places if os.path.isfile(place)][:1]
-    return found
+        libraries += [os.path.normpath(place) for place in places if os.path.isfile(place)][:1]
+    return libraries
 
 
 def _dynamic_strings(content: bytes) -> dict[int, list[str]]:
@@ -242,9 +242,9 @@ def _dynamic_strings(content: bytes) -> dict[int, list[str]]:
     table = next((address - at + start for start, at, length in loaded if at <= address < at + length), None)
     if table is None:
         return {}
-    found: dict[int, list[str]] = {}
+    texts: dict[int, list[str]] = {}
     for tag, value in pairs:
         if tag in (_NEEDED, _RPATH, _RUNPATH):
             end = content.index(b"\0", table + value)
-            found.setdefault(tag, []).append(os.fsdecode(content[table + value : end]))
-    return found
+            texts.setdefault(tag, []).append(os.fsdecode(content[table + value : end]))
+    return texts

@@ -153,11 +153,11 @@ def measure(
 
 def _calibrated(entry: TimingEntry, shortest_s: float) -> Samples:
     """The entry after a warm-up, with enough loops for a sample of that duration."""
-    found = Samples(entry.name, entry.rows, entry.loops or 1, entry.checksum or 0, takes=entry.takes)
-    with _refused(found):
+    samples = Samples(entry.name, entry.rows, entry.loops or 1, entry.checksum or 0, takes=entry.takes)
+    with _refused(samples):
         took, checksum = entry.run(1)
         if entry.checksum is None:
-            found.checksum = checksum
+            samples.checksum = checksum
         if entry.loops is None:
             loops, shortest = 1, shortest_s / TAKES * 1e9
             while (
@@ -166,41 +166,41 @@ def _calibrated(entry: TimingEntry, shortest_s: float) -> Samples:
                 loops = min(MOST_LOOPS, 2 * loops if took <= 0 else max(2 * loops, round(loops * shortest / 4 / took)))
                 took, checksum = entry.run(loops)
             took = min(took, entry.run(loops)[0])  # after an interruption the takes would be too short
-            found.loops = min(MOST_LOOPS, max(1, math.ceil(loops * shortest / max(took, 1))))
-            lasts = max(1, took * found.loops / loops)
-            found.takes = max(1, min(TAKES, int(_LONGEST * TAKES * shortest / lasts)))
-        _require_sum(found, checksum)
-    return found
+            samples.loops = min(MOST_LOOPS, max(1, math.ceil(loops * shortest / max(took, 1))))
+            lasts = max(1, took * samples.loops / loops)
+            samples.takes = max(1, min(TAKES, int(_LONGEST * TAKES * shortest / lasts)))
+        _require_sum(samples, checksum)
+    return samples
 
 
-def _sample(entry: TimingEntry, found: Samples) -> None:
+def _sample(entry: TimingEntry, samples: Samples) -> None:
     """Add a sample, unless the entry is refused."""
-    if found.refused is not None:
+    if samples.refused is not None:
         return
-    with _refused(found):
+    with _refused(samples):
         times = []
-        for _ in range(found.takes):
-            took, checksum = entry.run(found.loops)
-            _require_sum(found, checksum)
+        for _ in range(samples.takes):
+            took, checksum = entry.run(samples.loops)
+            _require_sum(samples, checksum)
             times.append(took)
-        found.samples_ns.append(min(times) / (found.loops * found.rows))
+        samples.samples_ns.append(min(times) / (samples.loops * samples.rows))
 
 
-def _require_sum(found: Samples, checksum: int) -> None:
+def _require_sum(samples: Samples, checksum: int) -> None:
     """Raise TimingRefusedError if the answers are others than they must be."""
-    if checksum != found.checksum:
+    if checksum != samples.checksum:
         raise TimingRefusedError(
-            f"its answers summed to {checksum} while it was timed; they must sum to {found.checksum}"
+            f"its answers summed to {checksum} while it was timed; they must sum to {samples.checksum}"
         )
 
 
 @contextmanager
-def _refused(found: Samples) -> Iterator[None]:
+def _refused(samples: Samples) -> Iterator[None]:
     """A block after which the samples say why the entry was refused, if it was."""
     try:
         yield
     except TimingRefusedError as refused:
-        found.refused = str(refused)
+        samples.refused = str(refused)
 
 
 @contextmanager
@@ -305,14 +305,14 @@ class KernelTarget:
 
     def line(self, measured: list[float], says: str) -> KernelLine:
         """The record's line: the median over rounds, with its 95 % interval. A miss is one of the whole interval."""
-        found = estimate([measured])
-        met = found.low <= self.wanted if self.at_most else found.high >= self.wanted
+        ratio = estimate([measured])
+        met = ratio.low <= self.wanted if self.at_most else ratio.high >= self.wanted
         return KernelLine(
             name=self.name,
             target=self.text,
             wanted=self.wanted,
-            measured=found.median,
-            ci95=(found.low, found.high),
+            measured=ratio.median,
+            ci95=(ratio.low, ratio.high),
             met=met,
             says=says,
         )
@@ -326,10 +326,10 @@ def thread_clocked(work: Callable[[], NDArray[np.signedinteger]]) -> Clocked:
 def measured_samples(entries: Sequence[TimingEntry], rounds: int) -> dict[str, Samples]:
     """The samples of all entries by name. Raises AssertionError for one that was refused."""
     samples = measure(entries, rounds)
-    for each in samples:
-        if each.refused is not None:
-            raise AssertionError(f"{each.name}: {each.refused}")
-    return {each.name: each for each in samples}
+    for sample in samples:
+        if sample.refused is not None:
+            raise AssertionError(f"{sample.name}: {sample.refused}")
+    return {sample.name: sample for sample in samples}
 
 
 def times_as_fast(mine: Samples, other: Samples) -> list[float]:
