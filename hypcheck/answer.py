@@ -47,9 +47,9 @@ def require_agreement(row: tuple[float, ...], decided: tuple[int, bool], measure
 
 def _disagreement(row: tuple[float, ...], position: int, tangent: bool, other: str) -> DisagreementError:
     pair = ", ".join(f"{name} {value!r}" for name, value in zip(TILTED_COLUMNS + HEIGHTS, row, strict=False))
-    said = f"{Position(position).label}{' (tangent)' if tangent else ''}"
+    words = f"{Position(position).label}{' (tangent)' if tangent else ''}"
     return DisagreementError(
-        f"two oracles disagree about {pair}: by exact decision {said}, {other}; please report this, it is a fault of "
+        f"two oracles disagree about {pair}: by exact decision {words}, {other}; please report this, it is a fault of "
         "hypcheck"
     )
 
@@ -109,10 +109,10 @@ def answer(pair: Pair, margin: float | None = None) -> Answer:
 def _with_margin(pair: Pair, decision: Decision, margin: float) -> Position:
     from hypcheck.kernel.classify import classify  # noqa: PLC0415 - it loads numpy, which other answers do without
 
-    found = Position(int(classify(pair.row, margin=margin)))
-    if found not in (decision.position, Position.CONTACT):
-        raise _disagreement(pair.row, decision.position, decision.tangent, f"with a margin {found.label}")
-    return found
+    position = Position(int(classify(pair.row, margin=margin)))
+    if position not in (decision.position, Position.CONTACT):
+        raise _disagreement(pair.row, decision.position, decision.tangent, f"with a margin {position.label}")
+    return position
 
 
 def proved(pair: Pair, decision: Decision) -> Certificate:
@@ -167,9 +167,9 @@ def _distance_in_c(pair: Pair) -> tuple[float, float] | None:
     """The same of an upright pair without ends, and without numpy; None where C is not there, or knows it worse."""
     if choice().kernel == "numpy" or pair.has_ends or not pair.is_upright:
         return None
-    position, found = array("b", [0]), array("d", [0.0] * 11)
-    compiled().clearance(array("d", pair.upright.row), position, found)
-    _, _, touch_error, low, high, *_ = found
+    position, numbers = array("b", [0]), array("d", [0.0] * 11)
+    compiled().clearance(array("d", pair.upright.row), position, numbers)
+    _, _, touch_error, low, high, *_ = numbers
     return None if touch_error == sys.float_info.max else (low, high)
 
 

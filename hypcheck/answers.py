@@ -53,13 +53,13 @@ def answers(rows: Rows) -> TableAnswers:
 def _answers_between_ends(rows: Rows) -> TableAnswers:
     """Those of rows with heights: those of the rest as without ends, the others one by one."""
     require_valid(rows)
-    found = answers(np.ascontiguousarray(rows[:, : len(TILTED_COLUMNS)]))
+    answered = answers(np.ascontiguousarray(rows[:, : len(TILTED_COLUMNS)]))
     for index in np.flatnonzero(np.isfinite(rows[:, 10:12]).any(axis=1)).tolist():
         pair = Pair.from_row(rows[index].tolist())
         decision = exact.decide(pair.lengths)
-        found.positions[index], found.tangent[index] = decision.position, decision.tangent
-        found.clearance[index] = ended_clearance_of(pair, decision)
-    return found
+        answered.positions[index], answered.tangent[index] = decision.position, decision.tangent
+        answered.clearance[index] = ended_clearance_of(pair, decision)
+    return answered
 
 
 def _decided(rows: Rows, certain: Mask) -> tuple[Positions, Mask]:
@@ -151,8 +151,8 @@ def _answer_chunk(
     chunk = unread()
     if chunk.layout != PAIRS and margin is not None:
         raise InputError("--margin is for positions; x1, y1, z1 make the rows sweeps, so leave one of them out")
-    found = _answers_of_chunk(chunk, margin) if chunk.layout == PAIRS else _sweeps_of_chunk(chunk)
-    return render(chunk, found), len(chunk.rows)
+    chunk_answers = _answers_of_chunk(chunk, margin) if chunk.layout == PAIRS else _sweeps_of_chunk(chunk)
+    return render(chunk, chunk_answers), len(chunk.rows)
 
 
 def _sweeps_of_chunk(chunk: TableChunk) -> SweepAnswers:
@@ -161,27 +161,31 @@ def _sweeps_of_chunk(chunk: TableChunk) -> SweepAnswers:
     hits = np.full(count, REFUSED, dtype=np.int8)
     lower, upper = np.full(count, np.nan), np.full(count, np.nan)
     for index in np.flatnonzero(~chunk.refused).tolist():
-        found = passage_of_row(chunk.rows[index].tolist())
-        hits[index], lower[index], upper[index] = found.hit, found.first_lower, found.first_upper
+        sweep = passage_of_row(chunk.rows[index].tolist())
+        hits[index], lower[index], upper[index] = sweep.hit, sweep.first_lower, sweep.first_upper
     return SweepAnswers(hits, lower, upper)
 
 
 def _answers_of_chunk(chunk: TableChunk, margin: float | None) -> TableAnswers:
     """The answers about a chunk of a table, 127 for its refused rows. Raises DisagreementError as answers()."""
-    found = _without_margin(chunk)
+    answered = _without_margin(chunk)
     if margin is None:
-        return found
+        return answered
     kept = np.full(len(chunk.rows), REFUSED, np.int8)
     kept[~chunk.refused] = classify(chunk.rows[~chunk.refused], margin=margin)
-    return replace(found, with_margin=kept)
+    return replace(answered, with_margin=kept)
 
 
 def _without_margin(chunk: TableChunk) -> TableAnswers:
     if not chunk.refused.any():
         return answers(chunk.rows)
     valid = ~chunk.refused
-    found, count = answers(chunk.rows[valid]), len(chunk.rows)
+    valid_answers, count = answers(chunk.rows[valid]), len(chunk.rows)
     positions, tangent = np.full(count, REFUSED, dtype=np.int8), np.zeros(count, dtype=np.bool_)
     clearance = np.full(count, np.nan)
-    positions[valid], tangent[valid], clearance[valid] = found.positions, found.tangent, found.clearance
+    positions[valid], tangent[valid], clearance[valid] = (
+        valid_answers.positions,
+        valid_answers.tangent,
+        valid_answers.clearance,
+    )
     return TableAnswers(positions, tangent, clearance)

@@ -72,8 +72,8 @@ def suggestion(name: str, known: Iterable[str], *, most: int = 3, otherwise: str
     `otherwise` stands before the list of all.
     """
     known = tuple(known)
-    shown = {_plain(each): each for each in known}
-    near = [shown[each] for each in get_close_matches(_plain(name[:_LONGEST_COMPARED]), shown, n=most)]
+    shown = {_plain(name_known): name_known for name_known in known}
+    near = [shown[plain] for plain in get_close_matches(_plain(name[:_LONGEST_COMPARED]), shown, n=most)]
     if not near:
         return f"{otherwise} {', '.join(known)}"
     return "did you mean " + " or ".join(filter(None, (", ".join(near[:-1]), near[-1]))) + "?"

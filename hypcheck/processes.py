@@ -264,14 +264,14 @@ def interrupts_deferred() -> Iterator[None]:
     received: list[int] = []
     before: dict[signal.Signals, Any] = {}
     try:
-        for each in UNWINDING:
-            before[each] = signal.getsignal(each)
-            if callable(before[each]):
-                signal.signal(each, lambda number, _: received.append(number))
+        for unwinding in UNWINDING:
+            before[unwinding] = signal.getsignal(unwinding)
+            if callable(before[unwinding]):
+                signal.signal(unwinding, lambda number, _: received.append(number))
         yield
     finally:
-        for each, handler in before.items():
+        for number, handler in before.items():
             if callable(handler):
-                signal.signal(each, handler)
+                signal.signal(number, handler)
         for caught in dict.fromkeys(received):
             signal.raise_signal(caught)

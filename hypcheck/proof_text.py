@@ -57,9 +57,11 @@ def height_of_point(pair: Pair, point: Point) -> Fraction:
 def reach_of_point(pair: Pair, point: Point) -> Fraction:
     """s, the squared distance of a point from the spheroid's centre in spheroid radii: at most 1 in the spheroid."""
     way = [coordinate - Fraction(center) for coordinate, center in zip(point, (pair.x, pair.y, pair.z), strict=True)]
-    axis = [Fraction(each) for each in pair.axis]
-    square = sum((each * each for each in way), Fraction(0))
-    along = sum((a * b for a, b in zip(way, axis, strict=True)), Fraction(0)) ** 2 / sum(each * each for each in axis)
+    axis = [Fraction(number) for number in pair.axis]
+    square = sum((number * number for number in way), Fraction(0))
+    along = sum((a * b for a, b in zip(way, axis, strict=True)), Fraction(0)) ** 2 / sum(
+        number * number for number in axis
+    )
     return (square - along) / Fraction(pair.b) ** 2 + along / Fraction(pair.d) ** 2
 
 
@@ -124,7 +126,7 @@ def _tilted_proof_as_json(pair: Pair, certificate: Certificate) -> dict[str, Any
         return {
             "by": "double root",
             "m": exact_text(m),
-            "f": [exact_text(each) for each in _quartic(pair)],
+            "f": [exact_text(number) for number in _quartic(pair)],
             "pivots": list(map(exact_text, _pivots(pair, m, 3))),
         }
     return _points_as_json(pair, certificate.points)
@@ -140,8 +142,8 @@ def _pivots(pair: Pair, at: Fraction, size: int) -> list[Fraction]:
 def _quartic(pair: Pair) -> list[Fraction]:
     """f(λ) = det(S + λH) over det S, the lowest power first: the whole numbers of truth/pencil.py, so scaled."""
     F = quartic(pair.lengths)
-    lowest_first = [each * F.side**power for power, each in enumerate(reversed(F.coefficients))]
-    return [Fraction(each, -F.f0) for each in lowest_first]
+    lowest_first = [coefficient * F.side**power for power, coefficient in enumerate(reversed(F.coefficients))]
+    return [Fraction(number, -F.f0) for number in lowest_first]
 
 
 def _points_as_json(pair: Pair, points: tuple[Point, ...]) -> dict[str, Any]:
@@ -250,7 +252,9 @@ def _tilted_proof_lines(pair: Pair, certificate: Certificate) -> list[str]:
 
 def _polynomial(coefficients: list[Fraction]) -> str:
     powers = ("", "·t", "·t²", "·t³", "·t⁴")
-    return " + ".join(f"({readable_text(each)}){power}" for each, power in zip(coefficients, powers, strict=True))
+    return " + ".join(
+        f"({readable_text(coefficient)}){power}" for coefficient, power in zip(coefficients, powers, strict=True)
+    )
 
 
 def _by_multiplier(pair: Pair, position: Position, at: Fraction) -> list[str]:

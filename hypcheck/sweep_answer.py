@@ -43,18 +43,18 @@ def sweep_answer(row: Sequence[float]) -> SweepAnswer:
     Raises InputError for a row that is not valid, DisagreementError if the proof does not hold.
     """
     if len(row) > len(TILTED_SWEEP_COLUMNS):
-        found = passage_of_row(row)
-        return SweepAnswer(tuple(row), found, (found.first_lower, found.first_upper) if found.hit else None, None)
+        sweep = passage_of_row(row)
+        return SweepAnswer(tuple(row), sweep, (sweep.first_lower, sweep.first_upper) if sweep.hit else None, None)
     try:
-        found, first, certificate = prove_passage(row)
+        sweep, first, certificate = prove_passage(row)
     except ValueError:  # an irrational time has no certificate
-        found = passage(row[:4], row[4:7], row[7:10], row[10:] or None)
-        return SweepAnswer(tuple(row), found, (found.first_lower, found.first_upper), None)
+        sweep = passage(row[:4], row[4:7], row[7:10], row[10:] or None)
+        return SweepAnswer(tuple(row), sweep, (sweep.first_lower, sweep.first_upper), None)
     if not check_passage(row, certificate, first):
         raise DisagreementError(
             f"the proof found for the sweep {tuple(row)} does not hold; please report this, it is a fault of hypcheck"
         )
-    return SweepAnswer(tuple(row), found, first, certificate)
+    return SweepAnswer(tuple(row), sweep, first, certificate)
 
 
 def passage_of_row(row: Sequence[float]) -> Passage:
@@ -95,12 +95,12 @@ def _proof_as_json(certificate: PassageCertificate) -> dict[str, Any]:
 
 def sweep_as_text(answer: SweepAnswer) -> str:
     """The answer as lines of text, without an end of line after the last: contact or clear, first contact, proof."""
-    found = answer.passage
-    lines = [_label(answer) + ", only touched for an instant" * found.grazes]
+    sweep = answer.passage
+    lines = [_label(answer) + ", only touched for an instant" * sweep.grazes]
     if answer.first is not None:
         lower, upper = answer.first
         lines.append(f"first      contact between the times {lower!r} and {upper!r}; 0 is the start, 1 the end")
-    lines.append(f"ends       {found.start.label} at the start, {found.end.label} at the end")
+    lines.append(f"ends       {sweep.start.label} at the start, {sweep.end.label} at the end")
     ended = len(answer.row) > len(TILTED_SWEEP_COLUMNS)
     proof = [_BESIDE_ENDS] if ended else list(_proof_lines(answer.certificate))
     return "\n".join([*lines, f"proof      {proof[0]}", *(f"{'':11}{line}" for line in proof[1:])])

@@ -162,9 +162,13 @@ class LazyGroup(CommandGroup):
         """Write the commands, each group under its heading."""
         widest = max(map(len, COMMANDS))
         for title, names in GROUPS.items():
-            found = [(name, self.get_command(ctx, name)) for name in names]
+            commands = [(name, self.get_command(ctx, name)) for name in names]
             limit = formatter.width - 6 - widest
-            rows = [(f"{name:{widest}}", each.get_short_help_str(limit)) for name, each in found if each is not None]
+            rows = [
+                (f"{name:{widest}}", command.get_short_help_str(limit))
+                for name, command in commands
+                if command is not None
+            ]
             with formatter.section(title):
                 formatter.write_dl(rows)
 
@@ -200,9 +204,9 @@ def hypcheck(context: click.Context, /, no_settings: bool) -> None:
     from hypcheck.cli import settings
 
     if context.invoked_subcommand in settings.COMMANDS:
-        found = settings.read_settings(Path(settings.FILE))
-        if found is not None:
-            context.obj, context.default_map = found, found.default_map
+        values = settings.read_settings(Path(settings.FILE))
+        if values is not None:
+            context.obj, context.default_map = values, values.default_map
 
 
 def context_of(words: Iterable[str]) -> click.Context:
@@ -267,14 +271,14 @@ def _completions(completing: ShellComplete) -> str:
     """Completions of the unfinished word; if there are none, the shell offers files."""
     words, part = completing.get_completion_args()
     *words, unfinished = _unsplit([*words, part]) if completing.name == "bash" else [*words, part]
-    found = completing.get_completions(words, unfinished)
-    if not found and not unfinished.startswith("-"):
+    completions = completing.get_completions(words, unfinished)
+    if not completions and not unfinished.startswith("-"):
         return completing.format_completion(CompletionItem(part, type="file"))
     option, equals, _ = unfinished.rpartition("=") if unfinished.startswith("--") else ("", "", "")
     kept = unfinished if _SEPARATORS.fullmatch(part) else unfinished.removesuffix(part)  # the shell replaces the part
-    for item in (item for item in found if item.value):
+    for item in (item for item in completions if item.value):
         item.value = f"{option}{equals}{item.value}".removeprefix(kept)
-    return "\n".join(map(completing.format_completion, found))
+    return "\n".join(map(completing.format_completion, completions))
 
 
 _SEPARATORS = re.compile("[:=]+")

@@ -42,8 +42,8 @@ class Names(click.ParamType[str]):
         """The names that begin so, with those before the last comma; none of them twice."""
         before, comma, last = incomplete.rpartition(",") if self.many else ("", "", incomplete)
         names = [name for name in dict.fromkeys(self.known(ctx, last)) if name.startswith(last)]
-        found = [CompletionItem(f"{before}{comma}{name}") for name in names if name not in before.split(",")]
-        return found or ([] if self.files else [CompletionItem("", type=NOTHING)])
+        items = [CompletionItem(f"{before}{comma}{name}") for name in names if name not in before.split(",")]
+        return items or ([] if self.files else [CompletionItem("", type=NOTHING)])
 
 
 def families(ctx: click.Context, begun: str) -> Iterable[str]:  # noqa: ARG001 - a Known

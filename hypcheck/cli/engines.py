@@ -45,12 +45,12 @@ def _installed(names: tuple[str, ...], cache: Path) -> list[Engine]:
     """The engines of these names, or all that are installed. Raises InputError where one is not, or none is."""
     from hypcheck.engines.engine import engines_of, is_installed
 
-    found = [engine for engine in engines_of(names) if names or is_installed(engine, cache)]
-    missing = [engine.name for engine in found if not is_installed(engine, cache)]
-    if missing or not found:
+    chosen = [engine for engine in engines_of(names) if names or is_installed(engine, cache)]
+    missing = [engine.name for engine in chosen if not is_installed(engine, cache)]
+    if missing or not chosen:
         what = f"{missing[0]} is not installed" if missing else "no engine is installed"
         raise InputError(f"{what}; type: hypcheck engines install {missing[0] if missing else 'NAME'}")
-    return found
+    return chosen
 
 
 def _from_here(word: str) -> str:
@@ -106,11 +106,11 @@ def verify(names: tuple[str, ...], out: Path, cache: Path) -> None:
     for engine in _installed(names, cache):
         record = record_of(engine, cache, lambda text: click.echo(text, err=True))
         write_record(out, record)
-        others = [each for each in read_findings(out) if each.engine != engine.name]
-        found = list(findings_of(record, cache))
-        write_findings(out, [*others, *found])
+        others = [finding for finding in read_findings(out) if finding.engine != engine.name]
+        findings = list(findings_of(record, cache))
+        write_findings(out, [*others, *findings])
         write_page(out)
-        click.echo(f"measured {engine.name} {engine.version}: {counted(len(found), 'finding')}")
+        click.echo(f"measured {engine.name} {engine.version}: {counted(len(findings), 'finding')}")
 
 
 @engines.command(short_help="Compare engines by error and run time with every other method.")
@@ -130,10 +130,10 @@ def bench(context: click.Context, names: tuple[str, ...], out: Path, triangles: 
     from hypcheck.engines.placing import FAMILIES
     from hypcheck.engines.scene import surface_mesh, write_scene
 
-    found, scene = _installed(names, cache), cache / "scenes" / f"body-{triangles}"
+    chosen, scene = _installed(names, cache), cache / "scenes" / f"body-{triangles}"
     sizes = FAMILIES["body"].sizes
     write_scene(scene, sizes, surface_mesh(sizes, triangles))
     # Paths as seen from here: the overview prints them, and is committed.
-    specs = [spec_of([_from_here(word) for word in command(engine, cache, scene.absolute())]) for engine in found]
+    specs = [spec_of([_from_here(word) for word in command(engine, cache, scene.absolute())]) for engine in chosen]
     with compare.make_context("bench", ["--quick", "--out", str(out), *specs], parent=context) as made:
         compare.invoke(made)

@@ -52,15 +52,15 @@ def flight(scene: str, path: str, as_json: bool) -> None:
 def _answers(scene: Scene, table: FlightTable) -> list[dict[str, Any]]:
     """What is said of each flight, with None where there is no contact."""
     heading = 0.0 if table.headings is None else table.headings
-    found = scene.first_contact(table.paths, heading, axis=table.axes)
+    contacts = scene.first_contact(table.paths, heading, axis=table.axes)
     names = [body.name for body in scene.model.hyperboloids]
-    least, answers = found.least, []
+    least, answers = contacts.least, []
     for place, name in enumerate(table.names):
-        hit = bool(found.hit[place])  # type: ignore[index]  # many flights have arrays
+        hit = bool(contacts.hit[place])  # type: ignore[index]  # many flights have arrays
         contact = {
-            "segment": int(found.segment[place]),  # type: ignore[index]
-            "time_lower": float(found.time_lower[place]), "time_upper": float(found.time_upper[place]),
-            "hyperboloid": names[int(found.index[place])], "center": found.center[place].tolist(),
+            "segment": int(contacts.segment[place]),  # type: ignore[index]
+            "time_lower": float(contacts.time_lower[place]), "time_upper": float(contacts.time_upper[place]),
+            "hyperboloid": names[int(contacts.index[place])], "center": contacts.center[place].tolist(),
         } if hit else None  # fmt: skip
         answers.append({
             "flight": name or None, "segments": max(len(table.paths[place]) - 1, 1), "hit": hit, "contact": contact,

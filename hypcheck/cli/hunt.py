@@ -84,8 +84,8 @@ def _target(
     from hypcheck.runs.hunt import target_of
     from hypcheck.runs.judge import DEFAULT_TOLERANCE
 
-    said = {"question": question, "precision": precision, "domain": domain, "regimes": regimes}
-    options = [(f"--{name}", value) for name, value in said.items() if value is not None]
+    claims = {"question": question, "precision": precision, "domain": domain, "regimes": regimes}
+    options = [(f"--{name}", value) for name, value in claims.items() if value is not None]
     if tolerance != DEFAULT_TOLERANCE:
         options.append(("--tolerance", repr(tolerance)))
     with _opened(spec, question, precision, domain, limits) as implementation:
@@ -183,13 +183,13 @@ def _print_findings(run: Hunt, show: int, out: Path | None) -> None:
 
     for line in hunt_lines(run, show):
         click.echo(printable(line))
-    found = run.worst_first()
-    if out is not None and found:
+    clusters = run.worst_first()
+    if out is not None and clusters:
         from hypcheck.geometry.pair import UPRIGHT, WITHOUT_ENDS
         from hypcheck.vectors.freezing import keep_rows
 
         made_by = f"hypcheck hunt {shlex.quote(run.target.spec)} --seed {run.plan.seed}"
-        rows = [cluster.worst.case.row for cluster in found]
+        rows = [cluster.worst.case.row for cluster in clusters]
         used, layout = run.target.implementation.description, run.target.layout
         if used.tilt or used.heights:
             rows = [row if layout.has_axis(row) else (*row, *UPRIGHT) for row in rows]
@@ -314,12 +314,12 @@ def replay(
     from hypcheck.runs.replay import replay as run
     from hypcheck.runs.replay_results import replay_as_json, replay_lines
 
-    asked = case_of(case)
+    case_asked = case_of(case)
     require_formula(formula)
     with _opened(spec, question, precision, domain, limits) as implementation:
         used = implementation.description
         criterion = Criterion(used.question, used.precision, Fraction(tolerance))
-        done = run(asked, implementation, criterion, formula)
+        done = run(case_asked, implementation, criterion, formula)
     shown = values or formula is not None
     for line in [replay_as_json(done)] if as_json else replay_lines(done, _in_ledger, values=shown):
         click.echo(printable(line))
@@ -355,7 +355,7 @@ def explain(name: str | None, form: str) -> None:
     from hypcheck.runs import explain as known
 
     if name is None:
-        causes = [known.brief(each) for each in known.BY_ID.values()]
+        causes = [known.brief(cause) for cause in known.BY_ID.values()]
         lines = [known.as_json(causes)] if form == "json" else known.listed()
     else:
         cause = known.cause_with_id(name)

@@ -86,10 +86,10 @@ def _command_line(words: list[str]) -> Iterator[click.Context]:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):  # for a terminal that cannot show α
             stream.reconfigure(errors="backslashreplace")
-    if asked := os.environ.get(COMPLETE):
+    if shell := os.environ.get(COMPLETE):
         from hypcheck.cli.commands import answer_shell
 
-        answer_shell(asked)
+        answer_shell(shell)
         raise click.exceptions.Exit(0)
     try:
         with hypcheck.make_context("hypcheck", list(words)) as context:
@@ -130,9 +130,11 @@ def _terminable() -> Iterator[None]:
 
     So does SIGHUP, which a closed terminal sends, unless it is ignored (nohup).
     """
-    wanted = [each for each in _ENDING if each == signal.SIGTERM or signal.getsignal(each) is not signal.SIG_IGN]
+    wanted = [
+        number for number in _ENDING if number == signal.SIGTERM or signal.getsignal(number) is not signal.SIG_IGN
+    ]
     try:
-        before = {each: signal.signal(each, _terminate) for each in wanted}
+        before = {number: signal.signal(number, _terminate) for number in wanted}
     except ValueError:  # not in the main thread, where no handler can be set
         yield
         return
@@ -141,8 +143,8 @@ def _terminable() -> Iterator[None]:
         yield
     finally:
         sys.unraisablehook = hook
-        for each, handler in before.items():
-            signal.signal(each, handler)
+        for number, handler in before.items():
+            signal.signal(number, handler)
 
 
 _ENDING = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]

@@ -200,8 +200,8 @@ def tower(
     flown = table is not None or pitch is not None
     if runs is not None and not flown:
         raise InputError("--runs is for the table; it needs --table 5 or --pitch")
-    each = (1000 if runs is None else runs) if flown else 0
-    plan = TowerPlan(_scene(name), seed, speed, time, each, flags["continuous"], pitch, flags["ends"])
+    flights = (1000 if runs is None else runs) if flown else 0
+    plan = TowerPlan(_scene(name), seed, speed, time, flights, flags["continuous"], pitch, flags["ends"])
     moves = [block.moves for blocks in plan.blocks().values() for block in blocks]
     count = min(workers or usable_processors(), len(moves))
     with _ready_folder("tower", out), processes(count) as executor, watched(sum(moves), "flights") as pace:

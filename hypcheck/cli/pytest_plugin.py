@@ -60,8 +60,8 @@ def _refused(specs: Iterable[object], options: Mapping[str, Any]) -> str | None:
             return f"has {spec!r} as SPEC; it must be a text such as 'python:mine.py:position'"
         if str(spec).startswith("-"):
             return f"has {str(spec)!r} as SPEC; an option is written as a keyword: tolerance=16"
-    found = next((name for name in GATES_NOTHING if options.get(name)), None)
-    return f"has {found}={options[found]!r}, which {GATES_NOTHING[found]} and gates nothing" if found else None
+    option = next((name for name in GATES_NOTHING if options.get(name)), None)
+    return f"has {option}={options[option]!r}, which {GATES_NOTHING[option]} and gates nothing" if option else None
 
 
 @pytest.hookimpl(tryfirst=True)
@@ -86,8 +86,8 @@ def gate(specs: Iterable[object], options: Mapping[str, Any], root: Path) -> str
         ended = subprocess.run(command, cwd=root, env=environment, capture_output=True, check=False)  # noqa: S603
         if ended.returncode == 0:
             return None
-        said = ended.stderr.decode("utf-8", "replace").strip()
-        return _told(out) or f"hypcheck verify ended with {ended.returncode}: {said}"
+        errors = ended.stderr.decode("utf-8", "replace").strip()
+        return _told(out) or f"hypcheck verify ended with {ended.returncode}: {errors}"
 
 
 def _words(options: Mapping[str, Any]) -> Iterator[str]:
@@ -128,4 +128,4 @@ def _worst(record: Record, failed: list[Failure]) -> Failure:
     from hypcheck.report.model import worst_u
 
     errors = {group.family: worst_u(group) for group in record.of(GroupLine)}
-    return max(failed, key=lambda each: errors.get(each.group, 0.0) if each.kind == "wrong" else 0.0)
+    return max(failed, key=lambda failure: errors.get(failure.group, 0.0) if failure.kind == "wrong" else 0.0)

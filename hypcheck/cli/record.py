@@ -56,14 +56,18 @@ def report(record: Path, formats: tuple[str, ...], out: Path | None, against: Pa
     elif target is None:
         _into_folder(found, out, wanted or kept_formats(), other)
     else:
-        if any(same_file(str(out), str(file_and_newer(each)[0])) for each in (record, against) if each is not None):
+        if any(
+            same_file(str(out), str(file_and_newer(other_record)[0]))
+            for other_record in (record, against)
+            if other_record is not None
+        ):
             raise InputError(f"--out {out} is a record that is being read; name another file")
         _into_file(found, record, out, target, other)
 
 
 def _require_comparing(wanted: Sequence[str], against: Path | None) -> None:
     """Raise InputError if none of the wanted formats shows the comparison."""
-    comparing = [name for name, each in REPORTS.items() if each.compares]
+    comparing = [name for name, report in REPORTS.items() if report.compares]
     if against is not None and wanted and not set(wanted) & set(comparing):
         raise InputError(f"--against is shown only by {', '.join(comparing)}, not by {', '.join(wanted)}")
 
@@ -74,8 +78,8 @@ def _file_format(out: Path, wanted: Sequence[str]) -> str | None:
         return None
     if wanted:
         return wanted[0]
-    named = [name for name, each in REPORTS.items() if each.file == out.name]
-    alike = [name for name, each in REPORTS.items() if each.by_suffix and Path(each.file).suffix == out.suffix]
+    named = [name for name, report in REPORTS.items() if report.file == out.name]
+    alike = [name for name, report in REPORTS.items() if report.by_suffix and Path(report.file).suffix == out.suffix]
     usual = [name for name in alike if name in kept_formats()]
     found = named or usual or alike
     if len(found) != 1:
@@ -124,14 +128,14 @@ def _beside(source: Path, out: Path) -> list[str]:
     folder = source if source.is_dir() else source.parent
     if folder.resolve() != out.parent.resolve():
         return []
-    return [each.file for each in REPORTS.values() if (folder / each.file).is_file()]
+    return [report.file for report in REPORTS.values() if (folder / report.file).is_file()]
 
 
 def _into_folder(record: Record, out: Path, wanted: Sequence[str], against: Record | None) -> None:
     from hypcheck.report.write import write_reports
 
-    for each in write_reports(record, out, wanted, against):
-        click.echo(printable(each.path if each.skipped is None else f"no {each.path.name}: {each.skipped}"))
+    for written in write_reports(record, out, wanted, against):
+        click.echo(printable(written.path if written.skipped is None else f"no {written.path.name}: {written.skipped}"))
 
 
 @click.group("record", cls=CommandGroup, short_help="Check a record's checksums, and repair a damaged record.")
@@ -154,12 +158,16 @@ def check(context: click.Context, /, record: Path) -> None:
     from hypcheck.record.reader import file_and_newer
 
     file, newer = file_and_newer(record)
-    found = condition_of(file)
-    sums = "with their checksums" if found.sealed else f"without checksums, which schema {found.schema} does not have"
-    click.echo(f"{escaped(file)}: {_kept(found)}, {sums}; {_ending(found)}")
+    condition = condition_of(file)
+    sums = (
+        "with their checksums"
+        if condition.sealed
+        else f"without checksums, which schema {condition.schema} does not have"
+    )
+    click.echo(f"{escaped(file)}: {_kept(condition)}, {sums}; {_ending(condition)}")
     if newer:
         click.echo(f"this is an older run: {escaped(newer)}")
-    context.exit(Exit.HELD if found.complete and not newer else Exit.WRONG)
+    context.exit(Exit.HELD if condition.complete and not newer else Exit.WRONG)
 
 
 @record_.command(short_help="Keep everything up to the last good line.")
@@ -178,22 +186,22 @@ def repair(record: Path, out: Path) -> None:
     from hypcheck.record.integrity import repair as repaired
     from hypcheck.record.reader import file_of
 
-    found = repaired(file_of(record), out)
+    condition = repaired(file_of(record), out)
     beside = str(out) == STREAM
-    click.echo(f"{escaped(out)}: {_kept(found)}; {_ending(found)}", err=beside)
-    if found.why:
-        click.echo(f"lost: {escaped(found.why)}", err=beside)
+    click.echo(f"{escaped(out)}: {_kept(condition)}; {_ending(condition)}", err=beside)
+    if condition.why:
+        click.echo(f"lost: {escaped(condition.why)}", err=beside)
 
 
-def _kept(found: FileCondition) -> str:
-    return f"{counted(found.lines, 'good line')}, {counted(found.size, 'byte')}"
+def _kept(condition: FileCondition) -> str:
+    return f"{counted(condition.lines, 'good line')}, {counted(condition.size, 'byte')}"
 
 
-def _ending(found: FileCondition) -> str:
-    if found.complete and not found.lost_bytes:
-        return f"it is complete, of a run that ended with {escaped(found.exit_code, 40)}"
-    if not found.lost_bytes:
+def _ending(condition: FileCondition) -> str:
+    if condition.complete and not condition.lost_bytes:
+        return f"it is complete, of a run that ended with {escaped(condition.exit_code, 40)}"
+    if not condition.lost_bytes:
         return "it has no footer, so it is cut off, or its run was interrupted"
-    verb = "is" if found.lost_bytes == 1 else "are"
-    lost = f"{counted(found.lost_bytes, 'byte')} ({counted(found.lost_lines, 'line')})"
-    return f"{lost} from byte {found.size} on {verb} lost"
+    verb = "is" if condition.lost_bytes == 1 else "are"
+    lost = f"{counted(condition.lost_bytes, 'byte')} ({counted(condition.lost_lines, 'line')})"
+    return f"{lost} from byte {condition.size} on {verb} lost"

@@ -40,16 +40,16 @@ def plan(scene: str, precision: str, question: str | None, measure: bool, as_jso
 
     from hypcheck.kernel.emission.plan_text import plan_as_json, plan_lines
 
-    found = planned(scene, precision, question)
-    times = list(_measured(found)) if measure else []
+    plan = planned(scene, precision, question)
+    times = list(_measured(plan)) if measure else []
     if as_json:
         measured = {"measured": times} if measure else {}
-        click.echo(json.dumps(plan_as_json(found) | measured))
+        click.echo(json.dumps(plan_as_json(plan) | measured))
         return
-    for text in plan_lines(found):
+    for text in plan_lines(plan):
         click.echo(printable(text))
-    for place, each in enumerate(times, start=1):
-        click.echo(printable(f"{place}. {each['says']}"))
+    for place, took in enumerate(times, start=1):
+        click.echo(printable(f"{place}. {took['says']}"))
 
 
 def planned(scene: str, precision: str, question: str | None) -> ScenePlan:
@@ -67,15 +67,15 @@ def asked_scene(scene: str, question: str | None) -> SceneModel:
     from hypcheck.scene.model import QUESTIONS
     from hypcheck.scene.reading import read_scene
 
-    found = read_scene(scene)
+    model = read_scene(scene)
     if question is not None:
         if question not in QUESTIONS:
             raise InputError(f"the question is {question!r}; it must be one of {', '.join(QUESTIONS)}")
-        found = replace(found, question=question)
-    return found
+        model = replace(model, question=question)
+    return model
 
 
-def _measured(found: ScenePlan) -> Iterator[dict[str, Any]]:
+def _measured(plan: ScenePlan) -> Iterator[dict[str, Any]]:
     """The saving of each setting. Raises UnavailableError if there is no C compiler."""
     from pathlib import Path
     from tempfile import TemporaryDirectory
@@ -83,7 +83,7 @@ def _measured(found: ScenePlan) -> Iterator[dict[str, Any]]:
     from hypcheck.bench.scene import kernel_savings
 
     with TemporaryDirectory(prefix="hypcheck-plan-") as folder:
-        yield from kernel_savings(found, Path(folder))
+        yield from kernel_savings(plan, Path(folder))
 
 
 LANGUAGES = ("c", "cpp", "rust", "javascript", "python")

@@ -95,7 +95,9 @@ def in_effect(context: click.Context, unused: Collection[str] = ()) -> SettingsP
         return None
     from hypcheck.record.lines import SettingsPart, WeakenedPart
 
-    return SettingsPart(file=None if settings is None else FILE, weakened=[WeakenedPart(**each) for each in weakened])
+    return SettingsPart(
+        file=None if settings is None else FILE, weakened=[WeakenedPart(**option) for option in weakened]
+    )
 
 
 def print_settings(settings: SettingsPart | None) -> None:
@@ -110,9 +112,9 @@ def print_file_settings() -> None:
     """Print the settings that came from the file, for a command that makes no report."""
     from msgspec.structs import replace
 
-    found = in_effect(click.get_current_context())
-    if found is not None and found.file is not None:
-        print_settings(replace(found, weakened=[each for each in found.weakened if each.source == found.file]))
+    part = in_effect(click.get_current_context())
+    if part is not None and part.file is not None:
+        print_settings(replace(part, weakened=[option for option in part.weakened if option.source == part.file]))
 
 
 def _leaves_out_families(value: str) -> bool:
@@ -186,7 +188,7 @@ def _shown(value: object) -> str:
 
 
 def _texts(value: object) -> tuple[str, ...]:
-    if not isinstance(value, list) or not value or not all(isinstance(each, str) and each for each in value):
+    if not isinstance(value, list) or not value or not all(isinstance(text, str) and text for text in value):
         raise ValueError('a list of texts, such as ["command:./adapter"]')
     return tuple(value)
 
@@ -194,7 +196,7 @@ def _texts(value: object) -> tuple[str, ...]:
 def _names(value: object) -> str:
     """A list of names and globs in the form of the option: separated by commas."""
     parts = [value] if isinstance(value, str) else value
-    if not isinstance(parts, list) or not parts or not all(isinstance(each, str) and each.strip() for each in parts):
+    if not isinstance(parts, list) or not parts or not all(isinstance(part, str) and part.strip() for part in parts):
         raise ValueError('names and globs, such as ["ring", "tower-*"]')
     return ",".join(parts)
 

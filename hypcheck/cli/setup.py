@@ -117,8 +117,8 @@ def info(as_json: bool) -> None:
     """
     import json
 
-    found = installation()
-    click.echo(json.dumps(found) if as_json else "\n".join(_lines(found)))
+    facts = installation()
+    click.echo(json.dumps(facts) if as_json else "\n".join(_lines(facts)))
 
 
 def installation() -> dict[str, Any]:
@@ -161,25 +161,25 @@ def _version(name: str) -> str | None:
         return None
 
 
-def _lines(found: dict[str, Any]) -> list[str]:
-    kernel = found["kernel"]
+def _lines(facts: dict[str, Any]) -> list[str]:
+    kernel = facts["kernel"]
     level = f", {kernel['level']}" if kernel["level"] else ""
-    present = [f"{name} {text}" for name, text in found["versions"].items() if text]
-    absent = [name for name, text in found["versions"].items() if not text]
+    present = [f"{name} {text}" for name, text in facts["versions"].items() if text]
+    absent = [name for name, text in facts["versions"].items() if not text]
     threads = f"{kernel['threads']} thread{'s' if kernel['threads'] > 1 else ''}"
     return [
-        f"hypcheck   {found['hypcheck']}, Python {found['python']} on {found['system']}",
+        f"hypcheck   {facts['hypcheck']}, Python {facts['python']} on {facts['system']}",
         f"libraries  {', '.join(present)}" + (f"; not installed: {', '.join(absent)}" if absent else ""),
         f"kernel     {kernel['name']}{level}, up to {threads}: {kernel['reason']}",
-        f"C header   {found['header']}",
-        *_availability("oracles", found["oracles"]),
-        *_availability("engines", found["engines"]),
+        f"C header   {facts['header']}",
+        *_availability("oracles", facts["oracles"]),
+        *_availability("engines", facts["engines"]),
     ]
 
 
-def _availability(title: str, found: dict[str, dict[str, Any]]) -> list[str]:
+def _availability(title: str, parts: dict[str, dict[str, Any]]) -> list[str]:
     lines = [
-        f"{name}: {'available' if each['available'] else 'not available: ' + each['reason']}"
-        for name, each in found.items()
+        f"{name}: {'available' if part['available'] else 'not available: ' + part['reason']}"
+        for name, part in parts.items()
     ]
-    return [f"{title if place == 0 else '':11}{each}" for place, each in enumerate(lines)]
+    return [f"{title if place == 0 else '':11}{line}" for place, line in enumerate(lines)]

@@ -111,19 +111,19 @@ def _conformance(specs: tuple[str, ...], options: Mapping[str, Any], title: str,
     return running.exit_code
 
 
-def _fresh_seed(asked: str | None, resume: Path | None) -> int | None:
+def _fresh_seed(text: str | None, resume: Path | None) -> int | None:
     """The seed of the fresh rows, None without any: as asked; that of the run that is resumed; drawn in CI."""
     from hypcheck.record.reader import interrupted_in, read
     from hypcheck.runs.cases import FRESH_SEEDS
 
-    if asked == "off":
+    if text == "off":
         return None
-    if asked is not None and asked != "auto":
-        return int(asked)
+    if text is not None and text != "auto":
+        return int(text)
     if resume is not None:
         before = read(interrupted_in(resume)).header.options.get("fresh")
         return before if isinstance(before, int) else None
-    return FRESH_SEEDS + secrets.randbelow(FRESH_SEEDS) if in_ci() or asked else None
+    return FRESH_SEEDS + secrets.randbelow(FRESH_SEEDS) if in_ci() or text else None
 
 
 def _recorded(plan: ConformancePlan, options: Mapping[str, Any]) -> dict[str, Any]:

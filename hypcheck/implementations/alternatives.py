@@ -55,9 +55,9 @@ def dual(precision: str) -> ByColumns:
     """The dual form on columns, with all computation including the search in one float format."""
 
     def sides(columns: Mapping[str, Any]) -> Answers:
-        found = searched(columns, precision)
-        (phi,) = outputs(_PHI, float_arithmetic(precision), found, ("phi",))
-        return np.where(phi > 0, np.sign(found["lambda_"]), 0).astype(np.int8)
+        values = searched(columns, precision)
+        (phi,) = outputs(_PHI, float_arithmetic(precision), values, ("phi",))
+        return np.where(phi > 0, np.sign(values["lambda_"]), 0).astype(np.int8)
 
     return sides
 
@@ -147,16 +147,16 @@ def _root_sides(A: Any, B: Any, c0: Any, c1: Any, c2: Any, delta: NDArray[Any]) 
 def numpy_roots(rows: Rows) -> Answers:
     """Positions (n,) by numpy.roots; a root is real if its imaginary part is 0."""
     A, B, c0, c1, c2 = _COEFFICIENTS(dict(zip(COLUMNS, rows.T, strict=True)))
-    found = np.zeros(len(rows), dtype=np.int8)
+    answers = np.zeros(len(rows), dtype=np.int8)
     for place, coefficients in enumerate(np.column_stack([np.ones(len(rows)), c2, c1, c0])):
         if not np.isfinite(coefficients).all():
-            found[place] = CANNOT_SAY
+            answers[place] = CANNOT_SAY
             continue
         values = np.roots(coefficients)
         if len(values) == 3 and (not np.iscomplexobj(values) or not values.imag.any()):
             lowest, middle, _ = np.sort(values.real)
-            found[place] = _side(lowest, middle, A[place], B[place])
-    return found
+            answers[place] = _side(lowest, middle, A[place], B[place])
+    return answers
 
 
 def mpmath_roots(rows: Rows, digits: int) -> Answers:

@@ -205,8 +205,8 @@ def passage_mesh_methods() -> dict[str, Method]:
 
 
 def _way_mesh_method(solver: SweepSolver) -> Method:
-    found = _passage_method(solver.name, solver.title, partial(hits_and_times, solver), max_rows=FCL_ROWS)
-    return found if solver.times else replace(found, timed=None)
+    method = _passage_method(solver.name, solver.title, partial(hits_and_times, solver), max_rows=FCL_ROWS)
+    return method if solver.times else replace(method, timed=None)
 
 
 def builtin(name: str) -> Method:
@@ -263,7 +263,7 @@ class BuiltinSession:
         start = time.perf_counter_ns()
         for _ in range(repeat):
             answers = [self.method.answer(part) for part in parts]
-        return time.perf_counter_ns() - start, sum(int(each.sum(dtype=np.int64)) for each in answers)
+        return time.perf_counter_ns() - start, sum(int(answer.sum(dtype=np.int64)) for answer in answers)
 
     def advice(self, reason: str) -> str:  # noqa: ARG002 - it is not isolated
         """Nothing."""

@@ -110,24 +110,24 @@ class Description:
 
         It also raises that if the question is about other rows than those that the description declares.
         """
-        found = replace(
+        changed = replace(
             self,
             precision=self.precision if precision is None else _one_of(PRECISIONS)(precision, "the precision"),
             question=self.question if question is None else _one_of(QUESTIONS)(question, "the question"),
             domain=domain or self.domain,
         )
-        if found.asked.layout != self.asked.layout:
+        if changed.asked.layout != self.asked.layout:
             raise InputError(
-                f"the question is {found.question!r}, but {self.name} describes itself as answering {self.question!r}, "
-                f'about other rows; its description must say "question": "{found.question}"'
+                f"the question is {changed.question!r}, but {self.name} describes itself as answering "
+                f'{self.question!r}, about other rows; its description must say "question": "{changed.question}"'
             )
-        return found
+        return changed
 
 
 def described(raw: object, defaults: Description, required: tuple[str, ...] = ()) -> Description:
     """The description in a mapping, completed from `defaults`; raises InputError naming key and value."""
-    found = object_of(raw, "the description", tuple(_KEYS), required)
-    values: dict[str, Any] = {key: _KEYS[key](value, f"the description's {key}") for key, value in found.items()}
+    content = object_of(raw, "the description", tuple(_KEYS), required)
+    values: dict[str, Any] = {key: _KEYS[key](value, f"the description's {key}") for key, value in content.items()}
     values.pop("protocol", None)
     taken = values.pop("takes", ())
     if "axis" in taken and values.get("tilt") is False:
@@ -205,7 +205,7 @@ def _one_of(choices: Collection[str]) -> Callable[[object, str], str]:
 _truth_value = _checked(lambda value: isinstance(value, bool), "true or false")
 _protocol = _checked(lambda value: value == PROTOCOL and not isinstance(value, bool), f"{PROTOCOL}, the only version")
 _names = _checked(
-    lambda value: isinstance(value, list) and all(isinstance(each, str) for each in value), "a list of names"
+    lambda value: isinstance(value, list) and all(isinstance(name, str) for name in value), "a list of names"
 )
 
 
@@ -246,28 +246,28 @@ def _range(value: object, where: str) -> tuple[float, float]:
 def _settings(value: object, where: str) -> tuple[FixedSizes, ...]:
     if not isinstance(value, list) or not value:
         raise _wrong(value, where, "a list of mappings with sizes, and optionally x, y, z, axis")
-    return tuple(_setting(each, f"{where}[{place}]") for place, each in enumerate(value))
+    return tuple(_setting(item, f"{where}[{place}]") for place, item in enumerate(value))
 
 
 def _setting(value: object, where: str) -> FixedSizes:
-    found = object_of(value, where, ("sizes", *CENTER, "axis"), required=("sizes",))
-    listed = _list(found["sizes"], len(SIZES), f"{where}'s sizes", f"four numbers, {', '.join(SIZES)}")
-    alpha, gamma, b, d = (_number(each, f"{where}'s sizes") for each in listed)
+    content = object_of(value, where, ("sizes", *CENTER, "axis"), required=("sizes",))
+    listed = _list(content["sizes"], len(SIZES), f"{where}'s sizes", f"four numbers, {', '.join(SIZES)}")
+    alpha, gamma, b, d = (_number(size, f"{where}'s sizes") for size in listed)
     for name, size in zip(SIZES, (alpha, gamma, b, d), strict=True):
         trouble = trouble_with(name, size)
         if trouble is not None:
             raise InputError(f"{where}'s sizes: {trouble}")
-    spans = {key: _range(found[key], f"{where}'s {key}") for key in CENTER if key in found}
+    spans = {key: _range(content[key], f"{where}'s {key}") for key in CENTER if key in content}
     for key, (low, high) in spans.items():
         if not low <= high:
             raise InputError(f"{where}'s {key} is [{low}, {high}]; it must be two numbers, the least first")
-    return FixedSizes((alpha, gamma, b, d), **spans, axis=_axis(found.get("axis"), f"{where}'s axis"))
+    return FixedSizes((alpha, gamma, b, d), **spans, axis=_axis(content.get("axis"), f"{where}'s axis"))
 
 
 def _axis(value: object, where: str) -> tuple[float, float, float] | Literal["free"] | None:
     if value is None or value == "free":
         return "free" if value else None
-    x, y, z = (_number(each, where) for each in _list(value, len(AXIS), where, 'three numbers, or "free"'))
+    x, y, z = (_number(number, where) for number in _list(value, len(AXIS), where, 'three numbers, or "free"'))
     if not all(map(math.isfinite, (x, y, z))) or not (x or y or z):
         raise _wrong(value, where, "three finite numbers, not all of them 0")
     return x, y, z
@@ -293,8 +293,8 @@ _DOMAIN_KEYS: Mapping[str, Callable[[object, str], Any]] = MappingProxyType(
 
 def domain_of(value: object, where: str) -> Domain:
     """The domain in a mapping; raises InputError naming key and value."""
-    found = object_of(value, where, tuple(_DOMAIN_KEYS), required=())
-    return Domain(**{key: _DOMAIN_KEYS[key](each, f"{where}'s {key}") for key, each in found.items()})
+    content = object_of(value, where, tuple(_DOMAIN_KEYS), required=())
+    return Domain(**{key: _DOMAIN_KEYS[key](item, f"{where}'s {key}") for key, item in content.items()})
 
 
 _KEYS: Mapping[str, Callable[[object, str], object]] = MappingProxyType(

@@ -217,11 +217,11 @@ def reasons(
         "ratio": lambda some: replace(domain, magnitude=UNBOUNDED).holds(some, extreme=extreme, layout=layout),
         "magnitude": lambda some: domain.holds(some, extreme=extreme, layout=layout),
     }
-    found, left = dict[str, int](), rows
+    counts, left = dict[str, int](), rows
     with np.errstate(all="ignore"):
         for reason, holds in conditions.items():
             held = holds(left)
             if not held.all():
-                found[reason] = len(left) - int(np.count_nonzero(held))
+                counts[reason] = len(left) - int(np.count_nonzero(held))
                 left = left[held]
-    return found
+    return counts

@@ -121,8 +121,8 @@ class PythonFunction:
             has = "nothing with that name" if function is None else f"a {type(function).__name__}"
             raise LoadError(f"{target!r} has no function {name!r}; it has {has}")
         self._function: Callable[[Rows], Any] = function
-        found = getattr(module, "hypcheck", None)  # a module after `import hypcheck`
-        self.description = "" if found is None or isinstance(found, ModuleType) else description_as_json(found)
+        given = getattr(module, "hypcheck", None)  # a module after `import hypcheck`
+        self.description = "" if given is None or isinstance(given, ModuleType) else description_as_json(given)
 
     def classify(self, rows: Rows, call: CallForm) -> GivenAnswers:
         """Answers to rows; raises ContractError if the function returns no array of n integers, or no times beside."""
@@ -155,13 +155,13 @@ def error_text(error: BaseException) -> str:
         text += "".join(f"; sys.path has {folder!r}, which is not there" for folder in _missing_folders())
     if isinstance(error, SyntaxError):
         return f"raised {text} ({os.path.basename(error.filename or '?')}, line {error.lineno})"
-    files = [(each.filename, each.lineno) for each in traceback.extract_tb(error.__traceback__)]
+    files = [(frame.filename, frame.lineno) for frame in traceback.extract_tb(error.__traceback__)]
     foreign = [
         (file, line) for file, line in files if not file.startswith(_NOT_UNDER_TEST) or file.startswith(_INSTALLED)
     ]
     foreign = [(file, line) for file, line in foreign if not file.startswith(_OURS)]
     # The last line of the code under test, not of packages that it calls: a line of numpy would not help.
-    written = [each for each in foreign if not each[0].startswith(_INSTALLED)] or foreign[:1]
+    written = [place for place in foreign if not place[0].startswith(_INSTALLED)] or foreign[:1]
     return f"raised {text}" + (f" ({os.path.basename(written[-1][0])}, line {written[-1][1]})" if written else "")
 
 

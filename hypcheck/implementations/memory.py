@@ -64,11 +64,11 @@ def new_environment_mark() -> str:
 def end_marked(mark: str) -> None:
     """Kill all processes with the mark, as far as permissions allow."""
     for _ in range(_ROUNDS):
-        found = list(_marked(mark))
-        for process in found:
+        processes = list(_marked(mark))
+        for process in processes:
             with suppress(OSError):
                 os.kill(process, signal.SIGKILL)
-        if not found:
+        if not processes:
             return
 
 
@@ -149,7 +149,7 @@ class MemoryWatch:
             for path in glob(f"/proc/{number}/task/*/schedstat") if ours else ():
                 with suppress(OSError, IndexError), open(path, "rb") as file:  # it may end meanwhile
                     self._waits[path] = int(file.read().split()[1])
-        return max((told - before[path] for path, told in self._waits.items() if path in before), default=0) / 1e9
+        return max((waited - before[path] for path, waited in self._waits.items() if path in before), default=0) / 1e9
 
     def used(self) -> int:
         """Bytes that its processes use, with the tables of their pages; 0 if the system does not tell.
@@ -157,17 +157,17 @@ class MemoryWatch:
         If their sum exceeds the limit, shared pages count once. The system needs to visit every page for that.
         """
         ours = list(self._ours(list(_all_processes())))
-        tables = sum(_bytes_in(f"/proc/{each.number}/status", b"VmPTE:") or 0 for each in ours)
-        resident = sum(each.resident for each in ours)
+        tables = sum(_bytes_in(f"/proc/{process.number}/status", b"VmPTE:") or 0 for process in ours)
+        resident = sum(process.resident for process in ours)
         return tables + (resident if tables + resident <= self._limit else sum(map(_proportional, ours)))
 
-    def _ours(self, found: list[_ProcessMemory]) -> Iterator[_ProcessMemory]:
+    def _ours(self, processes: list[_ProcessMemory]) -> Iterator[_ProcessMemory]:
         known = self._known
-        self._known = {each.identity: known[each.identity] for each in found if each.identity in known}
+        self._known = {process.identity: known[process.identity] for process in processes if process.identity in known}
         children: dict[int, list[_ProcessMemory]] = {}
-        for each in found:
+        for each in processes:
             children.setdefault(each.parent, []).append(each)
-        todo = [each for each in found if self._is_ours(each)]
+        todo = [process for process in processes if self._is_ours(process)]
         while todo:
             each = todo.pop()
             yield each
@@ -176,13 +176,13 @@ class MemoryWatch:
                     self._known[child.identity] = True
                     todo.append(child)
 
-    def _is_ours(self, each: _ProcessMemory) -> bool:
+    def _is_ours(self, process: _ProcessMemory) -> bool:
         """Whether a process belongs to the program by its group, session or mark; checked once for each process."""
-        if each.identity not in self._known:
-            self._known[each.identity] = is_marked(each.number, self._mark)
-        if self._leader in {each.group, each.session}:
-            self._known[each.identity] = True
-        return self._known[each.identity]
+        if process.identity not in self._known:
+            self._known[process.identity] = is_marked(process.number, self._mark)
+        if self._leader in {process.group, process.session}:
+            self._known[process.identity] = True
+        return self._known[process.identity]
 
 
 def _all_processes() -> Iterable[_ProcessMemory]:
@@ -219,10 +219,10 @@ def _by_ps() -> Iterator[_ProcessMemory]:
             yield _ProcessMemory(number, parent, group, 0, 0, kib << 10)
 
 
-def _proportional(each: _ProcessMemory) -> int:
+def _proportional(process: _ProcessMemory) -> int:
     """Bytes that a process uses, with its share of shared pages; all resident bytes if the system does not tell."""
-    told = _bytes_in(f"/proc/{each.number}/smaps_rollup", b"Pss:")
-    return each.resident if told is None else told
+    proportional = _bytes_in(f"/proc/{process.number}/smaps_rollup", b"Pss:")
+    return process.resident if proportional is None else proportional
 
 
 def _bytes_in(path: str, name: bytes) -> int | None:

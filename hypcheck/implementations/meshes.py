@@ -267,8 +267,8 @@ def scene_mesh(engine: MeshLibrary, pairing: str, sizes: Sizes, height: float, t
 
 def rows_by_sizes(rows: Rows) -> Iterator[tuple[Sizes, NDArray[np.intp]]]:
     """The sizes that occur, each with the indices of its rows."""
-    found, scene_of = np.unique(rows[:, :4], axis=0, return_inverse=True)
-    for index, (alpha, gamma, b, d) in enumerate(found.tolist()):
+    scenes, scene_of = np.unique(rows[:, :4], axis=0, return_inverse=True)
+    for index, (alpha, gamma, b, d) in enumerate(scenes.tolist()):
         yield (alpha, gamma, b, d), np.flatnonzero(scene_of.reshape(-1) == index)
 
 

@@ -108,11 +108,11 @@ def parts(formula: Formula) -> tuple[Program, Program]:
 
 def in_chunks(count: int, answer: Callable[[slice], Any]) -> Answers:
     """The answers of `count` rows, CHUNK at a time; int8 (n,)."""
-    found = np.empty(count, dtype=np.int8)
+    answers = np.empty(count, dtype=np.int8)
     for start in range(0, count, CHUNK):
         part = slice(start, start + CHUNK)
-        found[part] = answer(part)
-    return found
+        answers[part] = answer(part)
+    return answers
 
 
 def with_reciprocals(formula: Formula, fixed: Collection[str]) -> Formula:
@@ -122,7 +122,7 @@ def with_reciprocals(formula: Formula, fixed: Collection[str]) -> Formula:
     """
     program = formula.program
     known = {*fixed, *(step.name for step in hoist(program, fixed).outside)}
-    steps = tuple(each for step in program.steps for each in _changed(step, known))
+    steps = tuple(part for step in program.steps for part in _changed(step, known))
     return replace(formula, name=f"{formula.name}-reciprocal", program=Program(program.name, program.inputs, steps))
 
 

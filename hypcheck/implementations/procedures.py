@@ -94,12 +94,12 @@ def procedure_2b(
     def chunk(part: slice) -> Answers:
         here = flight.part(part)
         touching, inside = hull(here.columns)
-        found = np.asarray(inside).astype(np.int8)
+        answers = np.asarray(inside).astype(np.int8)
         places = np.flatnonzero(touching)
         if len(places):
             on_rotors(left := here.part(places))
-            found[places] = rotors(left.columns)[0]
-        return found
+            answers[places] = rotors(left.columns)[0]
+        return answers
 
     return in_chunks(len(flight), chunk)
 
@@ -107,17 +107,17 @@ def procedure_2b(
 def certified(flight: CraftPath) -> Answers:
     """1 if the body is interior, or its four rotors are: exact except for the rounded centres of the rotors."""
     alpha, gamma, b, d, b_s, d_s, l = (flight.craft[name] for name in CRAFT)  # noqa: E741 - the paper's letter
-    found = np.zeros(len(flight), dtype=np.int8)
+    answers = np.zeros(len(flight), dtype=np.int8)
     hull = numpy_kernel.positions_of_scene((alpha, gamma, b, d), flight.x, flight.y, flight.z)
-    found[hull == -1] = 1
+    answers[hull == -1] = 1
     places = np.flatnonzero(hull == 0)
     left = flight.part(places)
     fits = np.ones(len(places), dtype=bool)
     for across, aside in rotors_at(left.cosine, left.sine, l):
         rotor = numpy_kernel.positions_of_scene((alpha, gamma, b_s, d_s), left.x + across, left.y + aside, left.z)
         fits &= rotor == -1
-    found[places[fits]] = 1
-    return found
+    answers[places[fits]] = 1
+    return answers
 
 
 def rotors_at(cosine: Floats, sine: Floats, arm: float) -> list[tuple[Floats, Floats]]:

@@ -310,7 +310,7 @@ class CommandSession(ProcessSession):
             raise broken(f"it wrote {quoted(process.incoming)} when nothing was asked")
         process.send(chain((f"{question}\n".encode(),), body))
         length, second = self._await(reply, again, size)
-        said = bytes(process.incoming[:length])
+        answer = bytes(process.incoming[:length])
         del process.incoming[:length]
         if second:
             length, _ = self._await(second)
@@ -321,7 +321,7 @@ class CommandSession(ProcessSession):
             raise FaultError(Outcome.ERROR, f"it reported an error: {reply.error}", fatal=process.sending)
         if process.sending:
             raise broken("it replied before it had read the rows")
-        return said
+        return answer
 
     def _await(self, reply: Reply, again: Rows | None = None, size: int = 0) -> tuple[int, Reply | None]:
         """The length of the reply once it is complete, and the second reply that is still to come."""

@@ -64,8 +64,8 @@ NEARNESS = 1e-6
 
 def exact(rows: Rows) -> HitsAndTimes:
     """The exact decision, and the float64 below the first contact."""
-    found = [scaled_passage(row) for row in rows.tolist()]
-    return np.array([each.hit for each in found], dtype=np.int8), np.array([each.first_lower for each in found])
+    sweeps = [scaled_passage(row) for row in rows.tolist()]
+    return np.array([sweep.hit for sweep in sweeps], dtype=np.int8), np.array([sweep.first_lower for sweep in sweeps])
 
 
 def sampled(rows: Rows, count: int) -> HitsAndTimes:
@@ -146,9 +146,9 @@ def least_distances(rows: Rows) -> Floats:
     best = np.full(n, np.inf)
     for _ in range(_ZOOMS):
         times = low[:, None] + np.linspace(0.0, 1.0, _ZOOM + 1)[None, :] * (high - low)[:, None]
-        found = distances(np.repeat(rows, _ZOOM + 1, axis=0), times.ravel()).reshape(n, _ZOOM + 1)
-        place = np.argmin(found, axis=1)
-        best = np.minimum(best, found[np.arange(n), place])
+        values = distances(np.repeat(rows, _ZOOM + 1, axis=0), times.ravel()).reshape(n, _ZOOM + 1)
+        place = np.argmin(values, axis=1)
+        best = np.minimum(best, values[np.arange(n), place])
         low = times[np.arange(n), np.maximum(place - 1, 0)]
         high = times[np.arange(n), np.minimum(place + 1, _ZOOM)]
     return best
@@ -327,8 +327,8 @@ def _polynomial(mesh: object, _b: float, _d: float) -> Meets:
         if body is None:
             return CANNOT_SAY, math.nan
         result = fcl.ContinuousCollisionResult()
-        found = fcl.continuousCollide(body, fcl.Transform(end - start), mesh, still, request, result)
-        return _solved(result, found)
+        time = fcl.continuousCollide(body, fcl.Transform(end - start), mesh, still, request, result)
+        return _solved(result, time)
 
     return meets
 

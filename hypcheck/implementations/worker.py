@@ -59,14 +59,14 @@ class WorkerChannel:
         head = bytearray(frames.REQUEST.size)
         if not self._fill(memoryview(head)):
             return None
-        asked, call, columns, n, repeat, self._mark = frames.REQUEST.unpack(head)
+        kind, call, columns, n, repeat, self._mark = frames.REQUEST.unpack(head)
         place = self._rows.place(n * 8 * columns)
         body = self._rows.bytes[place].data
         if not self._fill(body):
             return None
         if read_only:
             self._rows.read_only()
-        return asked, frames.CALLS[call], repeat, np.frombuffer(body, dtype="<f8").reshape(n, columns)
+        return kind, frames.CALLS[call], repeat, np.frombuffer(body, dtype="<f8").reshape(n, columns)
 
     def _fill(self, room: memoryview) -> bool:
         while room:
@@ -115,10 +115,10 @@ def serve(line: WorkerChannel, subject: ForeignCode) -> None:
 Reply = tuple[bytes, bytes | memoryview, int]
 
 
-def _reply(subject: ForeignCode, asked: bytes, call: CallForm, repeat: int, rows: Rows) -> Reply:
+def _reply(subject: ForeignCode, kind: bytes, call: CallForm, repeat: int, rows: Rows) -> Reply:
     try:
-        if asked != frames.CLASSIFY:
-            seconds = subject.seconds_each if asked == frames.TIME_EACH else subject.seconds
+        if kind != frames.CLASSIFY:
+            seconds = subject.seconds_each if kind == frames.TIME_EACH else subject.seconds
             return frames.TIMED, frames.TIMES.pack(*seconds(rows, repeat, call)), 8
         given = subject.classify(rows, call)
         answers = np.ascontiguousarray(given.integers)
@@ -193,11 +193,11 @@ class Leftovers:
 
     def restore(self) -> None:
         """Raise ContractError about the first thing that is not as it was."""
-        found, by_libm = mode_in_use(), self._by_libm()
+        mode, by_libm = mode_in_use(), self._by_libm()
         control = _calls.control() if _calls else (0, 0)
-        if found != "to nearest" or by_libm != self._mode:
+        if mode != "to nearest" or by_libm != self._mode:
             self._restore_arithmetic()
-            where = found if found != "to nearest" else "outside of the unit that computes float64"
+            where = mode if mode != "to nearest" else "outside of the unit that computes float64"
             raise ContractError(f"it left the rounding mode changed: {where}; a call must leave it as it was")
         if control != self._control:
             self._restore_arithmetic()
@@ -228,7 +228,7 @@ def _state() -> _State:
         locale.setlocale(locale.LC_ALL),
         _calls.handlers() if _calls else b"",
         _lowest_free_descriptor(),
-        tuple((found.st_dev, found.st_ino) for found in map(os.fstat, range(3))),
+        tuple((status.st_dev, status.st_ino) for status in map(os.fstat, range(3))),
     )
 
 
@@ -247,7 +247,7 @@ def _changes(before: _State, now: _State) -> Iterator[str]:
     if before.language != now.language:
         yield f"the locale, which is {now.language!r} now"
     if before.handlers != now.handlers:
-        pointers = (memoryview(each).cast("P") for each in (before.handlers, now.handlers))
+        pointers = (memoryview(content).cast("P") for content in (before.handlers, now.handlers))
         names = [_name(number) for number, (old, new) in enumerate(zip(*pointers, strict=True)) if old != new]
         yield f"the handler of {', '.join(names)}"
     if before.free != now.free:

@@ -45,9 +45,9 @@ def worker_files() -> tuple[str, ...]:
     """The files of these modules, with what Python compiled of them, and the compiled module beside them."""
     package = Path(__file__).resolve().parents[1]
     sources = [str(package / f"{name}.py") for name in WORKER_MODULES]
-    compiled = [cache_from_source(each) for each in sources] if sys.implementation.cache_tag else []
-    calls = [str(each) for each in package.glob("implementations/_calls.*") if each.suffix != ".pyi"]
-    return tuple(each for each in (*sources, *compiled, *calls) if os.path.exists(each))
+    compiled = [cache_from_source(source) for source in sources] if sys.implementation.cache_tag else []
+    calls = [str(path) for path in package.glob("implementations/_calls.*") if path.suffix != ".pyi"]
+    return tuple(path for path in (*sources, *compiled, *calls) if os.path.exists(path))
 
 
 _OURS = (
@@ -97,8 +97,8 @@ class WorkerSession(ProcessSession):
             description = described_by_json(described or b"{}", defaults)
         except InputError as error:
             raise StartError(str(error)) from None
-        tilt, asked = description.tilt, description.asked
-        self._call = CallForm(asked.entry, asked.layout, description.times)
+        tilt, question = description.tilt, description.asked
+        self._call = CallForm(question.entry, question.layout, description.times)
         self.scene = not description.heights and self._call._replace(scene=True).entry_name(tilt=tilt) in entries
         if spec.kind == "library":
             wide = self._call._replace(columns=True)
@@ -127,10 +127,10 @@ class WorkerSession(ProcessSession):
         nanoseconds, total = frames.TIMES.unpack(body)
         return nanoseconds, total
 
-    def _ask(self, asked: bytes, call: CallForm, rows: Rows, repeat: int, expected: bytes) -> tuple[int, bytearray]:
+    def _ask(self, kind: bytes, call: CallForm, rows: Rows, repeat: int, expected: bytes) -> tuple[int, bytearray]:
         self._process.mark()
         rows, mark = self._columns(rows), secrets.randbits(64)
-        head = frames.REQUEST.pack(asked, frames.CALLS.index(call), rows.shape[1], len(rows), repeat, mark)
+        head = frames.REQUEST.pack(kind, frames.CALLS.index(call), rows.shape[1], len(rows), repeat, mark)
         self._process.send((head, frames.row_bytes(rows)))
         what, width, body = self._reply(self._limits.timeout, mark)
         if what == expected:
@@ -166,13 +166,13 @@ class WorkerSession(ProcessSession):
 
 def _lacking(path: str, described: Description, call: CallForm) -> str:
     """That a library lacks the function that is to be called."""
-    asked, name = described.asked, call.entry_name(tilt=described.tilt)
+    question, name = described.asked, call.entry_name(tilt=described.tilt)
     rows = f"rows{len(described.columns)}" if described.tilt and not call.columns else "rows"
-    reasons = [f'"question": "{asked.name}"'] if asked.layout is not PAIRS else []
+    reasons = [f'"question": "{question.name}"'] if question.layout is not PAIRS else []
     reasons += ['"tilt": true'] if described.tilt else []
     reasons += ['"takes": ["heights"]'] if described.heights else []
     why = f", since it describes itself with {' and '.join(reasons)}" if reasons else ""
-    answers = "int8_t *positions" if asked.layout is PAIRS else "int8_t *hits, double *times"
+    answers = "int8_t *positions" if question.layout is PAIRS else "int8_t *hits, double *times"
     width = ", size_t width" if call.columns else ""
     wanted = f"void {name}(size_t n{width}, const double *{rows}, {answers})"
     return f'{path!r} has no symbol {name}; it must export {wanted}, in C++ as extern "C"{why}'

@@ -44,7 +44,7 @@ def isolation_advice(text: str, words: Sequence[str], isolation: Isolation) -> s
 def _advice(text: str, words: tuple[str, ...], isolation: Isolation, folder: str) -> str:
     view = _View(words, isolation, folder)
     word = isolation.means.word
-    return next((f"; it runs {word}, {said}" for cause in _CAUSES if (said := cause(text, view))), "")
+    return next((f"; it runs {word}, {sentence}" for cause in _CAUSES if (sentence := cause(text, view))), "")
 
 
 @dataclass(frozen=True, eq=False)
@@ -138,22 +138,22 @@ _READ_ONLY = re.compile(r"read-?only file ?system|EROFS", re.IGNORECASE)
 def _file(text: str, view: _View) -> str:
     """A file or folder that is there, or the folder of one that may have been to be made."""
     named = list(view.paths(text)) if _ABSENT.search(text) else []
-    found = next((path for path in named if view.hides(path)), "")
-    if not found:
+    hidden = next((path for path in named if view.hides(path)), "")
+    if not hidden:
         folder = next((folder for path in named if view.hides(folder := os.path.dirname(path))), "")
         return f"and does not see the folder {folder!r}, which may be why; {_TRUST}" if folder else ""
-    if within(os.path.realpath(found), str(PACKAGE)):
+    if within(os.path.realpath(hidden), str(PACKAGE)):
         return _OWN
     shown = "put it into the working directory or beside the program, or show it by --see"
-    return f"and does not see {found!r}; {shown}; {_TRUST}"
+    return f"and does not see {hidden!r}; {shown}; {_TRUST}"
 
 
 def _library(text: str, _: _View) -> str:
     """A library that the system's loader did not find; it names no folder."""
-    found = re.search(r"(\S+): cannot open shared object file", text)
+    match = re.search(r"(\S+): cannot open shared object file", text)
     shown = "show the folder by --see"
     return (
-        f"and does not see every folder that may have {found[1]}, which may be why; {shown}; {_TRUST}" if found else ""
+        f"and does not see every folder that may have {match[1]}, which may be why; {shown}; {_TRUST}" if match else ""
     )
 
 
@@ -174,8 +174,8 @@ def _rights(text: str, view: _View) -> str:
     """A file that only the superuser's rights open."""
     if os.geteuid() != 0 or not _DENIED.search(text):
         return ""
-    found = [os.stat(path) for path in view.paths(text) if os.path.exists(path)]
-    closed = any(each.st_uid and not each.st_mode & 0o004 for each in found)
+    statuses = [os.stat(path) for path in view.paths(text) if os.path.exists(path)]
+    closed = any(status.st_uid and not status.st_mode & 0o004 for status in statuses)
     return f"and has none of the superuser's rights; {_TRUST}" if closed else ""
 
 
@@ -212,7 +212,7 @@ def _unlimited(limit: int, most: int) -> bool:
 def _card(text: str, _: _View) -> str:
     """A graphics card that is there."""
     sign = re.search(r"CUDA|cudaError|\bhip[A-Z]|OpenCL|Vulkan|NVIDIA|\bGPU\b", text)
-    return f"and sees no graphics card; {_TRUST}" if sign and any(glob(each) for each in _CARDS) else ""
+    return f"and sees no graphics card; {_TRUST}" if sign and any(glob(pattern) for pattern in _CARDS) else ""
 
 
 def _call(text: str, _: _View) -> str:

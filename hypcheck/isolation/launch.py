@@ -214,28 +214,28 @@ class Launched:
         options = _options(isolation, scratch, needed, private, hidden, revealed)
         seen = environment_of(environment, scratch, isolation.variables)
         life, self._life = os.pipe()
-        report, told = os.pipe()
+        report, report_end = os.pipe()
         try:
-            own = (LAUNCHER, *options, f"--life={life}", f"--report={told}", "--", *words)
-            self.process = _started(own, seen, (life, told))
+            own = (LAUNCHER, *options, f"--life={life}", f"--report={report_end}", "--", *words)
+            self.process = _started(own, seen, (life, report_end))
         except BaseException:
             os.close(report)
             self._end_life()
             raise
         finally:
             os.close(life)
-            os.close(told)
+            os.close(report_end)
         self._require_start(report)
 
     def _require_start(self, report: int) -> None:
         """Raise the error that the launcher reports, unless the program runs."""
         with open(report, "rb") as file:
-            said = file.read().decode("utf-8", "replace")
-        if not said:
+            text = file.read().decode("utf-8", "replace")
+        if not text:
             return
         self.end()
         self.process.communicate()
-        number, _, text = said.partition(" ")
+        number, _, text = text.partition(" ")
         error = OSError(int(number), os.strerror(int(number)))
         if text.startswith("exec "):
             raise error

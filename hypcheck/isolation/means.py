@@ -88,13 +88,13 @@ def means_of(mode: str, here: Means | None = None) -> Means:
     """
     if mode == "off":
         return OFF
-    found = available() if here is None else here
-    if mode == "on" and not found.whole:
+    available_here = available() if here is None else here
+    if mode == "on" and not available_here.whole:
         raise NotIsolatedError(
-            f"--isolate is on, and this system cannot isolate a program: {'; '.join(found.missing)}; "
+            f"--isolate is on, and this system cannot isolate a program: {'; '.join(available_here.missing)}; "
             "--isolate auto uses what there is"
         )
-    return found
+    return available_here
 
 
 @lru_cache
@@ -105,14 +105,14 @@ def available() -> Means:
     if not os.access(LAUNCHER, os.X_OK):
         return Means(missing=("the launcher was not compiled: hypcheck was installed without a C compiler",))
     try:
-        said = subprocess.run((LAUNCHER, "--probe"), capture_output=True, check=True, timeout=20).stdout.decode()  # noqa: S603
+        text = subprocess.run((LAUNCHER, "--probe"), capture_output=True, check=True, timeout=20).stdout.decode()  # noqa: S603
     except (OSError, subprocess.SubprocessError) as error:
         return Means(missing=(f"the launcher does not run here: {error}",))
-    found = dict(line.partition(" ")[::2] for line in said.splitlines())
-    failed = tuple(f"no {name}: {found[name]}" for name in ("namespaces", "landlock", "seccomp") if found.get(name))
+    probed = dict(line.partition(" ")[::2] for line in text.splitlines())
+    failed = tuple(f"no {name}: {probed[name]}" for name in ("namespaces", "landlock", "seccomp") if probed.get(name))
     return Means(
-        namespaces=not found.get("namespaces", "?"),
-        landlock=int(found.get("abi", "0")),
-        seccomp=not found.get("seccomp", "?"),
+        namespaces=not probed.get("namespaces", "?"),
+        landlock=int(probed.get("abi", "0")),
+        seccomp=not probed.get("seccomp", "?"),
         missing=failed,
     )

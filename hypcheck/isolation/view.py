@@ -64,20 +64,20 @@ def needed_paths(words: Sequence[str], environment: Mapping[str, str], also: Ite
     These are the working directory with the repository that it is in, the folders of the files that its words name,
     those of its interpreter and of this Python with their packages, those of PATH and the like, and `also`.
     """
-    found = [os.getcwd(), _project(os.getcwd()), "/run/current-system", sys.prefix, sys.base_prefix, *also]
+    paths = [os.getcwd(), _project(os.getcwd()), "/run/current-system", sys.prefix, sys.base_prefix, *also]
     program = shutil.which(words[0], path=environment.get("PATH")) if words else None
     for path in (*words, *([program] if program else ())):
         if path and os.path.exists(path):
-            found += _of_file(os.path.abspath(path), environment)
+            paths += _of_file(os.path.abspath(path), environment)
     left_out = {*TEMPORARY, "/", _home(), *([str(PACKAGE.parent)] if _is_checkout() else ())}
     packages = [os.path.abspath(path) for path in sys.path if path and os.path.realpath(path) not in left_out]
-    found += [*packages, *(link for path in packages for link in _links(path))]
+    paths += [*packages, *(link for path in packages for link in _links(path))]
     for name in _PATHS:
         folders = [os.path.abspath(path) for path in environment.get(name, "").split(os.pathsep) if path]
-        found += [shown for path in folders for shown in _installation(path)]
-    found += [os.path.join(_home(), path) for path in _TOOLS]
+        paths += [shown for path in folders for shown in _installation(path)]
+    paths += [os.path.join(_home(), path) for path in _TOOLS]
     needed: list[str] = []
-    for path in sorted({os.path.realpath(path) for path in found} | set(found)):
+    for path in sorted({os.path.realpath(path) for path in paths} | set(paths)):
         if os.path.exists(path) and not any(within(path, outer) for outer in needed):
             needed.append(path)
     return tuple(needed)
@@ -162,13 +162,13 @@ def hidden_paths(also: Iterable[str], needed: Sequence[str] = (), seen: Sequence
     working directory or this Python is cannot be.
     """
     places = (os.getcwd(), sys.prefix, sys.base_prefix)
-    found = [os.path.join(_home(), path) for path in _SECRETS]
+    hidden = [os.path.join(_home(), path) for path in _SECRETS]
     roots = (os.getcwd(), *needed)
-    found += [os.path.join(folder, ".git") for folder in {outer for root in roots for outer in _upwards(root)}]
-    found += [os.environ.get("GITHUB_ACTION_PATH", ""), *_copies(roots)]
-    found = [path for path in found if path and not any(within(path, folder) for folder in seen)]
-    found += [str(PACKAGE), str(PACKAGE.parent / "cases"), *also]
-    real = sorted({os.path.realpath(path) for path in found if os.path.exists(path)})
+    hidden += [os.path.join(folder, ".git") for folder in {outer for root in roots for outer in _upwards(root)}]
+    hidden += [os.environ.get("GITHUB_ACTION_PATH", ""), *_copies(roots)]
+    hidden = [path for path in hidden if path and not any(within(path, folder) for folder in seen)]
+    hidden += [str(PACKAGE), str(PACKAGE.parent / "cases"), *also]
+    real = sorted({os.path.realpath(path) for path in hidden if os.path.exists(path)})
     return tuple(path for path in real if not any(within(place, path) for place in places))
 
 
@@ -184,8 +184,8 @@ def _copies(roots: Sequence[str]) -> tuple[str, ...]:
         patterns += [f"{root}/{inner}{packages}" for inner in ("", "*/", ".*/", "versions/*/", "envs/*/")]
         patterns += [f"{root}/hypcheck", f"{root}/*/hypcheck"]
     patterns += [f"{path}/hypcheck" for path in sys.path if path]
-    found = {str(PACKAGE), *(path for pattern in patterns for path in glob(pattern))}
-    copies = [path for path in sorted(found) if os.path.isfile(os.path.join(path, "kernel", "classify.py"))]
+    paths = {str(PACKAGE), *(path for pattern in patterns for path in glob(pattern))}
+    copies = [path for path in sorted(paths) if os.path.isfile(os.path.join(path, "kernel", "classify.py"))]
     checkouts = [
         outer for outer in map(os.path.dirname, copies) if os.path.isfile(os.path.join(outer, "pyproject.toml"))
     ]

@@ -100,8 +100,8 @@ _FINITE_DECODER = json.JSONDecoder(parse_constant=_no_constant, parse_float=_fin
 def _version_of(header: Raw) -> tuple[str | None, int]:
     """The major and the minor version of the schema of a header; None and 0 if it names none."""
     version = header.get("schema")
-    found = _VERSION.fullmatch(version) if isinstance(version, str) else None
-    return (found[1], int(found[2])) if found else (None, 0)
+    match = _VERSION.fullmatch(version) if isinstance(version, str) else None
+    return (match[1], int(match[2])) if match else (None, 0)
 
 
 class DamagedError(InputError):

@@ -101,22 +101,24 @@ def read(path: Path) -> Record:
     path = file_of(path)
     with open_input(str(path)) as reader:
         raws = list(RecordScan(reader))  # all of them: damage matters more than an invalid value before it
-    header, *found = _decoded(raws, path)
-    footer = found.pop() if found and isinstance(found[-1], FooterLine) else None
+    header, *others = _decoded(raws, path)
+    footer = others.pop() if others and isinstance(others[-1], FooterLine) else None
     if not isinstance(header, HeaderLine) or not (footer is None or isinstance(footer, FooterLine)):
         raise TypeError("the scan accepted a file that is not a record")
-    return Record(header, tuple(found), footer)
+    return Record(header, tuple(others), footer)
 
 
 def notes(record: Record) -> list[str]:
     """Sentences about what a report of this record lacks: its end, or what a later version wrote."""
-    found = []
+    sentences = []
     if record.footer is None:
-        found.append("the record has no end: the run was interrupted, and its reports show the finished part")
+        sentences.append("the record has no end: the run was interrupted, and its reports show the finished part")
     version = record.header.schema
     if tuple(map(int, version.split("."))) > tuple(map(int, SCHEMA.split("."))):
-        found.append(f"the record has schema {version}, later than this program's {SCHEMA}; what it adds is not shown")
-    return found
+        sentences.append(
+            f"the record has schema {version}, later than this program's {SCHEMA}; what it adds is not shown"
+        )
+    return sentences
 
 
 def line_of(raw: Raw) -> RecordLine | None:
@@ -149,8 +151,8 @@ def _explained(error: msgspec.ValidationError, raw: Raw) -> str:
         return escaped(f"{path}: {what}" if path else what)
     must = re.sub(r"`([^`]*)`", lambda match: _named(match[1]), wanted[1])
     must = re.sub(r"matching regex '\^\(([^\\()]*)\)\$'", lambda match: f"out of {match[1].replace('|', ', ')}", must)
-    found = "" if "[...]" in path else f"is {shown_json(_at(raw, path))}; it "
-    return escaped(f"{path} {found}must be {must}")
+    shown = "" if "[...]" in path else f"is {shown_json(_at(raw, path))}; it "
+    return escaped(f"{path} {shown}must be {must}")
 
 
 def _named(types: str) -> str:

@@ -199,7 +199,7 @@ def is_result(line: RecordLine) -> bool:
     if isinstance(line, GroupLine):
         return line.asked > 0
     if isinstance(line, ProgressLine):
-        return bool(line.state.total.pending) or any(each.asked for each in line.state.total.tallies.values())
+        return bool(line.state.total.pending) or any(tallied.asked for tallied in line.state.total.tallies.values())
     return not isinstance(line, _WITHOUT_RESULT)
 
 
@@ -340,11 +340,11 @@ def header(options: Mapping[str, Any], started: datetime, provenance: Provenance
 
 def _versions() -> dict[str, str]:
     """The versions of the libraries a run can use, from their metadata, so that none is loaded."""
-    found = {}
+    versions = {}
     for name in ("numpy", "sympy", "mpmath", "python-fcl", "coal", "click", "matplotlib"):
         with suppress(PackageNotFoundError):
-            found[name] = version(name)
-    return found
+            versions[name] = version(name)
+    return versions
 
 
 def processor_name(listed: Path = Path("/proc/cpuinfo")) -> str:
