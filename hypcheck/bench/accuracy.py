@@ -97,8 +97,8 @@ def workload_truths(plan: BenchPlan, executor: Executor | None) -> Iterator[Work
         exponents = np.empty(len(rows))
         truth = np.empty(len(rows), dtype=np.int8)
         examine = _examined if workload.layout is PAIRS else _examined_sweeps
-        for (start, piece), (truths, found) in perform(examine, pieces, executor):
-            truth[start : start + len(piece)], exponents[start : start + len(piece)] = truths, found
+        for (start, piece), (truths, octaves) in perform(examine, pieces, executor):
+            truth[start : start + len(piece)], exponents[start : start + len(piece)] = truths, octaves
         yield WorkloadTruth(workload, rows, truth, exponents)
 
 

@@ -64,9 +64,9 @@ def read_baseline(plan: BenchPlan) -> Baseline | None:
     if options.get("command") != "bench":
         raise InputError(f"--baseline {path} is a record of another command; it must be a record of hypcheck bench")
     if options.get("reference") != plan.reference:
-        told = options.get("reference")
+        before = options.get("reference")
         raise InputError(
-            f"--baseline {path}: its ratios are relative to {told!r}, those of this version to {plan.reference!r}"
+            f"--baseline {path}: its ratios are relative to {before!r}, those of this version to {plan.reference!r}"
         )
     if options.get("quick") != plan.quick:
         kind = "quick" if options.get("quick") else "full"
@@ -94,31 +94,31 @@ def speeds_of(lines: Iterable[RecordLine]) -> Baseline:
     return baseline
 
 
-def alike(before: Baseline, found: Iterable[ForeignMethod]) -> tuple[ForeignMethod, ...]:
+def alike(before: Baseline, methods: Iterable[ForeignMethod]) -> tuple[ForeignMethod, ...]:
     """The implementations of SPECs, timed on as many rows as in the baseline, since small batches cost more a row."""
     rows: dict[str, int] = {}
     for (method, _, mode), line in before.speeds.items():
         if mode == "batch":
             rows[method] = max(rows.get(method, 0), line.rows)
-    return tuple(replace(each, timed=rows.get(each.name, each.timed)) for each in found)
+    return tuple(replace(method, timed=rows.get(method.name, method.timed)) for method in methods)
 
 
-def gated(plan: BenchPlan, found: Mapping[str, Contender]) -> set[str]:
+def gated(plan: BenchPlan, contenders_by_name: Mapping[str, Contender]) -> set[str]:
     """The methods whose verdicts decide the exit code: the named ones, else hypcheck's certified ones."""
-    foreign = {each.name for each in plan.foreign}
+    foreign = {method.name for method in plan.foreign}
     if foreign:
         return foreign
     if plan.methods:
-        return set(found) - {plan.reference}
-    return {name for name, each in found.items() if each.kind == "certified"}
+        return set(contenders_by_name) - {plan.reference}
+    return {name for name, contender in contenders_by_name.items() if contender.kind == "certified"}
 
 
 def require_common(before: Baseline, names: set[str]) -> None:
     """Raise InputError if the baseline has none of the methods that are compared with it."""
     known = {method for method, _, _ in before.speeds}
     if not known & names:
-        told = f"{', '.join(sorted(names)) or 'nothing'}; it has {', '.join(sorted(known))}"
-        raise InputError(f"--baseline has no speed of any method that is compared with it: {told}")
+        sentence = f"{', '.join(sorted(names)) or 'nothing'}; it has {', '.join(sorted(known))}"
+        raise InputError(f"--baseline has no speed of any method that is compared with it: {sentence}")
 
 
 def comparisons(plan: BenchPlan, before: Baseline, after: Baseline, gates: set[str]) -> Iterator[ComparisonLine]:

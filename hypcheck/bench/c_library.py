@@ -72,7 +72,7 @@ def bodies() -> tuple[CMethod, ...]:
 
 def place_of(name: str) -> int:
     """A method's place in the table. Raises ValueError if it has none."""
-    return [each.name for each in bodies()].index(name) + 1
+    return [body.name for body in bodies()].index(name) + 1
 
 
 def compiled(folder: Path) -> tuple[Path, CompilerLine]:
@@ -114,9 +114,9 @@ def compiler_here() -> str:
     """The C compiler of this machine. Raises UnavailableError if there is none."""
     named = os.environ.get("CC", "")
     for name in (named, "cc", "gcc", "clang"):
-        found = shutil.which(name) if name else None
-        if found:
-            return found
+        path = shutil.which(name) if name else None
+        if path:
+            return path
     raise UnavailableError("no C compiler is found (cc, gcc, clang, or what CC names)")
 
 
@@ -131,8 +131,8 @@ def run_compiler(words: list[str]) -> subprocess.CompletedProcess[str]:
 def _require(done: subprocess.CompletedProcess[str], what: str) -> None:
     """Raise UnavailableError if the compiler did not do `what`."""
     if done.returncode != 0:
-        said = (done.stderr.strip().splitlines() or ["it says nothing"])[0]
-        raise UnavailableError(f"{done.args[0]} does not {what}: {said}")
+        first_line = (done.stderr.strip().splitlines() or ["it says nothing"])[0]
+        raise UnavailableError(f"{done.args[0]} does not {what}: {first_line}")
 
 
 _SIZE, _POINTER = ctypes.c_size_t, ctypes.c_void_p
@@ -179,15 +179,15 @@ class InC(LoadedMethod):
         sizes = scene_of(rows)
         if sizes is None:
             return self._by_rows("bench_rows", rows)
-        function, found = _loaded(self.library).bench_scene, np.zeros(len(rows), dtype=np.int8)
+        function, answers = _loaded(self.library).bench_scene, np.zeros(len(rows), dtype=np.int8)
         parts: list[NDArray[np.float64]] = [np.array(sizes), *np.ascontiguousarray(rows[:, 4:].T)]
         fixed = _pointers(parts)
 
         def call(repeat: int) -> object:
             held = parts  # pointers alone would not keep them alive
-            return function(self.place, repeat, fixed[0], len(held[1]), *fixed[1:], found.ctypes.data)
+            return function(self.place, repeat, fixed[0], len(held[1]), *fixed[1:], answers.ctypes.data)
 
-        return _prepared(call, found)
+        return _prepared(call, answers)
 
     def single(self, rows: Rows) -> PreparedWork:
         """A call for each row, in C through the table of functions: the time that a program in C would wait."""
@@ -200,33 +200,35 @@ class InC(LoadedMethod):
 
     def _by_rows(self, name: str, rows: Rows) -> PreparedWork:
         function, queries = getattr(_loaded(self.library), name), np.ascontiguousarray(rows)
-        found = np.zeros(len(queries), dtype=np.int8)
+        answers = np.zeros(len(queries), dtype=np.int8)
 
         def call(repeat: int) -> object:
-            return function(self.place, repeat, len(queries), queries.ctypes.data, found.ctypes.data)
+            return function(self.place, repeat, len(queries), queries.ctypes.data, answers.ctypes.data)
 
-        return _prepared(call, found)
+        return _prepared(call, answers)
 
 
 def bodies_asked(library: Path, place: int, flight: CraftPath) -> PreparedWork:
     """A procedure of the quadcopter, by its place in the source's table of_bodies, for each position of a flight."""
     craft = np.array([flight.craft[name] for name in CRAFT])
     columns = [np.ascontiguousarray(flight.columns[name]) for name in MOVING]
-    found = np.zeros(len(flight), dtype=np.int8)
+    answers = np.zeros(len(flight), dtype=np.int8)
 
     def call(repeat: int) -> object:
         moving = [column.ctypes.data for column in columns]
-        return _loaded(library).bench_bodies(place, repeat, craft.ctypes.data, len(found), *moving, found.ctypes.data)
+        return _loaded(library).bench_bodies(
+            place, repeat, craft.ctypes.data, len(answers), *moving, answers.ctypes.data
+        )
 
-    return _prepared(call, found)
+    return _prepared(call, answers)
 
 
-def _prepared(call: Callable[[int], object], found: Answers) -> PreparedWork:
+def _prepared(call: Callable[[int], object], filled: Answers) -> PreparedWork:
     def answers() -> Answers:
         call(1)
-        return found
+        return filled
 
-    return PreparedWork(len(found), clocked_in_c(call, found), answers)
+    return PreparedWork(len(filled), clocked_in_c(call, filled), answers)
 
 
 BASELINE_FLAGS = ("-O3", "-std=c99", "-ffp-contract=fast", "-fno-math-errno", "-fno-trapping-math", "-fPIC")
@@ -311,12 +313,12 @@ def c_baselines(folder: Path, level: str | None = None) -> list[CBaseline]:
     """
     program, code = compiler_here(), folder / "baselines.c"
     code.write_text(baselines_source(), encoding="ascii")
-    found = []
+    baselines = []
     for number, flags in enumerate(LEVEL_FLAGS[level or str(choice().level)]):
         library = folder / f"baselines-{number}.so"
         words = [program, *BASELINE_FLAGS, *flags, "-shared", str(code), "-o", str(library), "-lm"]
         if run_compiler(words).returncode == 0:
-            found.append(CBaseline(_loaded(library), flags))
-    if not found:
+            baselines.append(CBaseline(_loaded(library), flags))
+    if not baselines:
         raise UnavailableError(f"{program} does not compile the baselines in C")
-    return found
+    return baselines

@@ -46,20 +46,20 @@ def _both() -> Iterator[str]:
 def _before(name: str, program: Program) -> str:
     """The steps that depend on the craft only, kept in an array: a program would hold them in a structure."""
     kept = [step.name for step in program.steps]
-    stored = "\n".join(f"    k[{place}] = {each};" for place, each in enumerate(kept))
+    stored = "\n".join(f"    k[{place}] = {name};" for place, name in enumerate(kept))
     statements = "\n".join(f"    {line}" for line in c_statements(program, tuple(kept)))
     return f"\nstatic void {name}_before(const double *craft, double *k)\n{{\n{_craft()}\n{statements}\n{stored}\n}}\n"
 
 
 def _asked(name: str, before: Program, program: Program, wanted: tuple[str, ...], end: str) -> str:
-    read = {each for step in program.steps for each in step.reads}
+    read = {name for step in program.steps for name in step.reads}
     kept = "\n".join(
         f"    const double {step.name} = k[{place}];" for place, step in enumerate(before.steps) if step.name in read
     )
     inputs = _craft(read)
     statements = "\n".join(f"    {line}" for line in c_statements(program, wanted))
-    moving = ", ".join(f"double {each}" for each in MOVING)
-    unused = "".join(f"    (void){each};\n" for each in MOVING if each not in read)
+    moving = ", ".join(f"double {name}" for name in MOVING)
+    unused = "".join(f"    (void){name};\n" for name in MOVING if name not in read)
     return (
         f"\nstatic int {name}_asked(const double *craft, const double *k, {moving})\n"
         f"{{\n    (void)craft;\n{unused}{inputs}\n{kept}\n{statements}\n    {end}\n}}\n"
@@ -67,9 +67,9 @@ def _asked(name: str, before: Program, program: Program, wanted: tuple[str, ...]
 
 
 def _craft(read: set[str] | None = None) -> str:
-    named = [(place, each) for place, each in enumerate(CRAFT) if read is None or each in read]
-    taken = "\n".join(f"    const double {each} = craft[{place}];" for place, each in named)
-    return taken + "".join(f"\n    (void){each};" for _, each in named)
+    named = [(place, name) for place, name in enumerate(CRAFT) if read is None or name in read]
+    taken = "\n".join(f"    const double {name} = craft[{place}];" for place, name in named)
+    return taken + "".join(f"\n    (void){name};" for _, name in named)
 
 
 _PROCEDURES = """
@@ -146,9 +146,9 @@ class CMethod:
 
 def source(methods: Sequence[CMethod]) -> str:
     """The whole file; the table begins with a method that does nothing."""
-    rows = ", ".join(f"{identifier(each.name)}_rows" for each in methods)
-    scenes = ", ".join(f"{identifier(each.name)}_scene" for each in methods)
-    functions = "\n".join(each.code for each in methods)
+    rows = ", ".join(f"{identifier(method.name)}_rows" for method in methods)
+    scenes = ", ".join(f"{identifier(method.name)}_scene" for method in methods)
+    functions = "\n".join(method.code for method in methods)
     return f"{_HEAD}\n{functions}\n{_DRIVER.format(rows=rows, scenes=scenes)}{procedures_source()}"
 
 
@@ -231,9 +231,13 @@ def _method(name: str, number: str, before: Sequence[str], inside: Sequence[str]
     `number` is the C type of its numbers.
     """
     called, within = identifier(name), _indented(inside, 8)
-    taken = "\n".join(f"        const {number} {each} = ({number})row[{place}];" for place, each in enumerate(COLUMNS))
-    sizes = "\n".join(f"    const {number} {each} = ({number})sizes[{place}];" for place, each in enumerate(SIZES))
-    centre = "\n".join(f"        const {number} {each} = ({number}){each}s[i];" for each in ("x", "y", "z"))
+    taken = "\n".join(
+        f"        const {number} {column} = ({number})row[{place}];" for place, column in enumerate(COLUMNS)
+    )
+    sizes = "\n".join(f"    const {number} {size} = ({number})sizes[{place}];" for place, size in enumerate(SIZES))
+    centre = "\n".join(
+        f"        const {number} {coordinate} = ({number}){coordinate}s[i];" for coordinate in ("x", "y", "z")
+    )
     code = f"""
 static void {called}_rows(size_t n, const double *restrict rows, int8_t *restrict out)
 {{

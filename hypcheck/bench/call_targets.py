@@ -109,18 +109,23 @@ def batch(folder: Path, count: int, rounds: int) -> Iterator[KernelLine]:
             TimingEntry("rows", count, thread_clocked(partial(hypcheck.classify, rows))),
             TimingEntry("rows in place", count, thread_clocked(partial(hypcheck.classify, rows, out=out))),
         ]
-    found = measured_samples(entries, rounds)
+    samples = measured_samples(entries, rounds)
     for work, target in _batch_targets(count).items():
-        if work in found:
-            least = found["rows in C" if work.startswith("rows") else "in C"]
-            made = found["array"].samples_ns if work in ("fresh", "rows") else [0.0] * len(least.samples_ns)
-            each = zip(found[work].samples_ns, least.samples_ns, found["empty"].samples_ns, made, strict=True)
-            says = (
-                f"{rate_text(found[work])}; in C: {rate_text(least)}; an empty call: {found['empty'].median_ns:.3g} ns"
-                f"; a new array: {found['array'].median_ns:.3g} ns,"
-                f" with its first touch: {found['first touch'].median_ns:.3g} ns a row"
+        if work in samples:
+            least = samples["rows in C" if work.startswith("rows") else "in C"]
+            made = samples["array"].samples_ns if work in ("fresh", "rows") else [0.0] * len(least.samples_ns)
+            sample_times = zip(
+                samples[work].samples_ns, least.samples_ns, samples["empty"].samples_ns, made, strict=True
             )
-            yield target.line([(in_c + (empty + array) / count) / mine for mine, in_c, empty, array in each], says)
+            says = (
+                f"{rate_text(samples[work])}; in C: {rate_text(least)}"
+                f"; an empty call: {samples['empty'].median_ns:.3g} ns"
+                f"; a new array: {samples['array'].median_ns:.3g} ns,"
+                f" with its first touch: {samples['first touch'].median_ns:.3g} ns a row"
+            )
+            yield target.line(
+                [(in_c + (empty + array) / count) / mine for mine, in_c, empty, array in sample_times], says
+            )
 
 
 def ten_centres(rounds: int) -> Iterator[KernelLine]:
@@ -152,10 +157,10 @@ def statement(text: str, **names: object) -> Clocked:
     return lambda repeat: (int(timer.timeit(repeat)), 0)
 
 
-def without_loop(found: Mapping[str, Samples]) -> dict[str, Floats]:
+def without_loop(samples: Mapping[str, Samples]) -> dict[str, Floats]:
     """The samples, without the time of the empty loop in the same round."""
-    loop = np.array(found["loop"].samples_ns)
-    return {name: np.array(each.samples_ns) - loop for name, each in found.items()}
+    loop = np.array(samples["loop"].samples_ns)
+    return {name: np.array(timed.samples_ns) - loop for name, timed in samples.items()}
 
 
 def textbook(alpha: float, gamma: float, b: float, d: float, x: float, y: float, z: float) -> int:
@@ -177,11 +182,13 @@ def one_call(rounds: int) -> Iterator[KernelLine]:
     rows = [tuple(row) for row in tower_rows(uniform_columns(CALLS)).tolist()]
     each = "for alpha, gamma, b, d, x, y, z in rows:"
     ask = f"{each} ask(alpha, gamma, b, d, x, y, z)"
-    asked: dict[str, object] = {"plain": exact_position, "textbook": textbook}
+    functions: dict[str, object] = {"plain": exact_position, "textbook": textbook}
     if choice().kernel == "compiled":
-        asked |= {"position": hypcheck.position, "nothing": extension().nothing}
+        functions |= {"position": hypcheck.position, "nothing": extension().nothing}
     entries = [TimingEntry("loop", CALLS, statement(f"{each} pass", rows=rows))]
-    entries += [TimingEntry(name, CALLS, statement(ask, rows=rows, ask=each)) for name, each in asked.items()]
+    entries += [
+        TimingEntry(name, CALLS, statement(ask, rows=rows, ask=function)) for name, function in functions.items()
+    ]
     net = without_loop(measured_samples(entries, 3 * rounds))
     for target, name, least in ((ONE_CALL, "position", "nothing"), (PLAIN_CALL, "plain", "textbook")):
         if name in net:
@@ -241,7 +248,10 @@ def forms_of_ten_centres(rounds: int) -> Iterator[KernelLine]:
     names: dict[str, object] = {**dict(zip("xyz", columns, strict=True)), "points": points}
     names |= dict(zip("uvw", points.T, strict=True))
     names |= {"sizes": TOWER_SIZES, "scalars": tuple(map(np.float32, TOWER_SIZES)), "array": np.array(TOWER_SIZES)}
-    names |= {"single": [column.astype(np.float32) for column in columns], "lists": [list(each) for each in columns]}
+    names |= {
+        "single": [column.astype(np.float32) for column in columns],
+        "lists": [list(column) for column in columns],
+    }
     names |= {"whole": [column.astype(np.int64) for column in columns], "scene": hypcheck.classify_scene}
     yield from _lines("ten centres", TEN_FORMS, names, rounds)
 
@@ -310,9 +320,9 @@ def forms_of_an_axis_each(rounds: int) -> Iterator[KernelLine]:
 def _many(
     subject: str, work: Mapping[str, Callable[[], Positions]], wanted: Mapping[str, float], count: int, rounds: int
 ) -> Iterator[KernelLine]:
-    found = measured_samples([TimingEntry(form, count, thread_clocked(call)) for form, call in work.items()], rounds)
+    samples = measured_samples([TimingEntry(form, count, thread_clocked(call)) for form, call in work.items()], rounds)
     usual, *others = work
     for form in others:
         target = KernelTarget(f"{subject}, {form}", f"a row, to one of {usual}", wanted[form], at_most=True)
-        says = f"{rate_text(found[form])}; {usual}: {rate_text(found[usual])}"
-        yield target.line(times_as_long(found[form], found[usual]), says)
+        says = f"{rate_text(samples[form])}; {usual}: {rate_text(samples[usual])}"
+        yield target.line(times_as_long(samples[form], samples[usual]), says)

@@ -80,14 +80,14 @@ def flight_of(seed: int, number: int) -> CraftPath:
 
 def share_touching(flight: CraftPath) -> float:
     """The share of positions with Δ ≤ 0 for the bounding spheroid, for which Procedure 2.b asks the rotors."""
-    asked = 0
+    count = 0
 
     def counting(part: CraftPath) -> None:
-        nonlocal asked
-        asked += len(part)
+        nonlocal count
+        count += len(part)
 
     procedure_2b(flight, counting)
-    return asked / len(flight)
+    return count / len(flight)
 
 
 def hull_operations() -> Operations:
@@ -149,17 +149,17 @@ def _prepared_procedures(library: Path | None, plan: BenchPlan) -> dict[str, Pre
 def _prepared_formulas(library: Path | None, listed: dict[str, Formula], plan: BenchPlan) -> dict[str, PreparedWork]:
     rows = WORKLOADS["uniform"].rows(plan.seed, plan.amounts.timed)
     if library is None:
-        ways = {name: (by_rows(each, "float64"), by_scene(each, "float64")) for name, each in listed.items()}
+        ways = {name: (by_rows(formula, "float64"), by_scene(formula, "float64")) for name, formula in listed.items()}
         return {name: InPython(*way).batch(rows) for name, way in ways.items()}
-    places = {name: place_of(f"{each.name}-float64") for name, each in listed.items()}
+    places = {name: place_of(f"{formula.name}-float64") for name, formula in listed.items()}
     return {name: InC(library, place).batch(rows) for name, place in places.items()}
 
 
 def _prepared_roots(library: Path | None, plan: BenchPlan) -> dict[str, PreparedWork]:
     rows = WORKLOADS["uniform"].rows(plan.seed, plan.amounts.timed)
     if library is None:
-        found = _prepared_formulas(None, {PRINTED: TABLE_2, TRIGONOMETRIC: ROOTS_TRIGONOMETRIC}, plan)
-        return {**found, EIGENVALUES: InPython(alternatives.numpy_roots).batch(rows[:_ROOTS_TIMED])}
+        prepared = _prepared_formulas(None, {PRINTED: TABLE_2, TRIGONOMETRIC: ROOTS_TRIGONOMETRIC}, plan)
+        return {**prepared, EIGENVALUES: InPython(alternatives.numpy_roots).batch(rows[:_ROOTS_TIMED])}
     names = {PRINTED: "table-2-float64", TRIGONOMETRIC: "trigonometric-float64"}
     return {name: InC(library, place_of(method)).batch(rows) for name, method in names.items()}
 
@@ -172,7 +172,7 @@ Ratios = Mapping[str, Estimate]
 def cost_line(plan: BenchPlan, claim: CostClaim, samples: Mapping[str, SampleTable]) -> CostLine:
     """The record's line about a claim, from the samples of its alternatives by name, the printed one first."""
     first = next(iter(samples))
-    to_first = {name: estimate(ratios(each, samples[first])) for name, each in samples.items()}
+    to_first = {name: estimate(ratios(timed, samples[first])) for name, timed in samples.items()}
     noise = 1 + to_first.pop(FIRST_AGAIN).half_width
     verdict, says = _SAYS[claim.name](plan, claim, to_first, noise)
     return CostLine(
@@ -200,31 +200,32 @@ def _counted(operations: Operations | None) -> dict[str, int] | None:
     return {name: number for name, number in asdict(operations).items() if number}
 
 
-def _says_of_procedures(plan: BenchPlan, claim: CostClaim, found: Ratios, noise: float) -> tuple[str, str]:
-    second, ours = found[PRINTED_B], found[OURS]
+def _says_of_procedures(plan: BenchPlan, claim: CostClaim, measured: Ratios, noise: float) -> tuple[str, str]:
+    second, ours = measured[PRINTED_B], measured[OURS]
     share = share_touching(flight_of(plan.seed, plan.amounts.bodies))
     four, hull = claim.operations[PRINTED_A].rounded, hull_operations().rounded
     return cheaper(second, noise), (
         f"2.b takes {_ratio_text(second)} of 2.a's time and ours {_ratio_text(ours)}; put right, 2.a takes "
-        f"{_ratio_text(found[REPAIRED_A])} and 2.b {_ratio_text(found[REPAIRED_B])}; Δ ≤ 0 at {100 * share:.1f} % of "
-        f"positions; 2.a rounds {four} times a position, 2.b {hull} times and, where Δ ≤ 0, {four} times more."
+        f"{_ratio_text(measured[REPAIRED_A])} and 2.b {_ratio_text(measured[REPAIRED_B])}; Δ ≤ 0 at "
+        f"{100 * share:.1f} % of positions; 2.a rounds {four} times a position, 2.b {hull} times and, where Δ ≤ 0, "
+        f"{four} times more."
     )
 
 
-def _says_of_divisions(_plan: BenchPlan, claim: CostClaim, found: Ratios, _noise: float) -> tuple[str, str]:
+def _says_of_divisions(_plan: BenchPlan, claim: CostClaim, measured: Ratios, _noise: float) -> tuple[str, str]:
     divisions = claim.operations[PRINTED].divisions
     return (HOLDS if divisions == 0 else DOES_NOT_HOLD), (
         f"The loop takes {divisions} divisions a position, by b² and by d; with their reciprocals kept outside it "
-        f"takes {claim.operations[RECIPROCALS].divisions} and {_ratio_text(found[RECIPROCALS])} of the time. "
-        f"Put right, Procedure 1 takes {_ratio_text(found[REPAIRED_1])} of it."
+        f"takes {claim.operations[RECIPROCALS].divisions} and {_ratio_text(measured[RECIPROCALS])} of the time. "
+        f"Put right, Procedure 1 takes {_ratio_text(measured[REPAIRED_1])} of it."
     )
 
 
-def _says_of_roots(_plan: BenchPlan, claim: CostClaim, found: Ratios, noise: float) -> tuple[str, str]:
-    others = "; ".join(f"{name}: {_ratio_text(ratio)}" for name, ratio in found.items() if name != PRINTED)
+def _says_of_roots(_plan: BenchPlan, claim: CostClaim, measured: Ratios, noise: float) -> tuple[str, str]:
+    others = "; ".join(f"{name}: {_ratio_text(ratio)}" for name, ratio in measured.items() if name != PRINTED)
     counted = claim.operations.get(TRIGONOMETRIC)
     functions = f"{counted.functions} a position" if counted else "three where Δ > 0"
-    return dearer(found[TRIGONOMETRIC], noise), (
+    return dearer(measured[TRIGONOMETRIC], noise), (
         f"Of Table 2's time take: {others}. Trigonometric functions: {functions} for the roots, none for "
         "the coefficients."
     )

@@ -115,14 +115,14 @@ def from_memory(folder: Path, rounds: int) -> Iterator[KernelLine]:
         TimingEntry("read by the clock", MANY, read(columns, threads=1, clock=perf_counter_ns)),
         TimingEntry("read on two by the clock", MANY, read(columns, threads=2, clock=perf_counter_ns)),
     ]
-    found = measured_samples(entries, rounds)
-    one, plain = found["one"], _fastest(found)
+    samples = measured_samples(entries, rounds)
+    one, plain = samples["one"], _fastest(samples)
     beside = f"{rate_text(one)} on {choice().level}"
     yield CEILING.line(
-        times_as_fast(one, found["read"]), f"{beside}; reading x, y and z alone: {rate_text(found['read'])}"
+        times_as_fast(one, samples["read"]), f"{beside}; reading x, y and z alone: {rate_text(samples['read'])}"
     )
     yield PLAIN.line(times_as_fast(one, plain), f"{beside}; Table 2 in C, {plain.name}: {rate_text(plain)}")
-    yield THREADS.line(*_gain(*(found[f"{name} by the clock"] for name in ("one", "two", "read", "read on two"))))
+    yield THREADS.line(*_gain(*(samples[f"{name} by the clock"] for name in ("one", "two", "read", "read on two"))))
 
 
 def _gain(one: Samples, two: Samples, read: Samples, read_on_two: Samples) -> tuple[list[float], str]:
@@ -141,10 +141,10 @@ def in_cache(folder: Path, rounds: int) -> Iterator[KernelLine]:
     columns, out = uniform_columns(CACHED), np.zeros(CACHED, dtype=np.int8)
     libraries = c_baselines(folder)
     one = TimingEntry("one", CACHED, thread_clocked(lambda: _answered(columns, out)))
-    found = measured_samples([*_plain(libraries, columns, out), one], 3 * rounds)
-    plain = _fastest(found)
-    says = f"{rate_text(found['one'])} on {choice().level}; Table 2 in C, {plain.name}: {rate_text(plain)}"
-    yield IN_CACHE.line(times_as_fast(found["one"], plain), says)
+    samples = measured_samples([*_plain(libraries, columns, out), one], 3 * rounds)
+    plain = _fastest(samples)
+    says = f"{rate_text(samples['one'])} on {choice().level}; Table 2 in C, {plain.name}: {rate_text(plain)}"
+    yield IN_CACHE.line(times_as_fast(samples["one"], plain), says)
 
 
 def threads_in_cache(folder: Path, rounds: int) -> Iterator[KernelLine]:
@@ -152,7 +152,7 @@ def threads_in_cache(folder: Path, rounds: int) -> Iterator[KernelLine]:
     columns, out = uniform_columns(2 * CACHED), np.zeros(2 * CACHED, dtype=np.int8)
     library = c_baselines(folder)[0]
     works: dict[str, Part] = {
-        "ask": lambda part, found: library.of_scene(part, found)(AGAIN),
+        "ask": lambda part, samples: library.of_scene(part, samples)(AGAIN),
         "read": lambda part, _found: library.reading(part)(AGAIN),
     }
     entries = [
@@ -162,8 +162,8 @@ def threads_in_cache(folder: Path, rounds: int) -> Iterator[KernelLine]:
         for threads in (1, 2)
         for name, work in works.items()
     ]
-    found = measured_samples(entries, 3 * rounds)
-    yield CACHED_THREADS.line(*_gain(*(found[name] for name in ("ask, 1", "ask, 2", "read, 1", "read, 2"))))
+    samples = measured_samples(entries, 3 * rounds)
+    yield CACHED_THREADS.line(*_gain(*(samples[name] for name in ("ask, 1", "ask, 2", "read, 1", "read, 2"))))
 
 
 Part = Callable[[Columns, Positions], None]
@@ -189,8 +189,8 @@ def near_contact(folder: Path, rounds: int) -> Iterator[KernelLine]:
         TimingEntry("touching", WORST, thread_clocked(lambda: _answered(columns, out))),
         TimingEntry("product", 1, c_baselines(folder)[0].product()),
     ]
-    found = measured_samples(entries, rounds)
-    touching, product = found["touching"], found["product"]
+    samples = measured_samples(entries, rounds)
+    touching, product = samples["touching"], samples["product"]
     says = f"{rate_text(touching)}; fixed point decides nearly all of them; a product: {product.median_ns:.3g} ns"
     yield TOUCHING.line(times_as_long(touching, product), says)
 
@@ -217,7 +217,7 @@ def slowest_row(rounds: int) -> Iterator[KernelLine]:
     """Search, then measure the row that was found beside rows near contact."""
     row = found_row()
     near = tower_rows(touching_columns(EACH))
-    usual = [float(np.median([cost(each) for each in near])) for _ in range(rounds)]
+    usual = [float(np.median([cost(near_row) for near_row in near])) for _ in range(rounds)]
     slow = [cost(row) for _ in range(rounds)]
     numbers = ", ".join(repr(float(value)) for value in row)
     says = f"{np.median(slow):.4g} ns: {numbers}; the median row near contact: {np.median(usual):.4g} ns"
@@ -277,16 +277,16 @@ def streamed(folder: Path, most: int, rounds: int) -> Iterator[KernelLine]:
     """
     columns, out = uniform_columns(PARTS * PART), np.zeros(PART, dtype=np.int8)
     slices = [slice(k * PART, (k + 1) * PART) for k in range(PARTS)]
-    parts = [(columns[0][each], columns[1][each], columns[2][each]) for each in slices]
+    parts = [(columns[0][part], columns[1][part], columns[2][part]) for part in slices]
     library = c_baselines(folder)[0]
     _of_stream(library, PARTS, parts, out)
     before = forget_peak()
     totals = [10**k for k in range(4) if PART * 10**k <= most]
     costs = np.array([[_of_stream(library, total, parts, out) for total in totals] for _ in range(rounds)])
     grown = max(0, peak() - before)
-    each = ", ".join(f"{PART * t:,} rows {c:.3g}" for t, c in zip(totals, np.median(costs, axis=0), strict=True))
+    streams = ", ".join(f"{PART * t:,} rows {c:.3g}" for t, c in zip(totals, np.median(costs, axis=0), strict=True))
     dearest = costs[:, 1 + np.argmax(np.median(costs[:, 1:], axis=0))] if len(totals) > 1 else costs[:, 0]
-    says = f"times as long as reading the row, in streams of {each}; memory grew by {grown / 2**20:.1f} MB meanwhile"
+    says = f"times as long as reading the row, in streams of {streams}; memory grew by {grown / 2**20:.1f} MB meanwhile"
     yield STREAMED.line((dearest / costs[:, 0]).tolist(), says)
 
 
@@ -308,12 +308,15 @@ def _of_stream(library: CBaseline, total: int, parts: Sequence[Columns], out: Po
 
 
 def _plain(libraries: list[CBaseline], columns: Columns, out: Positions) -> list[TimingEntry]:
-    return [TimingEntry(" ".join(each.flags) or "no flags", len(out), each.plain(columns, out)) for each in libraries]
+    return [
+        TimingEntry(" ".join(library.flags) or "no flags", len(out), library.plain(columns, out))
+        for library in libraries
+    ]
 
 
-def _fastest(found: dict[str, Samples]) -> Samples:
-    others = [each for name, each in found.items() if not name.startswith(("read", "one", "two"))]
-    return min(others, key=lambda each: each.median_ns)
+def _fastest(samples: dict[str, Samples]) -> Samples:
+    others = [timed for name, timed in samples.items() if not name.startswith(("read", "one", "two"))]
+    return min(others, key=lambda timed: timed.median_ns)
 
 
 def _answered(columns: Columns, out: Positions, threads: int = 1) -> Positions:
@@ -378,9 +381,9 @@ def one_orientation(rounds: int) -> Iterator[KernelLine]:
             TimingEntry("upright", count, thread_clocked(ask)),
             TimingEntry("leaning", count, thread_clocked(partial(ask, axis=AXIS))),
         ]
-        found = measured_samples(entries, more * rounds)
-        says = f"{rate_text(found['leaning'])}; upright: {rate_text(found['upright'])}"
-        yield target.line(times_as_fast(found["leaning"], found["upright"]), says)
+        samples = measured_samples(entries, more * rounds)
+        says = f"{rate_text(samples['leaning'])}; upright: {rate_text(samples['upright'])}"
+        yield target.line(times_as_fast(samples["leaning"], samples["upright"]), says)
 
 
 def axis_along_z(rounds: int) -> Iterator[KernelLine]:
@@ -391,9 +394,9 @@ def axis_along_z(rounds: int) -> Iterator[KernelLine]:
         TimingEntry(name, CACHED, thread_clocked(partial(hypcheck.classify, rows, threads=1)))
         for name, rows in (("seven", seven), ("ten", ten))
     ]
-    found = measured_samples(entries, 3 * rounds)
-    ratios = [each * ten.shape[1] / seven.shape[1] for each in times_as_fast(found["ten"], found["seven"])]
-    yield AXIS_ALONG_Z.line(ratios, f"{rate_text(found['ten'])}; rows of seven: {rate_text(found['seven'])}")
+    samples = measured_samples(entries, 3 * rounds)
+    ratios = [ratio * ten.shape[1] / seven.shape[1] for ratio in times_as_fast(samples["ten"], samples["seven"])]
+    yield AXIS_ALONG_Z.line(ratios, f"{rate_text(samples['ten'])}; rows of seven: {rate_text(samples['seven'])}")
 
 
 def an_axis_each(folder: Path, rounds: int) -> Iterator[KernelLine]:
@@ -405,8 +408,8 @@ def an_axis_each(folder: Path, rounds: int) -> Iterator[KernelLine]:
         TimingEntry("touching", WORST, thread_clocked(partial(hypcheck.classify, touching_rows(WORST), threads=1))),
         TimingEntry("product", 1, c_baselines(folder)[0].product()),
     ]
-    found = measured_samples(entries, rounds)
-    says = f"{rate_text(found['rows'])}; numpy: {rate_text(found['eigh'])}"
-    yield EIGH.line(times_as_fast(found["rows"], found["eigh"]), says)
-    says = f"{rate_text(found['touching'])}; a product: {found['product'].median_ns:.3g} ns"
-    yield LEANING_TOUCHING.line(times_as_long(found["touching"], found["product"]), says)
+    samples = measured_samples(entries, rounds)
+    says = f"{rate_text(samples['rows'])}; numpy: {rate_text(samples['eigh'])}"
+    yield EIGH.line(times_as_fast(samples["rows"], samples["eigh"]), says)
+    says = f"{rate_text(samples['touching'])}; a product: {samples['product'].median_ns:.3g} ns"
+    yield LEANING_TOUCHING.line(times_as_long(samples["touching"], samples["product"]), says)

@@ -113,7 +113,7 @@ class InPython(LoadedMethod):
             return lambda: self.function(rows)
         scene = self.scene
         x, y, z = np.ascontiguousarray(rows[:, 4:7].T)
-        axes = [tuple(each) for each in rows[:1, 7:].tolist() if each]
+        axes = [tuple(axis) for axis in rows[:1, 7:].tolist() if axis]
         return lambda: scene(sizes, x, y, z, *axes)
 
 
@@ -147,12 +147,12 @@ def _none_of(*_numbers: float) -> int:
 
 def one_by_one(function: Answering, parts: list[Rows]) -> PreparedWork:
     """The function called with each part, which is one row."""
-    found = np.empty(len(parts), dtype=np.int8)
+    answers = np.empty(len(parts), dtype=np.int8)
 
     def work() -> Answers:
         for place, part in enumerate(parts):
-            found[place] = function(part)[0]
-        return found
+            answers[place] = function(part)[0]
+        return answers
 
     return prepared(len(parts), work)
 
@@ -197,10 +197,10 @@ class InEngine(LoadedMethod):
 
     def answer(self, rows: Rows) -> Answers:
         """Its answers, scene by scene; missing meshes are built and kept."""
-        found = np.full(len(rows), CANNOT_SAY, dtype=np.int8)
+        answers = np.full(len(rows), CANNOT_SAY, dtype=np.int8)
         for sizes, places in rows_by_sizes(rows):
-            found[places] = self.mesh(sizes, rows[places]).answers(rows[places])
-        return found
+            answers[places] = self.mesh(sizes, rows[places]).answers(rows[places])
+        return answers
 
     def mesh(self, sizes: Sizes, rows: Rows) -> BuiltMesh:
         """The mesh of a scene."""
@@ -286,5 +286,5 @@ def of_method(
     **fields: Any,  # noqa: ANN401 - of a contender
 ) -> Contender:
     """A built-in method as a contender; `fields` are all that differ from the method's own, and from the defaults."""
-    given: dict[str, Any] = {each.name: getattr(method, each.name) for each in dataclasses.fields(MethodClaims)}
+    given: dict[str, Any] = {claim.name: getattr(method, claim.name) for claim in dataclasses.fields(MethodClaims)}
     return Contender(tier=tier, kind=kind, **{"load": partial(InPython, method.answer, scene), **given, **fields})

@@ -339,22 +339,26 @@ _SLOW = 1_000
 
 def contenders(plan: BenchPlan) -> dict[str, Contender]:
     """The methods that this run compares, by name, the reference first. Raises InputError for unknown names."""
-    found = {each.name: _quick(each) if plan.quick else each for each in _everything(plan)}
-    others = {each.name: each for each in foreign.foreign_contenders(plan.foreign, plan.limits)}
-    names = chosen_names(list(found), plan.methods, "method")
-    found |= others
+    by_name = {contender.name: _quick(contender) if plan.quick else contender for contender in _everything(plan)}
+    others = {contender.name: contender for contender in foreign.foreign_contenders(plan.foreign, plan.limits)}
+    names = chosen_names(list(by_name), plan.methods, "method")
+    by_name |= others
     return {
-        name: found[name]
+        name: by_name[name]
         for name in dict.fromkeys((plan.reference, *names, *others))
-        if found[name].needs not in plan.missing and (found[name].quick or not plan.quick or plan.methods)
+        if by_name[name].needs not in plan.missing and (by_name[name].quick or not plan.quick or plan.methods)
     }
 
 
-def _quick(each: Contender) -> Contender:
+def _quick(contender: Contender) -> Contender:
     """A slow method gets a quarter of its rows in a quick run: a root by mpmath takes milliseconds."""
-    if each.quick_judged is not None:
-        return replace(each, judged=each.quick_judged)
-    return each if each.judged is None or each.judged >= _SLOW else replace(each, judged=each.judged // 4)
+    if contender.quick_judged is not None:
+        return replace(contender, judged=contender.quick_judged)
+    return (
+        contender
+        if contender.judged is None or contender.judged >= _SLOW
+        else replace(contender, judged=contender.judged // 4)
+    )
 
 
 def _everything(plan: BenchPlan) -> Iterable[Contender]:

@@ -44,9 +44,9 @@ ENOUGH, ENOUGH_OUTSIDE = 2000, 10_000
 """A method that judges at least so many rows of a workload gets a map; a SPEC is asked each row through a pipe."""
 
 
-def stability_methods(found: dict[str, Contender]) -> list[str]:
+def stability_methods(by_name: dict[str, Contender]) -> list[str]:
     """The methods with a map. Those in C answer as the same methods in numpy do."""
-    return [name for name, each in found.items() if _wanted(each)]
+    return [name for name, contender in by_name.items() if _wanted(contender)]
 
 
 def _wanted(contender: Contender) -> bool:
@@ -65,12 +65,12 @@ def stability_lines(task: tuple[BenchPlan, str]) -> list[StabilityLine]:
     with closing(contender.load()) as way:
         answers = way.answer(rows[places])
     wrong = judge.is_wrong(float_filter.positions(rows[places]), answers, contender.question)
-    asked = np.bincount(cells[places], minlength=cells.max() + 1).tolist()
+    counts = np.bincount(cells[places], minlength=cells.max() + 1).tolist()
     errors = np.bincount(cells[places][wrong], minlength=cells.max() + 1).tolist()
     side = LAST - FIRST + 1
     bins = [
         [FIRST + cell // side, FIRST + cell % side, number, error]
-        for cell, (number, error) in enumerate(zip(asked, errors, strict=True))
+        for cell, (number, error) in enumerate(zip(counts, errors, strict=True))
         if number
     ]
     return [StabilityLine(method=name, precision=contender.precision, bins=bins)]
@@ -98,9 +98,11 @@ LETTERS = {Mistake.FALSE_CLEAR: "c", Mistake.FALSE_CONTACT: "w", Mistake.WRONG_S
 Span = tuple[float, float, int]
 
 
-def place_methods(found: dict[str, Contender]) -> list[str]:
+def place_methods(by_name: dict[str, Contender]) -> list[str]:
     """The methods with maps of places; those in C answer as the same methods in numpy do."""
-    return [name for name, each in found.items() if each.tier != "C" and (each.judged or ENOUGH) >= ENOUGH]
+    return [
+        name for name, contender in by_name.items() if contender.tier != "C" and (contender.judged or ENOUGH) >= ENOUGH
+    ]
 
 
 def mapped_regions(plan: BenchPlan) -> dict[str, tuple[Span, Span]]:
@@ -240,11 +242,11 @@ def bounding_line(rows: Rows, answer: Callable[[Rows], Answers], shape: str, wor
         false_clear += int(((answers != 0) & (answers != positions)).sum())
         excess = float(np.median(clearances(some[refused]).clearance)) if refused.any() else None
         overlap.append((ratio, len(some), int(refused.sum()), excess))
-    asked = len(rows) * len(BOUNDING_RATIOS)
+    count = len(rows) * len(BOUNDING_RATIOS)
     return BoundingLine(
         shape=shape,
         workload=workload,
-        asked=asked,
+        asked=count,
         false_contact=false_contact,
         false_clear=false_clear,
         overlap=overlap,

@@ -100,29 +100,29 @@ def _seconds(implementation: Implementation, rows: Rows) -> float:
     return time.perf_counter() - started
 
 
-def foreign_contenders(found: Iterable[ForeignMethod], limits: Limits) -> Iterable[Contender]:
+def foreign_contenders(methods: Iterable[ForeignMethod], limits: Limits) -> Iterable[Contender]:
     """A contender for each SPEC; a built-in method runs in this process."""
-    for each in found:
-        description = each.description
-        kind, words = parse_spec(each.spec).kind, parse_spec(each.spec).words
+    for method in methods:
+        description = method.description
+        kind, words = parse_spec(method.spec).kind, parse_spec(method.spec).words
         if kind == "builtin":
-            method = builtin(words[0])
-            yield of_method(method, "numpy", "algebraic", judged=method.max_rows, timed=min(8192, each.timed))
+            own = builtin(words[0])
+            yield of_method(own, "numpy", "algebraic", judged=own.max_rows, timed=min(8192, method.timed))
             continue
         yield Contender(
-            name=each.name,
+            name=method.name,
             title=" ".join(filter(None, (description.name, description.version, description.language))),
             tier="foreign",
             kind="foreign",
             precision=description.precision,
             question=description.question,
             domain=description.domain,
-            load=partial(_opened, each.spec, limits),
+            load=partial(_opened, method.spec, limits),
             exact=description.precision == "exact",
-            judged=each.judged,
-            timed=each.timed,
+            judged=method.judged,
+            timed=method.timed,
             singles=SINGLES[kind],
-            note=f"as {each.spec}",
+            note=f"as {method.spec}",
         )
 
 

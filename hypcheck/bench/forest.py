@@ -136,7 +136,7 @@ def _walker_scene(forest: Forest) -> Clear:
 def _meshes() -> list[Any]:
     """A mesh of each kind, which all trees of that kind share."""
     fcl = fcl_module()
-    found = []
+    meshes = []
     for alpha, gamma in KINDS:
         vertices, triangles = grid_of(alpha, gamma, HEIGHT, TRIANGLES).mesh()
         mesh = fcl.BVHModel()
@@ -144,8 +144,8 @@ def _meshes() -> list[Any]:
         mesh.addSubModel(vertices, triangles)
         if mesh.endModel() != 0:
             raise UnavailableError("FCL refuses the mesh of a tree")
-        found.append(mesh)
-    return found
+        meshes.append(mesh)
+    return meshes
 
 
 def _cylinders() -> list[Any]:
@@ -167,9 +167,9 @@ def _in_fcl(shapes: Callable[[], list[Any]], forest: Forest) -> Clear:
 
     def clear(x: float, y: float, z: float, _kept: Any = (kinds, trees)) -> int:  # noqa: ANN401
         walker.setTranslation(np.array([x, y, z]))
-        found = fcl.CollisionData()  # FCL keeps results between calls
-        manager.collide(walker, found, fcl.defaultCollisionCallback)
-        return int(not found.result.is_collision)
+        data = fcl.CollisionData()  # FCL keeps results between calls
+        manager.collide(walker, data, fcl.defaultCollisionCallback)
+        return int(not data.result.is_collision)
 
     return clear
 
@@ -227,25 +227,25 @@ def _lines(
     """A line for each candidate that can be asked here; FCL may be missing."""
     centres = walk(Scene(forest.model), forest, steps, seed)
     truth = [int(forest.clear(centre)) for centre in centres]
-    walkers = {name: each for name, each in candidates.items() if name == OURS or FCL.trouble() is None}
-    made = {name: _made(each, forest) for name, each in walkers.items()}
+    walkers = {name: candidate for name, candidate in candidates.items() if name == OURS or FCL.trouble() is None}
+    made = {name: _made(walker, forest) for name, walker in walkers.items()}
     wrong = {
         name: sum(clear(*centre) != true for centre, true in zip(centres, truth, strict=True))
         for name, (clear, _) in made.items()
     }
     samples = measure([TimingEntry(name, steps, clocked_calls(made[name][0], centres)) for name in made], rounds)
-    for each in samples:
-        step = estimate([each.samples_ns])
-        ratio = estimate(ratios([each.samples_ns], [samples[0].samples_ns]))
+    for timed in samples:
+        step = estimate([timed.samples_ns])
+        ratio = estimate(ratios([timed.samples_ns], [samples[0].samples_ns]))
         yield ForestLine(
-            method=each.name,
-            title=walkers[each.name].title,
-            exact=each.name == OURS,
+            method=timed.name,
+            title=walkers[timed.name].title,
+            exact=timed.name == OURS,
             trees=len(forest.places),
-            triangles=walkers[each.name].triangles,
+            triangles=walkers[timed.name].triangles,
             asked=steps,
-            wrong=wrong[each.name],
-            build_s=made[each.name][1],
+            wrong=wrong[timed.name],
+            build_s=made[timed.name][1],
             step_ns=step.median,
             ci95_ns=(step.low, step.high),
             ratio=ratio.median,

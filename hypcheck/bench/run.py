@@ -87,7 +87,7 @@ def plan_with_needs(plan: BenchPlan, recorder: Recorder) -> BenchPlan:
     Raises InputError naming a method that does not exist.
     """
     engines = {engine.title: engine for engine in (FCL, COAL)}
-    for need in sorted({each.needs for each in contenders(plan).values()} - {""}):
+    for need in sorted({contender.needs for contender in contenders(plan).values()} - {""}):
         if need == COMPILER:
             try:
                 library, compiler = compiled(plan.folder)
@@ -108,15 +108,15 @@ def plan_with_specs(plan: BenchPlan, recorder: Recorder) -> BenchPlan:
 
     Raises InputError if a text is not a SPEC.
     """
-    found: list[foreign.ForeignMethod] = []
+    methods: list[foreign.ForeignMethod] = []
     for spec in plan.specs:
         try:
-            taken = [*contenders(plan), *(each.name for each in found)]
+            taken = [*contenders(plan), *(method.name for method in methods)]
             layout = QUESTIONS[plan.question].layout
-            found.append(foreign.foreign_method(spec, plan.limits, taken, tilted=plan.tilted, layout=layout))
+            methods.append(foreign.foreign_method(spec, plan.limits, taken, tilted=plan.tilted, layout=layout))
         except StartError as error:  # noqa: PERF203 - a process is started in each turn
             recorder.add(NotStartedLine(spec=spec, name=spec, trouble=str(error)))
-    return replace(plan, foreign=tuple(found))
+    return replace(plan, foreign=tuple(methods))
 
 
 def note_absent(recorder: Recorder, what: str, reason: str) -> None:
@@ -200,7 +200,7 @@ class MethodsRun:
     def map_stages(self) -> Sequence[Stage]:
         """The stages about positions of upright spheroids that follow the answers."""
         maps = len(error_maps.stability_methods(self.found)) + len(error_maps.place_methods(self.found))
-        shapes = any(each.kind == "bounding" for each in self.found.values())
+        shapes = any(contender.kind == "bounding" for contender in self.found.values())
         bounding = [Stage("bounding volumes", 1, self.bound)] if shapes else []
         return [Stage("maps", maps, self.draw_maps), *bounding]
 
@@ -208,7 +208,7 @@ class MethodsRun:
     def mesh_and_memory_stages(self) -> Sequence[Stage]:
         """The stages about positions of upright spheroids that come last."""
         found = []
-        if any(each.needs == FCL.title for each in self.found.values()):
+        if any(contender.needs == FCL.title for contender in self.found.values()):
             found.append(Stage("meshes", error_maps.convergence_steps(self.plan), self.refine))
         if self.plan.amounts.memory:
             found.append(Stage("memory", len(self.timed), self.weigh))
@@ -217,13 +217,13 @@ class MethodsRun:
     @property
     def timed(self) -> list[str]:
         """The methods that are timed."""
-        return [name for name, each in self.found.items() if not each.accuracy_only]
+        return [name for name, contender in self.found.items() if not contender.accuracy_only]
 
     def introduce(self, advance: Advance) -> None:
         """Record the methods and the workloads."""
         names = ("title", "tier", "kind", "precision", "question", "exact", "amortised", "accuracy_only", "note")
-        for each in self.found.values():
-            self.recorder.add(MethodLine(method=each.name, **{name: getattr(each, name) for name in names}))
+        for contender in self.found.values():
+            self.recorder.add(MethodLine(method=contender.name, **{name: getattr(contender, name) for name in names}))
         for workload in chosen_workloads(self.plan):
             count = self.plan.amounts.timed if workload.timed else workload.judged(self.plan)
             rows = workload.rows(self.plan.seed, count)
@@ -253,21 +253,22 @@ class MethodsRun:
                 self.answers += answered
                 advance(1)
         methods, workloads = list(self.found), list(truths)
-        self.answers.sort(key=lambda each: (workloads.index(each.workload), methods.index(each.method)))
-        for each in self.answers:
-            self._judge(each, truths[each.workload])
+        self.answers.sort(key=lambda given: (workloads.index(given.workload), methods.index(given.method)))
+        for given in self.answers:
+            self._judge(given, truths[given.workload])
 
-    def _judge(self, each: MethodAnswers, truth: WorkloadTruth) -> None:
-        contender = self.found[each.method]
-        if each.trouble:
-            line = RefusedLine(method=each.method, workload=each.workload, mode="batch", reason=each.trouble)
-            self.recorder.add(line)
+    def _judge(self, given: MethodAnswers, truth: WorkloadTruth) -> None:
+        contender = self.found[given.method]
+        if given.trouble:
+            self.recorder.add(
+                RefusedLine(method=given.method, workload=given.workload, mode="batch", reason=given.trouble)
+            )
             self.outcome.codes.add(Exit.WRONG)
-        if len(each.places):
+        if len(given.places):
             tried = accuracy.FEW_TRIED if self.plan.quick and self.plan.question == PASSAGE else accuracy.WORST_TRIED
-            found = accuracy.accuracy_line(contender, each, truth, tried)
-            self.recorder.add(found)
-            if contender.exact and (found.wrong or found.abstained):
+            line = accuracy.accuracy_line(contender, given, truth, tried)
+            self.recorder.add(line)
+            if contender.exact and (line.wrong or line.abstained):
                 self.outcome.codes.add(Exit.WRONG)
 
     def draw_maps(self, advance: Advance) -> None:

@@ -62,15 +62,15 @@ class SceneKernel:
 
     def _called(self, name: str, count: int, *given: Floats | int) -> PreparedWork:
         """A function of the library, called with what is given and an array for so many answers."""
-        function, found = getattr(self.library, name), np.zeros(count, dtype=np.int8)
+        function, answers = getattr(self.library, name), np.zeros(count, dtype=np.int8)
         words = [
-            ctypes.c_size_t(each) if isinstance(each, int) else ctypes.c_void_p(each.ctypes.data)
-            for each in (*given, found)
+            ctypes.c_size_t(array) if isinstance(array, int) else ctypes.c_void_p(array.ctypes.data)
+            for array in (*given, answers)
         ]
 
         def work(_kept: object = given) -> Positions:  # pointers alone would not keep the arrays alive
             function(*words)
-            return found
+            return answers
 
         return prepared(count, work)
 
@@ -101,7 +101,7 @@ def kernel_savings(plan: ScenePlan, folder: Path, rounds: int = KERNEL_ROUNDS) -
     for stages in plan.settings:
         rows = rows_of(stages)
         works = (kernel.batch(rows), printed.batch(rows), kernel.single(rows), printed.single(rows))
-        entries = [TimingEntry(str(place), len(rows), each.run) for place, each in enumerate(works)]
+        entries = [TimingEntry(str(place), len(rows), work.run) for place, work in enumerate(works)]
         samples = measure(entries, rounds)
         batch, single = _saving(*samples[:2]), _saving(*samples[2:])
         yield {
@@ -192,9 +192,9 @@ def _scene_line(plan: ScenePlan, methods: Path, kernel: SceneKernel, rounds: int
     printed, certified = (InC(methods, place_of(name)) for name in (f"{PRINTED}-{plan.format.name}", CERTIFIED))
     rows = np.concatenate(tables)
     batches = {
-        "kernel": [kernel.batch(each) for each in tables],
-        "printed": [printed.batch(each) for each in tables],
-        "certified": [_certified(plan, each) for each in tables],
+        "kernel": [kernel.batch(table) for table in tables],
+        "printed": [printed.batch(table) for table in tables],
+        "certified": [_certified(plan, table) for table in tables],
     }
     singles = {
         "kernel": [kernel.single(rows)],
@@ -202,7 +202,10 @@ def _scene_line(plan: ScenePlan, methods: Path, kernel: SceneKernel, rounds: int
         "certified": [certified.single(rows)],
     }
     exact = _answers(batches["certified"])
-    wrong = [(said != exact) & (said != CANNOT_SAY) for said in map(_answers, (batches["kernel"], singles["kernel"]))]
+    wrong = [
+        (answers != exact) & (answers != CANNOT_SAY)
+        for answers in map(_answers, (batches["kernel"], singles["kernel"]))
+    ]
     return SceneLine(
         scene=plan.scene.name,
         question=plan.question,
@@ -220,21 +223,21 @@ def _answers(parts: Sequence[PreparedWork]) -> Positions:
     return np.concatenate([part.answers() for part in parts])
 
 
-def _times(asked: Mapping[str, Sequence[PreparedWork]], count: int, rounds: int) -> SceneTimes:
+def _times(works: Mapping[str, Sequence[PreparedWork]], count: int, rounds: int) -> SceneTimes:
     """Nanoseconds for a row of each, and the kernel's time relative to the others'."""
-    entries = [TimingEntry(name, count, _all_of([part.run for part in parts])) for name, parts in asked.items()]
+    entries = [TimingEntry(name, count, _all_of([part.run for part in parts])) for name, parts in works.items()]
     samples = measure(entries, rounds)
     own, *others = samples
-    found: dict[str, Any] = {f"{each.name}_ns": each.median_ns for each in samples}
+    values: dict[str, Any] = {f"{timed.name}_ns": timed.median_ns for timed in samples}
     for other in others:
         ratio = estimate(ratios([own.samples_ns], [other.samples_ns]))
-        found |= {f"by_{other.name}": ratio.median, f"by_{other.name}_ci95": (ratio.low, ratio.high)}
-    return SceneTimes(**found)
+        values |= {f"by_{other.name}": ratio.median, f"by_{other.name}_ci95": (ratio.low, ratio.high)}
+    return SceneTimes(**values)
 
 
 def stage_shares(settings: Sequence[Stages]) -> dict[str, float]:
     """The share of the scene's queries that each stage decides, with the same number for each pair of sizes."""
-    return {name: float(np.mean([each.shares.get(name, 0.0) for each in settings])) for name in STAGES}
+    return {name: float(np.mean([setting.shares.get(name, 0.0) for setting in settings])) for name in STAGES}
 
 
 def _tables(plan: ScenePlan, count: int) -> list[Rows]:

@@ -91,13 +91,13 @@ class _Together:
 
 def run_session(session: MeasuringSession) -> list[Measurement]:
     """All measurements, in the order of workloads and modes."""
-    found = contenders(session.plan)
-    ways = {name: each.load() for name, each in found.items() if not each.accuracy_only}
+    by_name = contenders(session.plan)
+    ways = {name: contender.load() for name, contender in by_name.items() if not contender.accuracy_only}
     measured = []
     try:
         for workload in chosen_workloads(session.plan):
             for mode in _modes(workload):
-                here, refused = _methods(session, found, ways, workload, mode)
+                here, refused = _methods(session, by_name, ways, workload, mode)
                 measured += [*refused, *_measured(session, here)]
         for claim in cost_claims(session.plan):
             measured += _measured(session, _compared(session, claim))
@@ -123,7 +123,7 @@ def _modes(workload: Workload) -> Sequence[str]:
 
 def _methods(
     session: MeasuringSession,
-    found: Mapping[str, Contender],
+    by_name: Mapping[str, Contender],
     ways: Mapping[str, LoadedMethod],
     workload: Workload,
     mode: str,
@@ -131,16 +131,16 @@ def _methods(
     """The methods that are measured, and those that are refused because their answers are others than before."""
     here, refused = _Together((workload.name, mode), {}), []
     for name, way in ways.items():
-        rows = timed_rows(session.plan, found[name], workload)
+        rows = timed_rows(session.plan, by_name[name], workload)
         if mode == "single":
-            rows = rows[: found[name].singles]
+            rows = rows[: by_name[name].singles]
         key = (name, *here.where)
-        told = session.expected.get(key)
-        ready = getattr(way, mode)(rows) if len(rows) and told != NOT_ANSWERED else None
+        expected_print = session.expected.get(key)
+        ready = getattr(way, mode)(rows) if len(rows) and expected_print != NOT_ANSWERED else None
         if ready is None:
             continue
         answers = ready.answers()
-        if told is not None and answers_print(answers) != told:
+        if expected_print is not None and answers_print(answers) != expected_print:
             reason = "its answers, when it was about to be timed, were not those that were judged"
             refused.append(Measurement(key, Samples(name, ready.rows, 0, 0, refused=reason), 0.0, ready.timed_by))
             continue
@@ -160,13 +160,13 @@ def _measured(session: MeasuringSession, here: _Together) -> Iterator[Measuremen
         calls.setdefault(_called(call), call.ready)
     samples = _rounds(session, here, {**todo, **calls})
     for name, ready in todo.items():
-        found, own = samples[name], here.empties.get(reference if name == REFERENCE_AGAIN else name)
+        timed, own = samples[name], here.empties.get(reference if name == REFERENCE_AGAIN else name)
         empty = None if own is None else samples[_called(own)]
         empty_ns = empty.median_ns if empty is not None and empty.samples_ns else 0.0
         share = 1 if here.where[1] == "single" else 1 / ready.rows
-        found.samples_ns = [sample - share * empty_ns for sample in found.samples_ns]
+        timed.samples_ns = [sample - share * empty_ns for sample in timed.samples_ns]
         calls_ns = () if empty is None else tuple(share * sample for sample in empty.samples_ns)
-        yield Measurement((name, *here.where), found, empty_ns, ready.timed_by, calls_ns)
+        yield Measurement((name, *here.where), timed, empty_ns, ready.timed_by, calls_ns)
     for name in calls:
         yield Measurement((name, *here.where), samples[name], 0.0, "process")
 
@@ -177,16 +177,16 @@ def _called(call: EmptyCall) -> str:
 
 def _rounds(session: MeasuringSession, here: _Together, todo: Mapping[str, PreparedWork]) -> dict[str, Samples]:
     where, entries = here.where, []
-    for name, each in todo.items():
+    for name, work in todo.items():
         total = here.sums.get(session.plan.reference if name == REFERENCE_AGAIN else name)
-        total = int(each.answers().sum(dtype=np.int64)) if total is None else total
+        total = int(work.answers().sum(dtype=np.int64)) if total is None else total
         loops, takes = session.loops.get((name, *where), (None, 1))
-        entries.append(TimingEntry(name, each.rows, each.run, total, loops, takes))
+        entries.append(TimingEntry(name, work.rows, work.run, total, loops, takes))
     first = session.number * len(entries) // max(1, session.plan.processes)
     shortest = session.plan.amounts.sample_s
     rounds = BUILDS if where[1] == "build" else session.plan.rounds
     samples = measure(entries, rounds, shortest, first)
-    return {each.name: each for each in samples}
+    return {timed.name: timed for timed in samples}
 
 
 UNLIKE = 0.1
@@ -200,36 +200,34 @@ Measurements = dict[MeasurementKey, list[Measurement]]
 def expected_prints(answers: list[MethodAnswers]) -> dict[MeasurementKey, str]:
     """The hashes of the judged answers, by method, workload and mode."""
     prints: dict[MeasurementKey, str] = {}
-    for method_answers in answers:
-        prints[method_answers.method, method_answers.workload, "batch"] = (
-            NOT_ANSWERED if method_answers.trouble else method_answers.batch_print
-        )
-        prints[method_answers.method, method_answers.workload, "single"] = (
-            NOT_ANSWERED if method_answers.trouble else method_answers.single_print
-        )
+    for given in answers:
+        prints[given.method, given.workload, "batch"] = NOT_ANSWERED if given.trouble else given.batch_print
+        prints[given.method, given.workload, "single"] = NOT_ANSWERED if given.trouble else given.single_print
     return prints
 
 
 def measurements_of(plan: BenchPlan, prints: Mapping[MeasurementKey, str], advance: Advance) -> Measurements:
     """The measurements of the processes, one process after the other; the first calibrates for all."""
-    found: Measurements = {}
+    measurements: Measurements = {}
     loops: dict[MeasurementKey, tuple[int, int]] = {}
     for number in range(plan.processes):
         with fresh(1) as executor:
             ((_, results),) = perform(run_session, [MeasuringSession(plan, number, prints, loops)], executor)
-        for each in results:
-            found.setdefault(each.key, []).append(each)
-            loops.setdefault(each.key, (each.samples.loops, each.samples.takes))
+        for result in results:
+            measurements.setdefault(result.key, []).append(result)
+            loops.setdefault(result.key, (result.samples.loops, result.samples.takes))
         advance(1)
-    return found
+    return measurements
 
 
-def speed_lines(found: Measurements, reference: str) -> Iterator[NoiseLine | SpeedLine | UnmeasuredLine | RefusedLine]:
+def speed_lines(
+    measurements: Measurements, reference: str
+) -> Iterator[NoiseLine | SpeedLine | UnmeasuredLine | RefusedLine]:
     """The record's lines: noise before the speeds that it belongs to; methods without a time last."""
-    found = {key: parts for key, parts in found.items() if not key[1].startswith(COST_OF)}
-    refused = {key: reason for key, parts in found.items() if (reason := _refusal(parts))}
-    hidden = {key: reason for key, parts in found.items() if key not in refused and (reason := _hidden(parts))}
-    timed = {key: parts for key, parts in found.items() if key not in refused and key not in hidden}
+    measurements = {key: parts for key, parts in measurements.items() if not key[1].startswith(COST_OF)}
+    refused = {key: reason for key, parts in measurements.items() if (reason := _refusal(parts))}
+    hidden = {key: reason for key, parts in measurements.items() if key not in refused and (reason := _hidden(parts))}
+    timed = {key: parts for key, parts in measurements.items() if key not in refused and key not in hidden}
     for name, workload, mode in timed:
         if name == REFERENCE_AGAIN and (reference, workload, mode) in timed:
             yield _noise(timed, reference, workload, mode)
@@ -249,10 +247,10 @@ def _hidden(parts: list[Measurement]) -> str | None:
     It can if the 95 % intervals of the two medians, before the subtraction, are apart by more than UNLIKE, the possible
     difference between the empty call and the cost of calling the method.
     """
-    if not all(each.calls_ns for each in parts):
+    if not all(part.calls_ns for part in parts):
         return None
-    call = estimate([[left + median(each.calls_ns) for left in each.samples.samples_ns] for each in parts])
-    empty = estimate([each.calls_ns for each in parts])
+    call = estimate([[left + median(part.calls_ns) for left in part.samples.samples_ns] for part in parts])
+    empty = estimate([part.calls_ns for part in parts])
     if call.low > (1 + UNLIKE) * empty.high and any(map(_possible, parts)):
         return None
     return (
@@ -271,16 +269,16 @@ def _possible(part: Measurement) -> list[float]:
 
 
 def _refusal(parts: list[Measurement]) -> str | None:
-    return next((each.samples.refused for each in parts if each.samples.refused), None)
+    return next((part.samples.refused for part in parts if part.samples.refused), None)
 
 
-def _speed_line(found: Measurements, reference: str, key: MeasurementKey) -> SpeedLine:
+def _speed_line(measurements: Measurements, reference: str, key: MeasurementKey) -> SpeedLine:
     name, workload, mode = key
-    parts = found[key]
+    parts = measurements[key]
     first = parts[0].samples
     samples = [possible for part in parts if (possible := _possible(part))]
     dropped = sum(len(part.samples.samples_ns) for part in parts) - sum(map(len, samples))
-    time, ratio = estimate(samples), _ratio(found, reference, key)
+    time, ratio = estimate(samples), _ratio(measurements, reference, key)
     return SpeedLine(
         method=name,
         workload=workload,
@@ -294,22 +292,22 @@ def _speed_line(found: Measurements, reference: str, key: MeasurementKey) -> Spe
         ratio=None if ratio is None else ratio.median,
         ratio_ci95=None if ratio is None else (ratio.low, ratio.high),
         checksum=first.checksum,
-        empty_ns=median(each.empty_ns for each in parts),
+        empty_ns=median(part.empty_ns for part in parts),
         timed_by=parts[0].timed_by,
     )
 
 
-def _ratio(found: Measurements, reference: str, key: MeasurementKey) -> Estimate | None:
+def _ratio(measurements: Measurements, reference: str, key: MeasurementKey) -> Estimate | None:
     _, workload, mode = key
-    parts = found.get((reference, workload, mode))
+    parts = measurements.get((reference, workload, mode))
     if parts is None or _refusal(parts):
         return None
-    pairs = ratios(samples_of(found[key]), samples_of(parts))
+    pairs = ratios(samples_of(measurements[key]), samples_of(parts))
     return estimate(pairs) if any(pairs) else None
 
 
-def _noise(found: Measurements, reference: str, workload: str, mode: str) -> NoiseLine:
-    ratio = _ratio(found, reference, (REFERENCE_AGAIN, workload, mode))
+def _noise(measurements: Measurements, reference: str, workload: str, mode: str) -> NoiseLine:
+    ratio = _ratio(measurements, reference, (REFERENCE_AGAIN, workload, mode))
     if ratio is None:
         raise ValueError(f"{reference} was measured again in {workload}, {mode}, and not before")
     return NoiseLine(
@@ -323,11 +321,13 @@ def _noise(found: Measurements, reference: str, workload: str, mode: str) -> Noi
 
 def samples_of(parts: list[Measurement]) -> list[list[float]]:
     """Nanoseconds a row of each round, by process; no clock has more than six digits of them."""
-    return [[float(f"{sample:.6g}") for sample in each.samples.samples_ns] for each in parts]
+    return [[float(f"{sample:.6g}") for sample in part.samples.samples_ns] for part in parts]
 
 
-def cost_lines(plan: BenchPlan, found: Measurements) -> Iterator[CostLine]:
+def cost_lines(plan: BenchPlan, measurements: Measurements) -> Iterator[CostLine]:
     """A line for each claim about costs."""
     for claim in cost_claims(plan):
-        samples = {name: samples_of(parts) for (name, workload, _), parts in found.items() if workload == claim.where}
+        samples = {
+            name: samples_of(parts) for (name, workload, _), parts in measurements.items() if workload == claim.where
+        }
         yield cost_line(plan, claim, samples)

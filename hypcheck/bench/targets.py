@@ -82,13 +82,13 @@ def paces(rounds: int) -> Iterator[KernelLine]:
             TimingEntry("far", PACED, thread_clocked(partial(answer_ended, far, 1))),
             TimingEntry("near", PACED, thread_clocked(partial(answer_ended, near, 1))),
         ]
-        found = measured_samples(entries, rounds)
+        samples = measured_samples(entries, rounds)
         for name, text, wanted in (("far", "ends far away", 1.3), ("near", "ends near the rim", 6.0)):
             target = KernelTarget(
                 f"{text}, {kind}", "a row, to one in the same scene without ends", wanted, at_most=True
             )
-            says = f"{rate_text(found[name])}; without ends {rate_text(found['whole'])}"
-            yield target.line(times_as_long(found[name], found["whole"]), says)
+            says = f"{rate_text(samples[name])}; without ends {rate_text(samples['whole'])}"
+            yield target.line(times_as_long(samples[name], samples["whole"]), says)
 
 
 def _answered(rows: Rows) -> Positions:
@@ -107,8 +107,8 @@ def left_open(_rounds: int) -> Iterator[KernelLine]:
     for target, ordinary in ((OPEN, True), (OPEN_NEAR, False)):
         some = {name: share for name, share in counts.items() if name.endswith("uniform") is ordinary}
         n = ORDINARY if ordinary else NEAR
-        told = ", ".join(f"{name} {round(share * n)}" for name, share in some.items() if share) or "none of any family"
-        yield target.line([max(some.values())], f"of {n:,} of each of {len(some)} families: {told}")
+        words = ", ".join(f"{name} {round(share * n)}" for name, share in some.items() if share) or "none of any family"
+        yield target.line([max(some.values())], f"of {n:,} of each of {len(some)} families: {words}")
 
 
 def _open_share(name: str) -> float:
@@ -168,16 +168,16 @@ class TimesAsFast:
     ceiling: str
     share: float
 
-    def line(self, expression: str, found: Mapping[str, Samples], says: str) -> KernelLine:
+    def line(self, expression: str, samples: Mapping[str, Samples], says: str) -> KernelLine:
         """The record's line about the expression of that name."""
-        own, other, least = (found[name] for name in (self.mine, expression, self.ceiling))
+        own, other, least = (samples[name] for name in (self.mine, expression, self.ceiling))
         gains, most = times_as_fast(own, other), times_as_fast(least, other)
         reached = [gain / min(self.times, self.share * limit) for gain, limit in zip(gains, most, strict=True)]
         limit = f"or {self.share} of what {self.ceiling} allows, if that is less"
         text = f"{self.subject}, of {self.times:g} times the speed of {EXPRESSIONS[expression]}, {limit}; 1e7 rows"
-        told = f"{rate_text(own)}; the expression: {rate_text(other)}, {median(gains):.3g} times as long"
-        told += f"; {self.ceiling} the rows: {rate_text(least)}{says}"
-        return KernelTarget(f"{self.name}, {expression}", text, 1.0).line(reached, told)
+        words = f"{rate_text(own)}; the expression: {rate_text(other)}, {median(gains):.3g} times as long"
+        words += f"; {self.ceiling} the rows: {rate_text(least)}{says}"
+        return KernelTarget(f"{self.name}, {expression}", text, 1.0).line(reached, words)
 
 
 TARGETS = (
@@ -205,11 +205,11 @@ def against_numpy(folder: Path, rounds: int) -> Iterator[KernelLine]:
     else:
         entries.append(TimingEntry("reading", MANY, c_baselines(folder)[0].read(columns), loops=1))
     entries += [TimingEntry(name, MANY, thread_clocked(call), loops=1) for name, call in work.items()]
-    found = measured_samples(entries, rounds)
+    samples = measured_samples(entries, rounds)
     for target in TARGETS:
         for expression in EXPRESSIONS:
-            if target.mine in found:
-                yield target.line(expression, found, f"; {large_pages()}")
+            if target.mine in samples:
+                yield target.line(expression, samples, f"; {large_pages()}")
 
 
 def _copied(columns: Columns) -> NDArray[np.signedinteger]:
@@ -228,10 +228,10 @@ LARGE_PAGES = Path("/sys/kernel/mm/transparent_hugepage/enabled")
 def large_pages(setting: Path = LARGE_PAGES) -> str:
     """What the system says about large pages for the temporaries of an expression."""
     try:
-        said = setting.read_text(encoding="ascii")
+        text = setting.read_text(encoding="ascii")
     except (OSError, UnicodeDecodeError):
         return "large pages for temporaries: not told by this system"
-    chosen = said.partition("[")[2].partition("]")[0]
+    chosen = text.partition("[")[2].partition("]")[0]
     words = {"always": "always", "madvise": "where asked for, as numpy does for 4 MB and more", "never": "never"}
     return f"large pages for temporaries: {words.get(chosen, 'not told by this system')}"
 
@@ -250,11 +250,11 @@ def against_others(rounds: int) -> Iterator[KernelLine]:
     if trouble is None:
         mesh = scene_mesh(FCL, "point", TOWER_SIZES, height_of(TOWER_SIZES, rows), TRIANGLES)
         entries.append(TimingEntry("FCL", FEW, _queries(mesh, rows)))
-    found = measured_samples(entries, rounds)
+    samples = measured_samples(entries, rounds)
     for target in (ROOTS, FCL_QUERY):
-        if (other := found.get(target.name)) is not None:
-            says = f"{rate_text(found['kernel'])} on {choice().kernel}; {target.name}: {rate_text(other)}"
-            yield target.line(times_as_fast(found["kernel"], other), says)
+        if (other := samples.get(target.name)) is not None:
+            says = f"{rate_text(samples['kernel'])} on {choice().kernel}; {target.name}: {rate_text(other)}"
+            yield target.line(times_as_fast(samples["kernel"], other), says)
 
 
 def _queries(mesh: SceneMesh, rows: Rows) -> Clocked:

@@ -415,13 +415,13 @@ def scene_workloads(name: str) -> dict[str, Workload]:
 def _axes_of(scene: SceneModel, draw: Draw, n: int) -> Vectors:
     if scene.mover.axis == FREE:
         return anywhere(draw, n)
-    x, y, z = (np.full(n, float(each)) for each in scene.mover.axis)
+    x, y, z = (np.full(n, float(number)) for number in scene.mover.axis)
     return x, y, z
 
 
 def _in_region(scene: SceneModel, settings: tuple[Setting, ...], draw: Draw, n: int, before: int) -> Rows:
-    sizes = _in_cycle([each.sizes for each in settings], n, before)
-    ends = _in_cycle([_ends(each) for each in settings], n, before)
+    sizes = _in_cycle([setting.sizes for setting in settings], n, before)
+    ends = _in_cycle([_ends(setting) for setting in settings], n, before)
     centre = [low + (high - low) * draw.unit(n) for low, high in np.transpose(ends, (1, 2, 0))]
     return np.column_stack([sizes, *centre, *_axes_of(scene, draw, n)]) + 0.0
 
@@ -437,7 +437,7 @@ def _ends(setting: Setting) -> list[tuple[float, float]]:
 
 
 def _near_in_scene(scene: SceneModel, settings: tuple[Setting, ...], draw: Draw, n: int, before: int) -> Rows:
-    return _tilted_near(draw, _in_cycle([each.sizes for each in settings], n, before), _axes_of(scene, draw, n))
+    return _tilted_near(draw, _in_cycle([setting.sizes for setting in settings], n, before), _axes_of(scene, draw, n))
 
 
 def workloads_of(plan: BenchPlan) -> dict[str, Workload]:
