@@ -82,8 +82,19 @@ def _json(value: object) -> str:
     return json.dumps(value, ensure_ascii=False)
 
 
+PUBLISHED_NAMES = {
+    "Tally": "saved_tally",
+    "WorstCase": "saved_answer",
+    "UnansweredCase": "saved_fault",
+    "Explained": "saved_explained",
+}
+"""Definitions of the state of a run, as the first schema that had them named them."""
+
+
 def _named(name: str) -> str:
     """wrong_answer for WrongAnswer, speed for SpeedLine: the definition of a type of line has its name."""
+    if name in PUBLISHED_NAMES:
+        return PUBLISHED_NAMES[name]
     return re.sub(r"(?<=[a-z])(?=[A-Z])", "_", re.sub(r"(Line|Part)$", "", name)).lower()
 
 
