@@ -24,6 +24,7 @@ import hypcheck
 from hypcheck.bench import compiled_targets
 from hypcheck.bench.c_library import TOWER_SIZES, c_baselines
 from hypcheck.bench.compiled_targets import tower_rows, uniform_columns
+from hypcheck.bench.wanted import Form, KernelTarget, forms, target
 from hypcheck.geometry.rows import Floats, Positions, tilted_rows
 from hypcheck.kernel.choice import choice
 from hypcheck.kernel.compiled_kernel import extension
@@ -31,7 +32,6 @@ from hypcheck.kernel.scalar import exact_position
 from hypcheck.record.measurements import KernelLine
 from hypcheck.runs.timing import (
     Clocked,
-    KernelTarget,
     Samples,
     TimingEntry,
     clocked_in_c,
@@ -43,43 +43,15 @@ from hypcheck.runs.timing import (
 
 CALLS, TEN = 1000, 10
 BATCHES, MANY = (1_000, 10_000, 100_000), 10_000_000
-WANTED = {1_000: 0.7, 10_000: 0.85}
-"""Of batches so small that setting the interpreter free and looking at the arguments shows."""
-
 LOOP = "an empty loop over the same calls is taken off"
 
-ONE_CALL = KernelTarget("one pair", "hypcheck.position, to an empty C call of seven floats", 2.0, at_most=True)
-PLAIN_CALL = KernelTarget(
-    "one pair, plain Python",
-    "hypcheck.position without the compiled kernel, to Table 2 in plain Python, uncertified",
-    2.6,
-    at_most=True,
-)
-TEN_CENTRES = KernelTarget(
-    "ten centres", "classify_scene, to an empty C call that takes the same arrays", 5.0, at_most=True
-)
-TEN_IN_PLACE = KernelTarget(
-    "ten centres, out=", "classify_scene with out=, to an empty C call that takes the same arrays", 5.0, at_most=True
-)
-
-_BATCH = "one thread, of the speed of the C function and one empty call{made}; {count:.0e} rows"
-
-
-def _batch_targets(count: int) -> dict[str, KernelTarget]:
-    says = {made: _BATCH.format(count=count, made=made).replace("e+0", "e") for made in ("", " and one new array")}
-    return {
-        work: KernelTarget(
-            f"{name}, {count:.0e}".replace("e+0", "e"),
-            f"{call}, {says['' if work.endswith('place') else ' and one new array']}",
-            WANTED.get(count, 0.95),
-        )
-        for work, name, call in (
-            ("fresh", "batch", "classify_scene"),
-            ("in place", "batch, out=", "classify_scene with out="),
-            ("rows", "batch of rows", "classify of rows (n, 7)"),
-            ("rows in place", "batch of rows, out=", "classify of rows (n, 7) with out="),
-        )
-    }
+BATCH_TARGETS = {
+    "fresh": "batch",
+    "in place": "batch, out=",
+    "rows": "batch of rows",
+    "rows in place": "batch of rows, out=",
+}
+"""The targets of a batch, by what is called: each is listed for each number of rows."""
 
 
 def batches(folder: Path, rounds: int) -> Iterator[KernelLine]:
@@ -110,7 +82,7 @@ def batch(folder: Path, count: int, rounds: int) -> Iterator[KernelLine]:
             TimingEntry("rows in place", count, thread_clocked(partial(hypcheck.classify, rows, out=out))),
         ]
     samples = measured_samples(entries, rounds)
-    for work, target in _batch_targets(count).items():
+    for work, name in BATCH_TARGETS.items():
         if work in samples:
             least = samples["rows in C" if work.startswith("rows") else "in C"]
             made = samples["array"].samples_ns if work in ("fresh", "rows") else [0.0] * len(least.samples_ns)
@@ -123,7 +95,7 @@ def batch(folder: Path, count: int, rounds: int) -> Iterator[KernelLine]:
                 f"; a new array: {samples['array'].median_ns:.3g} ns,"
                 f" with its first touch: {samples['first touch'].median_ns:.3g} ns a row"
             )
-            yield target.line(
+            yield target(f"{name}, {count:.0e}".replace("e+0", "e")).line(
                 [(in_c + (empty + array) / count) / mine for mine, in_c, empty, array in sample_times], says
             )
 
@@ -142,12 +114,12 @@ def ten_centres(rounds: int) -> Iterator[KernelLine]:
         TimingEntry("in place", 1, statement("ask(sizes, x, y, z, out)", ask=ask, out=out, **names)),
     ]
     net = without_loop(measured_samples(entries, 3 * rounds))
-    for target, name, least in ((TEN_CENTRES, "fresh", "take"), (TEN_IN_PLACE, "in place", "take out")):
+    for subject, name, least in (("ten centres", "fresh", "take"), ("ten centres, out=", "in place", "take out")):
         says = (
             f"{np.median(net[name]):.3g} ns; an empty call that takes the arrays {np.median(net[least]):.3g} ns, one "
             f"that does not look at them {np.median(net['nothing']):.3g} ns: {LOOP}"
         )
-        yield target.line((net[name] / net[least]).tolist(), says)
+        yield target(subject).line((net[name] / net[least]).tolist(), says)
 
 
 def statement(text: str, **names: object) -> Clocked:
@@ -190,55 +162,22 @@ def one_call(rounds: int) -> Iterator[KernelLine]:
         TimingEntry(name, CALLS, statement(ask, rows=rows, ask=function)) for name, function in functions.items()
     ]
     net = without_loop(measured_samples(entries, 3 * rounds))
-    for target, name, least in ((ONE_CALL, "position", "nothing"), (PLAIN_CALL, "plain", "textbook")):
+    for subject, name, least in (("one pair", "position", "nothing"), ("one pair, plain Python", "plain", "textbook")):
         if name in net:
             says = f"{np.median(net[name]):.3g} ns, {least} {np.median(net[least]):.3g} ns: {LOOP}"
-            yield target.line((net[name] / net[least]).tolist(), says)
+            yield target(subject).line((net[name] / net[least]).tolist(), says)
 
 
 MILLION, EACH_AXIS = 1_000_000, 20_000
 
 _SCALARS = (np.float32, np.float64, np.int64)
 
-Form = tuple[str, float]
-"""A statement that calls, and how many times as long as the first of its table it may take."""
-
-PAIR_FORMS: Mapping[str, Form] = {
-    "floats": ("position(2.0, 18.0, 0.25, 0.15, 3.0, 4.0, 5.0)", 1),
-    "ints": ("position(2, 18, 1, 2, 3, 4, 5)", 3),
-    "numpy floats": ("position(*float64)", 3),
-    "numpy float32": ("position(*float32)", 3),
-    "numpy ints": ("position(*int64)", 3),
-}
-
-TEN_FORMS: Mapping[str, Form] = {
-    "contiguous": ("scene(sizes, x, y, z)", 1),
-    "one int among the sizes": ("scene((2, 17.8, 0.25, 0.15), x, y, z)", 3),
-    "sizes of numpy's scalars": ("scene(scalars, x, y, z)", 3),
-    "sizes in an array": ("scene(array, x, y, z)", 3),
-    "ints for columns": ("scene(sizes, x, 1, 5)", 3),
-    "strided columns": ("scene(sizes, u, v, w)", 3),
-    "whole numbers": ("scene(sizes, *whole)", 3),
-    "lists": ("scene(sizes, *lists)", 5),
-    "float32": ("scene(sizes, *single)", 5),
-    "points (n, 3)": ("scene(sizes, points)", 3),
-    "axis with an int": ("scene(sizes, x, y, z, axis=(0, 0, 1))", 3),
-}
-
-ROW_FORMS: Mapping[str, Form] = {
-    "contiguous": ("classify(rows)", 1),
-    "Fortran": ("classify(fortran)", 3),
-    "strided": ("classify(strided)", 3),
-    "float32": ("classify(single)", 5),
-    "list": ("classify(list)", 5),
-}
-
 
 def forms_of_one_pair(rounds: int) -> Iterator[KernelLine]:
     """hypcheck.position with the numbers that a program has."""
     numbers = (2, 18, 1, 2, 3, 4, 5)
     names = {kind.__name__: tuple(map(kind, numbers)) for kind in _SCALARS}
-    yield from _lines("one pair", PAIR_FORMS, {"position": hypcheck.position, **names}, rounds)
+    yield from _lines("one pair", forms("one pair"), {"position": hypcheck.position, **names}, rounds)
 
 
 def forms_of_ten_centres(rounds: int) -> Iterator[KernelLine]:
@@ -253,7 +192,7 @@ def forms_of_ten_centres(rounds: int) -> Iterator[KernelLine]:
         "lists": [list(column) for column in columns],
     }
     names |= {"whole": [column.astype(np.int64) for column in columns], "scene": hypcheck.classify_scene}
-    yield from _lines("ten centres", TEN_FORMS, names, rounds)
+    yield from _lines("ten centres", forms("ten centres"), names, rounds)
 
 
 def forms_of_ten_rows(rounds: int) -> Iterator[KernelLine]:
@@ -262,19 +201,19 @@ def forms_of_ten_rows(rounds: int) -> Iterator[KernelLine]:
     names = {"rows": rows, "fortran": np.asfortranarray(rows), "strided": np.repeat(rows, 2, axis=0)[::2]}
     names |= {"single": rows.astype(np.float32), "list": rows.tolist()}
     for subject, call in (("ten rows", hypcheck.classify), ("ten clearances", hypcheck.clearance)):
-        yield from _lines(subject, ROW_FORMS, {**names, "classify": call}, rounds)
+        yield from _lines(subject, forms("rows"), {**names, "classify": call}, rounds)
 
 
-def _lines(subject: str, forms: Mapping[str, Form], names: dict[str, object], rounds: int) -> Iterator[KernelLine]:
+def _lines(subject: str, ways: Mapping[str, Form], names: dict[str, object], rounds: int) -> Iterator[KernelLine]:
     entries = [TimingEntry("loop", 1, statement("pass"))]
-    entries += [TimingEntry(form, 1, statement(text, **names)) for form, (text, _) in forms.items()]
+    entries += [TimingEntry(form, 1, statement(text, **names)) for form, (text, _) in ways.items()]
     net = without_loop(measured_samples(entries, 3 * rounds))
-    usual, *others = forms
+    usual, *others = ways
     for form in others:
-        text, wanted = forms[form]
-        target = KernelTarget(f"{subject}, {form}", f"{text}, to {forms[usual][0]}", wanted, at_most=True)
+        text, wanted = ways[form]
+        form_target = KernelTarget(f"{subject}, {form}", f"{text}, to {ways[usual][0]}", wanted, at_most=True)
         says = f"{np.median(net[form]):.3g} ns; {usual} {np.median(net[usual]):.3g} ns: an empty loop is taken off"
-        yield target.line((net[form] / net[usual]).tolist(), says)
+        yield form_target.line((net[form] / net[usual]).tolist(), says)
 
 
 def forms_of_many(rounds: int) -> Iterator[KernelLine]:
@@ -323,6 +262,6 @@ def _many(
     samples = measured_samples([TimingEntry(form, count, thread_clocked(call)) for form, call in work.items()], rounds)
     usual, *others = work
     for form in others:
-        target = KernelTarget(f"{subject}, {form}", f"a row, to one of {usual}", wanted[form], at_most=True)
+        form_target = KernelTarget(f"{subject}, {form}", f"a row, to one of {usual}", wanted[form], at_most=True)
         says = f"{rate_text(samples[form])}; {usual}: {rate_text(samples[usual])}"
-        yield target.line(times_as_long(samples[form], samples[usual]), says)
+        yield form_target.line(times_as_long(samples[form], samples[usual]), says)

@@ -23,14 +23,13 @@ import numpy as np
 import hypcheck
 from hypcheck.bench.accuracy import forget_peak, peak
 from hypcheck.bench.c_library import TOWER_SIZES, CBaseline, c_baselines
-from hypcheck.bench.c_source import WORDS
+from hypcheck.bench.wanted import target
 from hypcheck.geometry.rows import Columns, Floats, Positions, Rows, tilted_rows
 from hypcheck.implementations.alternatives import by_eigenvectors
 from hypcheck.kernel.choice import choice
 from hypcheck.kernel.compiled_kernel import fill_scene, in_parts
 from hypcheck.record.measurements import KernelLine
 from hypcheck.runs.timing import (
-    KernelTarget,
     Samples,
     TimingEntry,
     clocked,
@@ -77,29 +76,6 @@ MANY, CACHED, FEW, WORST = 10_000_000, 100_000, 20_000, 20_000
 AGAIN = 200
 PART, PARTS, LEAST_PARTS = 1_000_000, 8, 100
 
-CEILING = KernelTarget("memory speed", "certified, one thread, of the speed of reading the rows; 1e7 rows", 0.75)
-PLAIN = KernelTarget(
-    "plain C, from memory", "certified, one thread, of the speed of the plain formula in C; 1e7 rows", 0.95
-)
-IN_CACHE = KernelTarget(
-    "plain C, in cache", "certified, one thread, of the speed of the plain formula in C; 1e5 rows", 0.6
-)
-THREADS = KernelTarget("two threads", "what two threads gain, of what reading the rows gains from two; 1e7 rows", 0.95)
-CACHED_THREADS = KernelTarget(
-    "two threads, in cache",
-    "what two threads gain, of what reading the rows gains from two; 1e5 rows each, over and over",
-    0.95,
-)
-TOUCHING = KernelTarget(
-    "near contact", f"a row within 1e-15 of contact, in products of integers of {32 * WORDS} bits", 0.6, at_most=True
-)
-STREAMED = KernelTarget(
-    "streamed",
-    "a row in streams of 1e7 to 1e9 rows, the dearest, to one in streams of 1e6, both beside reading it",
-    1.15,
-    at_most=True,
-)
-
 
 def from_memory(folder: Path, rounds: int) -> Iterator[KernelLine]:
     """Ten million rows: reading them, the plain formula, and the kernel on one thread and on two."""
@@ -118,11 +94,15 @@ def from_memory(folder: Path, rounds: int) -> Iterator[KernelLine]:
     samples = measured_samples(entries, rounds)
     one, plain = samples["one"], _fastest(samples)
     beside = f"{rate_text(one)} on {choice().level}"
-    yield CEILING.line(
+    yield target("memory speed").line(
         times_as_fast(one, samples["read"]), f"{beside}; reading x, y and z alone: {rate_text(samples['read'])}"
     )
-    yield PLAIN.line(times_as_fast(one, plain), f"{beside}; Table 2 in C, {plain.name}: {rate_text(plain)}")
-    yield THREADS.line(*_gain(*(samples[f"{name} by the clock"] for name in ("one", "two", "read", "read on two"))))
+    yield target("plain C, from memory").line(
+        times_as_fast(one, plain), f"{beside}; Table 2 in C, {plain.name}: {rate_text(plain)}"
+    )
+    yield target("two threads").line(
+        *_gain(*(samples[f"{name} by the clock"] for name in ("one", "two", "read", "read on two")))
+    )
 
 
 def _gain(one: Samples, two: Samples, read: Samples, read_on_two: Samples) -> tuple[list[float], str]:
@@ -144,7 +124,7 @@ def in_cache(folder: Path, rounds: int) -> Iterator[KernelLine]:
     samples = measured_samples([*_plain(libraries, columns, out), one], 3 * rounds)
     plain = _fastest(samples)
     says = f"{rate_text(samples['one'])} on {choice().level}; Table 2 in C, {plain.name}: {rate_text(plain)}"
-    yield IN_CACHE.line(times_as_fast(samples["one"], plain), says)
+    yield target("plain C, in cache").line(times_as_fast(samples["one"], plain), says)
 
 
 def threads_in_cache(folder: Path, rounds: int) -> Iterator[KernelLine]:
@@ -163,7 +143,9 @@ def threads_in_cache(folder: Path, rounds: int) -> Iterator[KernelLine]:
         for name, work in works.items()
     ]
     samples = measured_samples(entries, 3 * rounds)
-    yield CACHED_THREADS.line(*_gain(*(samples[name] for name in ("ask, 1", "ask, 2", "read, 1", "read, 2"))))
+    yield target("two threads, in cache").line(
+        *_gain(*(samples[name] for name in ("ask, 1", "ask, 2", "read, 1", "read, 2")))
+    )
 
 
 Part = Callable[[Columns, Positions], None]
@@ -192,7 +174,7 @@ def near_contact(folder: Path, rounds: int) -> Iterator[KernelLine]:
     samples = measured_samples(entries, rounds)
     touching, product = samples["touching"], samples["product"]
     says = f"{rate_text(touching)}; fixed point decides nearly all of them; a product: {product.median_ns:.3g} ns"
-    yield TOUCHING.line(times_as_long(touching, product), says)
+    yield target("near contact").line(times_as_long(touching, product), says)
 
 
 SLOW_FAMILIES = (
@@ -207,11 +189,6 @@ SLOW_FAMILIES = (
 EACH, SAME, KEPT, TURNS, NEIGHBOURS = 120, 64, 8, 6, 6
 """The families that floats leave, and how they are searched: slow rows are moved a little, and kept if slower."""
 
-SLOWEST = KernelTarget(
-    "slowest row", "the slowest row that a search finds, to the median row within 1e-15 of contact", 16.0, at_most=True
-)
-"""Lengths of a scene have up to 96 bits: that is 16 times the 70 products of limbs that fixed point takes."""
-
 
 def slowest_row(rounds: int) -> Iterator[KernelLine]:
     """Search, then measure the row that was found beside rows near contact."""
@@ -221,7 +198,7 @@ def slowest_row(rounds: int) -> Iterator[KernelLine]:
     slow = [cost(row) for _ in range(rounds)]
     numbers = ", ".join(repr(float(value)) for value in row)
     says = f"{np.median(slow):.4g} ns: {numbers}; the median row near contact: {np.median(usual):.4g} ns"
-    yield SLOWEST.line([a / b for a, b in zip(slow, usual, strict=True)], says)
+    yield target("slowest row").line([a / b for a, b in zip(slow, usual, strict=True)], says)
 
 
 def found_row() -> Rows:
@@ -287,7 +264,7 @@ def streamed(folder: Path, most: int, rounds: int) -> Iterator[KernelLine]:
     streams = ", ".join(f"{PART * t:,} rows {c:.3g}" for t, c in zip(totals, np.median(costs, axis=0), strict=True))
     dearest = costs[:, 1 + np.argmax(np.median(costs[:, 1:], axis=0))] if len(totals) > 1 else costs[:, 0]
     says = f"times as long as reading the row, in streams of {streams}; memory grew by {grown / 2**20:.1f} MB meanwhile"
-    yield STREAMED.line((dearest / costs[:, 0]).tolist(), says)
+    yield target("streamed").line((dearest / costs[:, 0]).tolist(), says)
 
 
 def _of_stream(library: CBaseline, total: int, parts: Sequence[Columns], out: Positions) -> float:
@@ -326,28 +303,6 @@ def _answered(columns: Columns, out: Positions, threads: int = 1) -> Positions:
 
 AXIS = (0.3, 0.1, 0.9)
 
-ONE_AXIS = KernelTarget(
-    "one orientation", "classify_scene with an axis, of the speed of the upright one; 1e7 rows", 0.5
-)
-ONE_AXIS_CACHED = KernelTarget(
-    "one orientation, in cache", "classify_scene with an axis, of the speed of the upright one; 1e5 rows", 0.5
-)
-AXIS_ALONG_Z = KernelTarget(
-    "axis along z",
-    "classify of rows (n, 10) with the axis 0, 0, 1, of the speed per byte of rows (n, 7); 1e5 rows",
-    0.9,
-)
-EIGH = KernelTarget(
-    "numpy.linalg.eigh",
-    "classify of rows (n, 10) with an axis each, against the dual function in numpy; 1e5 rows",
-    30.0,
-)
-LEANING_TOUCHING = KernelTarget(
-    "near contact, leaning",
-    f"a leaning row within 1e-15 of contact, in products of integers of {32 * WORDS} bits",
-    12.0,
-    at_most=True,
-)
 _TURNS = 30
 """Bisections of numpy's version: enough away from contact, and fewer than it would need there."""
 
@@ -375,7 +330,7 @@ def touching_rows(count: int) -> Rows:
 
 def one_orientation(rounds: int) -> Iterator[KernelLine]:
     """A scene with an axis beside the same one without."""
-    for target, count, more in ((ONE_AXIS, MANY, 1), (ONE_AXIS_CACHED, CACHED, 3)):
+    for name, count, more in (("one orientation", MANY, 1), ("one orientation, in cache", CACHED, 3)):
         ask = partial(hypcheck.classify_scene, TOWER_SIZES, *uniform_columns(count), threads=1)
         entries = [
             TimingEntry("upright", count, thread_clocked(ask)),
@@ -383,7 +338,7 @@ def one_orientation(rounds: int) -> Iterator[KernelLine]:
         ]
         samples = measured_samples(entries, more * rounds)
         says = f"{rate_text(samples['leaning'])}; upright: {rate_text(samples['upright'])}"
-        yield target.line(times_as_fast(samples["leaning"], samples["upright"]), says)
+        yield target(name).line(times_as_fast(samples["leaning"], samples["upright"]), says)
 
 
 def axis_along_z(rounds: int) -> Iterator[KernelLine]:
@@ -396,7 +351,9 @@ def axis_along_z(rounds: int) -> Iterator[KernelLine]:
     ]
     samples = measured_samples(entries, 3 * rounds)
     ratios = [ratio * ten.shape[1] / seven.shape[1] for ratio in times_as_fast(samples["ten"], samples["seven"])]
-    yield AXIS_ALONG_Z.line(ratios, f"{rate_text(samples['ten'])}; rows of seven: {rate_text(samples['seven'])}")
+    yield target("axis along z").line(
+        ratios, f"{rate_text(samples['ten'])}; rows of seven: {rate_text(samples['seven'])}"
+    )
 
 
 def an_axis_each(folder: Path, rounds: int) -> Iterator[KernelLine]:
@@ -410,6 +367,6 @@ def an_axis_each(folder: Path, rounds: int) -> Iterator[KernelLine]:
     ]
     samples = measured_samples(entries, rounds)
     says = f"{rate_text(samples['rows'])}; numpy: {rate_text(samples['eigh'])}"
-    yield EIGH.line(times_as_fast(samples["rows"], samples["eigh"]), says)
+    yield target("numpy.linalg.eigh").line(times_as_fast(samples["rows"], samples["eigh"]), says)
     says = f"{rate_text(samples['touching'])}; a product: {samples['product'].median_ns:.3g} ns"
-    yield LEANING_TOUCHING.line(times_as_long(samples["touching"], samples["product"]), says)
+    yield target("near contact, leaning").line(times_as_long(samples["touching"], samples["product"]), says)

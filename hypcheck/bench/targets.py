@@ -25,6 +25,7 @@ import hypcheck
 from hypcheck.bench import call_targets, compiled_targets
 from hypcheck.bench.c_library import TOWER_SIZES, c_baselines
 from hypcheck.bench.compiled_targets import tower_rows, uniform_columns
+from hypcheck.bench.wanted import KernelTarget, target
 from hypcheck.errors import UnavailableError
 from hypcheck.geometry.pair import Sizes
 from hypcheck.geometry.rows import CANNOT_SAY, Columns, Floats, Positions, Rows
@@ -37,7 +38,6 @@ from hypcheck.record import Recorder
 from hypcheck.record.measurements import AbsentLine, KernelLine
 from hypcheck.runs.timing import (
     Clocked,
-    KernelTarget,
     Samples,
     TimingEntry,
     clocked_calls,
@@ -56,11 +56,6 @@ ORDINARY, NEAR = 20_000, 2_000
 
 END = 17.8
 FAR_AWAY = 1e4
-
-OPEN = KernelTarget("left open, ordinary", "rows and sweeps beside ends of families named uniform", 1e-4, at_most=True)
-OPEN_NEAR = KernelTarget(
-    "left open, near an end", "rows and sweeps beside ends, the family with most of them", 0.01, at_most=True
-)
 
 
 def paces(rounds: int) -> Iterator[KernelLine]:
@@ -83,12 +78,9 @@ def paces(rounds: int) -> Iterator[KernelLine]:
             TimingEntry("near", PACED, thread_clocked(partial(answer_ended, near, 1))),
         ]
         samples = measured_samples(entries, rounds)
-        for name, text, wanted in (("far", "ends far away", 1.3), ("near", "ends near the rim", 6.0)):
-            target = KernelTarget(
-                f"{text}, {kind}", "a row, to one in the same scene without ends", wanted, at_most=True
-            )
+        for name, text in (("far", "ends far away"), ("near", "ends near the rim")):
             says = f"{rate_text(samples[name])}; without ends {rate_text(samples['whole'])}"
-            yield target.line(times_as_long(samples[name], samples["whole"]), says)
+            yield target(f"{text}, {kind}").line(times_as_long(samples[name], samples["whole"]), says)
 
 
 def _answered(rows: Rows) -> Positions:
@@ -104,11 +96,11 @@ def _rows(centres: Floats, axes: Floats, end: float) -> Rows:
 def left_open(_rounds: int) -> Iterator[KernelLine]:
     """How many rows and sweeps of each family C answers with 2, which Python then decides exactly."""
     counts = {name: _open_share(name) for name in (*ENDED_FAMILIES, *ENDED_SWEEP_FAMILIES)}
-    for target, ordinary in ((OPEN, True), (OPEN_NEAR, False)):
+    for subject, ordinary in (("left open, ordinary", True), ("left open, near an end", False)):
         some = {name: share for name, share in counts.items() if name.endswith("uniform") is ordinary}
         n = ORDINARY if ordinary else NEAR
         words = ", ".join(f"{name} {round(share * n)}" for name, share in some.items() if share) or "none of any family"
-        yield target.line([max(some.values())], f"of {n:,} of each of {len(some)} families: {words}")
+        yield target(subject).line([max(some.values())], f"of {n:,} of each of {len(some)} families: {words}")
 
 
 def _open_share(name: str) -> float:
@@ -184,10 +176,6 @@ TARGETS = (
     TimesAsFast("kernel", "numpy", "classify_scene, one thread", 30.0, "reading", 0.75),
     TimesAsFast("fallback", "fallback", "the numpy kernel", 8.0, "copying", 0.35),
 )
-ROOTS = KernelTarget("numpy.roots", "classify_scene of 1e5 rows, one thread, against numpy.roots", 1000.0)
-FCL_QUERY = KernelTarget(
-    "FCL", "classify_scene of 1e5 rows, one thread, against FCL's distance to a mesh built before", 1000.0
-)
 
 
 def against_numpy(folder: Path, rounds: int) -> Iterator[KernelLine]:
@@ -206,10 +194,10 @@ def against_numpy(folder: Path, rounds: int) -> Iterator[KernelLine]:
         entries.append(TimingEntry("reading", MANY, c_baselines(folder)[0].read(columns), loops=1))
     entries += [TimingEntry(name, MANY, thread_clocked(call), loops=1) for name, call in work.items()]
     samples = measured_samples(entries, rounds)
-    for target in TARGETS:
+    for times in TARGETS:
         for expression in EXPRESSIONS:
-            if target.mine in samples:
-                yield target.line(expression, samples, f"; {large_pages()}")
+            if times.mine in samples:
+                yield times.line(expression, samples, f"; {large_pages()}")
 
 
 def _copied(columns: Columns) -> NDArray[np.signedinteger]:
@@ -251,10 +239,10 @@ def against_others(rounds: int) -> Iterator[KernelLine]:
         mesh = scene_mesh(FCL, "point", TOWER_SIZES, height_of(TOWER_SIZES, rows), TRIANGLES)
         entries.append(TimingEntry("FCL", FEW, _queries(mesh, rows)))
     samples = measured_samples(entries, rounds)
-    for target in (ROOTS, FCL_QUERY):
-        if (other := samples.get(target.name)) is not None:
-            says = f"{rate_text(samples['kernel'])} on {choice().kernel}; {target.name}: {rate_text(other)}"
-            yield target.line(times_as_fast(samples["kernel"], other), says)
+    for name in ("numpy.roots", "FCL"):
+        if (other := samples.get(name)) is not None:
+            says = f"{rate_text(samples['kernel'])} on {choice().kernel}; {name}: {rate_text(other)}"
+            yield target(name).line(times_as_fast(samples["kernel"], other), says)
 
 
 def _queries(mesh: SceneMesh, rows: Rows) -> Clocked:

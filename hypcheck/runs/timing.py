@@ -27,8 +27,6 @@ from time import thread_time_ns
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck.record.measurements import KernelLine
-
 _LONGEST = 4
 """A sample may last so many times its least duration, for more takes."""
 
@@ -288,34 +286,6 @@ def _draws(lengths: tuple[int, ...], seed: int) -> tuple[NDArray[np.int64], NDAr
     places = (starts[drawn] + np.floor(shares * each[drawn]).astype(np.int64)).reshape(DRAWS, -1)
     missing = (np.arange(rounds) >= each[drawn]).reshape(DRAWS, -1)
     return places, missing if missing.any() else None
-
-
-@dataclass(frozen=True, slots=True)
-class KernelTarget:
-    """A target: `wanted` is a least number, or a greatest one if `at_most`; `text` describes it.
-
-    What is measured is a ratio to a ceiling, work that nothing here can do without, timed beside it in the same rounds:
-    so it depends on the code, and as little as can be on the machine and on what else runs there.
-    """
-
-    name: str
-    text: str
-    wanted: float
-    at_most: bool = False
-
-    def line(self, measured: list[float], says: str) -> KernelLine:
-        """The record's line: the median over rounds, with its 95 % interval. A miss is one of the whole interval."""
-        ratio = estimate([measured])
-        met = ratio.low <= self.wanted if self.at_most else ratio.high >= self.wanted
-        return KernelLine(
-            name=self.name,
-            target=self.text,
-            wanted=self.wanted,
-            measured=ratio.median,
-            ci95=(ratio.low, ratio.high),
-            met=met,
-            says=says,
-        )
 
 
 def thread_clocked(work: Callable[[], NDArray[np.signedinteger]]) -> Clocked:

@@ -14,13 +14,14 @@ from hypcheck.bench import call_targets, compiled_targets, targets
 from hypcheck.bench.c_library import LEVEL_FLAGS, TOWER_SIZES, c_baselines
 from hypcheck.bench.c_source import WORDS
 from hypcheck.bench.compiled_targets import touching_columns, tower_rows, uniform_columns
+from hypcheck.bench.wanted import KernelTarget, target
 from hypcheck.geometry.pair import Pair
 from hypcheck.geometry.rows import tilted_rows
 from hypcheck.implementations.alternatives import by_eigenvectors
 from hypcheck.record import SCHEMA
 from hypcheck.record.fields import as_json
 from hypcheck.record.measurements import AbsentLine, KernelLine
-from hypcheck.runs.timing import KernelTarget, Samples
+from hypcheck.runs.timing import Samples
 from tests.support.inside import LEVELS, choice, clearances, nearest
 from tests.support.records import violations
 
@@ -51,11 +52,17 @@ def small(monkeypatch):
         (targets, {"MANY": 20_000, "FEW": 3, "TRIANGLES": 60, "AGAIN": 0}),
         (call_targets, {"MILLION": 4096, "EACH_AXIS": 256}),
         (targets, {"PACED": 200, "ORDINARY": 40, "NEAR": 20}),
-        (call_targets, {"MANY": 20_000, "CALLS": 20, "BATCHES": (1000,)}),
+        (call_targets, {"MANY": 10_000, "CALLS": 20, "BATCHES": (1000,)}),
         (targets, {"QUICK_ROUNDS": 2, "QUICK_STREAM": 10_240}),
     ):
         for name, value in sizes.items():
             monkeypatch.setattr(module, name, value)
+
+
+def test_targets_of_rows_near_contact_name_the_bits_of_the_integers_that_are_multiplied():
+    for name in ("near contact", "near contact, leaning"):
+        assert target(name).text.endswith(f"in products of integers of {32 * WORDS} bits")
+        assert target(name).at_most
 
 
 @COMPILER
