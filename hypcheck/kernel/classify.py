@@ -175,22 +175,22 @@ def classify(
         prepared, *center = pairs
         options: Any = {"on_invalid": on_invalid, "question": question, "threads": threads, "margin": margin}
         return classify_scene(prepared, *center, **{"out": out, "axis": axis} | options)
-    asked = pairs_of(pairs, columns, axis, (z_min, z_max, solid))
-    if asked.single and out is not None:
+    call = pairs_of(pairs, columns, axis, (z_min, z_max, solid))
+    if call.single and out is not None:
         raise InputError("out is given, and one pair is answered by a number; it goes with rows alone")
-    if asked.scene and not margin:
-        result = _of_scene(asked.columns, out, on_invalid, question, number)
-        return int(result[0]) if asked.single else result
-    queries = asked.rows()
+    if call.scene and not margin:
+        result = _of_scene(call.columns, out, on_invalid, question, number)
+        return int(result[0]) if call.single else result
+    queries = call.rows()
     _require_fitting(out, len(queries))
     result, refused = positions_of_rows(queries, question if not margin else "position", number)
     if refused and on_invalid == "raise":
-        asked.require_valid(queries)
+        call.require_valid(queries)
     if margin:
         from hypcheck.kernel.margins import with_margin  # noqa: PLC0415 - a margin alone needs it
 
         result = with_margin(queries, result, margin, question, number)
-    return int(result[0]) if asked.single else _into(out, result)
+    return int(result[0]) if call.single else _into(out, result)
 
 
 def _of_scene(
@@ -342,22 +342,22 @@ def _require_fitting(out: object, count: int) -> None:
     if out is None:
         return
     if not isinstance(out, np.ndarray):
-        found = f"of type {type(out).__name__}"
+        actual = f"of type {type(out).__name__}"
     elif out.dtype != np.int8 or out.shape != (count,):
-        found = f"an array of {out.dtype} and of shape {out.shape}"
+        actual = f"an array of {out.dtype} and of shape {out.shape}"
     elif not out.flags.writeable:
-        found = "read-only"
+        actual = "read-only"
     elif count > 1 and out.strides == (0,):
-        found = "an array whose elements share one byte"
+        actual = "an array whose elements share one byte"
     else:
         return
-    raise InputError(f"out is {found}; it must be a writable int8 array of shape ({count},), a byte for each position")
+    raise InputError(f"out is {actual}; it must be a writable int8 array of shape ({count},), a byte for each position")
 
 
 def _lie_apart(out: Positions, columns: Columns) -> bool:
     """Whether all are contiguous, and `out` shares no memory with a column."""
     every = (out, *columns)
-    return all(each.flags.c_contiguous and each.flags.aligned for each in every) and not any(
+    return all(array.flags.c_contiguous and array.flags.aligned for array in every) and not any(
         np.may_share_memory(out, column) for column in columns
     )
 

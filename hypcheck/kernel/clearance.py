@@ -44,12 +44,12 @@ def clearance(
     array([0.6, 0.8, 0. ])
     """
     number = required("position", threads, on_invalid)
-    asked = pairs_of(pairs, columns, axis, (z_min, z_max, solid))
-    queries = asked.rows()
-    found = clearances(queries, number)
-    if on_invalid == "raise" and (found.position == REFUSED).any():
-        asked.require_valid(queries)
-    return found.one if asked.single else found
+    call = pairs_of(pairs, columns, axis, (z_min, z_max, solid))
+    queries = call.rows()
+    result = clearances(queries, number)
+    if on_invalid == "raise" and (result.position == REFUSED).any():
+        call.require_valid(queries)
+    return result.one if call.single else result
 
 
 def clearances(queries: Rows, threads: int | None = None) -> Clearance:

@@ -31,7 +31,6 @@ import numpy as np
 from hypcheck.float_environment import in_default_environment
 from hypcheck.geometry.pair import COLUMNS, REFUSED
 from hypcheck.geometry.rows import PAIRS, Floats, Indices, Integers, Mask, Positions, Rows, invalid
-from hypcheck.kernel import clearance_points
 from hypcheck.kernel import clearance_points as points
 from hypcheck.kernel.choice import choice
 from hypcheck.kernel.in_use import kernel
@@ -114,23 +113,23 @@ class Clearance:
     @property
     def contact(self) -> Mask:
         """Whether the two are in contact."""
-        found: Mask = self.position == 0  # of one pair True or False
-        return found
+        touching: Mask = self.position == 0  # of one pair True or False
+        return touching
 
     @cached_property
     @in_default_environment
     def normal(self) -> Floats:
         """The unit vectors from `nearest` to the spheroids."""
-        found = clearance_points.normals(self.rows, np.atleast_2d(self.nearest), np.atleast_1d(self.position))
-        return found if np.ndim(self.position) else found[0]
+        vectors = points.normals(self.rows, np.atleast_2d(self.nearest), np.atleast_1d(self.position))
+        return vectors if np.ndim(self.position) else vectors[0]
 
     @cached_property
     @in_default_environment
     def tie(self) -> Mask:
         """Whether another point is as near, by a symmetry of both bodies."""
-        found = clearance_points.ties(self.rows, np.atleast_2d(self.nearest), np.atleast_1d(self.position))
-        one: Any = bool(found[0])
-        return found if np.ndim(self.position) else one
+        tied = points.ties(self.rows, np.atleast_2d(self.nearest), np.atleast_1d(self.position))
+        one: Any = bool(tied[0])
+        return tied if np.ndim(self.position) else one
 
     @property
     def one(self) -> Clearance:
@@ -147,29 +146,29 @@ def clearances_without_ends(queries: Rows, threads: int | None = None) -> Cleara
     """What clearance() says of rows (n, 7) or (n, 10); invalid ones have the position 127 and NaN everywhere."""
     upright = not PAIRS.has_axis(queries)
     compiled = upright and choice().kernel == "compiled"
-    found = _compiled(queries, threads) if compiled else Clearance.empty(queries)
-    refused = found.position == REFUSED if compiled else invalid(queries)
-    places = np.flatnonzero(~refused & (np.isnan(found.lower) | np.isinf(found.touch_error)))
+    result = _compiled(queries, threads) if compiled else Clearance.empty(queries)
+    refused = result.position == REFUSED if compiled else invalid(queries)
+    places = np.flatnonzero(~refused & (np.isnan(result.lower) | np.isinf(result.touch_error)))
     with np.errstate(all="ignore"):
         for start in range(0, len(places), CHUNK):
-            _fill(found, places[start : start + CHUNK], queries, threads)
-        _fill_ties(found, queries, threads)
-    return found
+            _fill(result, places[start : start + CHUNK], queries, threads)
+        _fill_ties(result, queries, threads)
+    return result
 
 
 _SHIFT = 2.0**-36
 
 
-def _fill_ties(found: Clearance, queries: Rows, threads: int | None) -> None:
+def _fill_ties(result: Clearance, queries: Rows, threads: int | None) -> None:
     """Nearest points where a tilted spheroid is on the axis, so that no direction is known: those of one beside it.
 
     A distance changes by no more than the centre moves, so the bounds hold with twice the shift, which covers its
     rounding. Of the shifts along x and y the better counts.
     """
-    unknown = np.isnan(found.nearest).any(axis=1)
+    unknown = np.isnan(result.nearest).any(axis=1)
     if not unknown.any():
         return
-    lost = np.flatnonzero(unknown & (np.abs(found.position) == 1))
+    lost = np.flatnonzero(unknown & (np.abs(result.position) == 1))
     for column in (4, 5) if len(lost) else ():
         rows, shift = queries[lost].copy(), _SHIFT * queries[lost, 0]
         rows[:, column] += shift
@@ -177,24 +176,24 @@ def _fill_ties(found: Clearance, queries: Rows, threads: int | None) -> None:
         _fill(beside, np.arange(len(rows)), rows, threads)
         high = np.nextafter(beside.distance_upper + 2 * shift, np.inf)
         low = np.nextafter(np.fmax(beside.distance_lower - 2 * shift, 0), 0)
-        known = (beside.position == found.position[lost]) & np.isfinite(beside.nearest).all(axis=1)
-        better = known & (np.isnan(found.nearest[lost]).any(axis=1) | (high < found.distance_upper[lost]))
-        found.distance_lower[lost[known]] = np.fmax(found.distance_lower[lost], low)[known]
-        found.distance_upper[lost[better]] = np.fmin(found.distance_upper[lost], high)[better]
-        found.nearest[lost[better]], found.touch[lost[better]] = beside.nearest[better], beside.touch[better]
+        known = (beside.position == result.position[lost]) & np.isfinite(beside.nearest).all(axis=1)
+        better = known & (np.isnan(result.nearest[lost]).any(axis=1) | (high < result.distance_upper[lost]))
+        result.distance_lower[lost[known]] = np.fmax(result.distance_lower[lost], low)[known]
+        result.distance_upper[lost[better]] = np.fmin(result.distance_upper[lost], high)[better]
+        result.nearest[lost[better]], result.touch[lost[better]] = beside.nearest[better], beside.touch[better]
 
 
 def _compiled(rows: Rows, threads: int | None) -> Clearance:
     """What the compiled kernel says of rows (n, 7), by the same steps; touch_error is inf where it knows less."""
     from hypcheck.kernel import compiled_kernel  # noqa: PLC0415 - only where it is there
 
-    position, found = compiled_kernel.near_rows(rows, threads)
-    lower, upper, error, least, most = found[:, :5].T
+    position, numbers = compiled_kernel.near_rows(rows, threads)
+    lower, upper, error, least, most = numbers[:, :5].T
     error[error == _LARGEST] = np.inf
-    return Clearance(position, least, most, found[:, 8:], lower, upper, found[:, 5:8], error, rows)
+    return Clearance(position, least, most, numbers[:, 8:], lower, upper, numbers[:, 5:8], error, rows)
 
 
-def _fill(found: Clearance, places: Indices, queries: Rows, threads: int | None) -> None:
+def _fill(result: Clearance, places: Indices, queries: Rows, threads: int | None) -> None:
     """The answers about some valid rows; those that are tilted, and those that do not, together."""
     some = queries[places]
     tilted = is_tilted(some) if PAIRS.has_axis(some) else np.zeros(len(some), np.bool_)
@@ -203,7 +202,7 @@ def _fill(found: Clearance, places: Indices, queries: Rows, threads: int | None)
             rows = np.ascontiguousarray(some[chosen] if chosen is tilted else some[chosen, : len(COLUMNS)])
             answers = _answers(rows, threads)
             for name in _MEASURED:
-                getattr(found, name)[places[chosen]] = getattr(answers, name)
+                getattr(result, name)[places[chosen]] = getattr(answers, name)
 
 
 def _answers(rows: Rows, threads: int | None) -> Clearance:
@@ -229,7 +228,7 @@ def _answers(rows: Rows, threads: int | None) -> Clearance:
         least[clear] = _separated(rows[clear], gaps, usual, least[clear], most[clear], threads)
     least = _lowered(least, shift, 0.0)
     most = _lowered(most, shift, np.inf)
-    touch, nearest = (np.ldexp(each, -shift[:, None]) for each in (touches.point, nearest))
+    touch, nearest = (np.ldexp(place, -shift[:, None]) for place in (touches.point, nearest))
     error = _lowered(touches.error, shift, np.inf)
     return Clearance(position, least, most, nearest, lower, upper, touch, error, rows)
 
@@ -246,9 +245,9 @@ def scaled(rows: Rows) -> tuple[Rows, Integers]:
     shift = np.where(small, 900 - exponents, shift)
     moved = np.ldexp(lengths, shift[:, None])
     shift = np.where((np.ldexp(moved, -shift[:, None]) == lengths).all(axis=1), shift, 0)
-    found = rows.copy()
-    found[:, : len(COLUMNS)] = np.where(shift[:, None] == 0, lengths, moved)
-    return found, shift
+    result = rows.copy()
+    result[:, : len(COLUMNS)] = np.where(shift[:, None] == 0, lengths, moved)
+    return result, shift
 
 
 def _lowered(length: Floats, shift: Integers, towards: float) -> Floats:

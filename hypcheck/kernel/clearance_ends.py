@@ -29,37 +29,44 @@ def ended_clearances(rows: Rows, threads: int | None = None) -> Clearance:
     `nearest` where no shorter gap was measured. Nothing is proved of their error.
     Invalid rows are left as rows of which nothing is known.
     """
-    found = replace(clearances_without_ends(np.ascontiguousarray(rows[:, : len(TILTED_COLUMNS)]), threads), rows=rows)
+    result = replace(clearances_without_ends(np.ascontiguousarray(rows[:, : len(TILTED_COLUMNS)]), threads), rows=rows)
     refused = invalid(rows)
-    for values in (found.lower, found.upper, found.touch, found.distance_lower, found.distance_upper, found.nearest):
+    for values in (
+        result.lower,
+        result.upper,
+        result.touch,
+        result.distance_lower,
+        result.distance_upper,
+        result.nearest,
+    ):
         values[refused] = np.nan
-    found.position[refused] = REFUSED
+    result.position[refused] = REFUSED
     ended = np.flatnonzero(np.isfinite(rows[:, 10:12]).any(axis=1) & ~refused)
     for index in ended.tolist():
         pair = Pair.from_row(rows[index].tolist())
         decision = exact.decide(pair.lengths)
         low, high = ended_error.enclosure(pair, decision)
         clear = decision.position is not Position.CONTACT
-        found.position[index] = decision.position
-        found.lower[index], found.upper[index] = rounded_toward(low, -np.inf), rounded_toward(high, np.inf)
-        found.touch[index] = found.nearest[index] = least.to_border(pair).point
-        found.touch_error[index] = np.inf
-        found.distance_lower[index] = rounded_toward(low * Fraction(min(pair.b, pair.d)), -np.inf) if clear else 0.0
-        found.distance_upper[index] = rounded_toward(high * Fraction(max(pair.b, pair.d)), np.inf) if clear else 0.0
-    _measure_gaps(found, rows, ended[found.position[ended] != Position.CONTACT])
-    return found
+        result.position[index] = decision.position
+        result.lower[index], result.upper[index] = rounded_toward(low, -np.inf), rounded_toward(high, np.inf)
+        result.touch[index] = result.nearest[index] = least.to_border(pair).point
+        result.touch_error[index] = np.inf
+        result.distance_lower[index] = rounded_toward(low * Fraction(min(pair.b, pair.d)), -np.inf) if clear else 0.0
+        result.distance_upper[index] = rounded_toward(high * Fraction(max(pair.b, pair.d)), np.inf) if clear else 0.0
+    _measure_gaps(result, rows, ended[result.position[ended] != Position.CONTACT])
+    return result
 
 
-def _measure_gaps(found: Clearance, rows: Rows, clear: Indices) -> None:
+def _measure_gaps(result: Clearance, rows: Rows, clear: Indices) -> None:
     """Replace bounds of distances, and nearest points, by better ones where the gap can be measured."""
     some = rows[clear]
     measured = gaps(
-        some[:, :4], some[:, 4:7], some[:, 7:10], some[:, 10:12], some[:, 12] != 0, found.distance_upper[clear]
+        some[:, :4], some[:, 4:7], some[:, 7:10], some[:, 10:12], some[:, 12] != 0, result.distance_upper[clear]
     )
     # Points and distances are right within 64u of the lengths that they are computed from.
     lengths = np.abs(measured.point).sum(axis=1) + np.abs(some[:, 4:7]).sum(axis=1) + some[:, 2:4].sum(axis=1)
     upper = measured.upper + _ROUNDED * lengths
-    better = upper < found.distance_upper[clear]
-    found.distance_lower[clear] = np.fmax(found.distance_lower[clear], measured.lower)
-    found.distance_upper[clear[better]] = upper[better]
-    found.nearest[clear[better]] = measured.point[better]
+    better = upper < result.distance_upper[clear]
+    result.distance_lower[clear] = np.fmax(result.distance_lower[clear], measured.lower)
+    result.distance_upper[clear[better]] = upper[better]
+    result.nearest[clear[better]] = measured.point[better]

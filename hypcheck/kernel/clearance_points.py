@@ -159,7 +159,7 @@ def _placed(rows: Rows, radius: Floats, height: Floats) -> Floats:
     x, y, z = rows[:, 4], rows[:, 5], rows[:, 6]
     scale = np.maximum(np.abs(x), np.abs(y))  # the direction of subnormal numbers is exact so
     off = scale > 0
-    cos, sin = (np.divide(each, scale, out=np.full_like(each, axis), where=off) for each, axis in ((x, 1.0), (y, 0.0)))
+    cos, sin = (np.divide(part, scale, out=np.full_like(part, axis), where=off) for part, axis in ((x, 1.0), (y, 0.0)))
     length = np.sqrt(cos * cos + sin * sin)
     cos, sin = cos / length, sin / length
     return np.stack([radius * cos, radius * sin, np.where(z < 0, -height, height)], axis=1)

@@ -40,8 +40,8 @@ def extension() -> ModuleType:
 def prepared(sizes: Sizes, like: Columns, axis: Axis | None = None) -> bytes:
     """As classify.Kernel has it: a hypcheck_scene of core/parts/contract.h."""
     columns = (np.require(column, np.float64, ["C", "A"]) for column in like)
-    found: bytes = extension().prepare(sizes, axis or UPRIGHT, *columns)
-    return found
+    scene: bytes = extension().prepare(sizes, axis or UPRIGHT, *columns)
+    return scene
 
 
 def answer_rows(rows: Rows, question: Question, threads: int | None = None) -> tuple[Positions, int]:
@@ -50,12 +50,12 @@ def answer_rows(rows: Rows, question: Question, threads: int | None = None) -> t
     return answers, _by_row(partial(ask, number), rows, (answers,), threads)
 
 
-def _by_row(ask: Callable[..., int], rows: Rows, told: Sequence[NDArray[Any]], threads: int | None) -> int:
+def _by_row(ask: Callable[..., int], rows: Rows, outputs: Sequence[NDArray[Any]], threads: int | None) -> int:
     """Ask about rows, and fill arrays, one place for each row, with what is told; the sum of what `ask` returns."""
     aligned = rows if rows.flags.aligned else rows.copy()
 
     def part(start: int, stop: int) -> int:
-        return ask(aligned[start:stop], *(each[start:stop] for each in told))
+        return ask(aligned[start:stop], *(output[start:stop] for output in outputs))
 
     return in_parts(part, len(rows), threads)
 
@@ -130,9 +130,9 @@ NEAR_NUMBERS = 11
 
 def near_rows(rows: Rows, threads: int | None = None) -> tuple[Positions, Floats]:
     """Positions (n,), 127 for invalid ones, and what hypcheck_clearance says of contiguous rows (n, 7): (n, 11)."""
-    positions, found = np.empty(len(rows), dtype=np.int8), np.empty((len(rows), NEAR_NUMBERS))
-    _by_row(compiled().clearance, rows, (positions, found), threads)
-    return positions, found
+    positions, numbers = np.empty(len(rows), dtype=np.int8), np.empty((len(rows), NEAR_NUMBERS))
+    _by_row(compiled().clearance, rows, (positions, numbers), threads)
+    return positions, numbers
 
 
 def in_parts(part: Callable[[int, int], int], count: int, threads: int | None) -> int:

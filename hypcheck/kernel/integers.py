@@ -127,7 +127,7 @@ def squares_between_axes(
     v, w, C = to_integers(axis), to_integers(other), (x, y, z)
     W, upward, height = _dot(w, w), _dot(v, w), _dot(C, w)
     across = (C[1] * w[2] - C[2] * w[1], C[2] * w[0] - C[0] * w[2], C[0] * w[1] - C[1] * w[0])
-    p, q, s, t = (W * each * each for each in (alpha, b, gamma, d))
+    p, q, s, t = (W * length * length for length in (alpha, b, gamma, d))
     return Squares(
         p, q, s, t, W * _dot(v, v) - upward * upward, upward * upward,
         W * _dot(C, C) - height * height, height * height, W * _dot(v, across) ** 2, (W * _dot(v, C)) ** 2,
@@ -204,11 +204,11 @@ def _outwards(pair: QuarticWithPoles, side: Position) -> list[int]:
 
 def _at_ratio(f: Sequence[int], over: int, under: int) -> list[int]:
     """The signs of F's coefficients at over/under, under > 0."""
-    left = [each * under ** (4 - power) for power, each in enumerate(f)]
+    left = [coefficient * under ** (4 - power) for power, coefficient in enumerate(f)]
     for first in range(4):
         for power in range(3, first - 1, -1):
             left[power] += over * left[power + 1]
-    return [_sign(each) for each in left]
+    return [_sign(coefficient) for coefficient in left]
 
 
 def _at_root(pair: QuarticWithPoles, side: Position) -> list[int]:

@@ -84,9 +84,9 @@ def _positions_of_ten(rows: Rows) -> Positions:
         result[part] = _tilted_positions(rows[part])
     if not of_tilted.all():
         upright = rows[~of_tilted]
-        found = positions(upright[:, : len(COLUMNS)])
-        found[invalid(upright)] = REFUSED
-        result[~of_tilted] = found
+        answers = positions(upright[:, : len(COLUMNS)])
+        answers[invalid(upright)] = REFUSED
+        result[~of_tilted] = answers
     return result
 
 
@@ -170,7 +170,7 @@ def answer_sweeps(rows: Rows) -> tuple[Positions, Floats]:
     """
     others = [*range(len(SWEEPS.upright), rows.shape[1])]
     both = (np.ascontiguousarray(rows[:, [0, 1, 2, 3, *centre, *others]]) for centre in ((4, 5, 6), (7, 8, 9)))
-    start, end = (answer_ended(each) if SWEEPS.has_heights(rows) else positions(each) for each in both)
+    start, end = (answer_ended(ends) if SWEEPS.has_heights(rows) else positions(ends) for ends in both)
     hit = (start == 0) | (end == 0)
     sure = (start != CANNOT_SAY) & (end != CANNOT_SAY) & ((rows[:, -1] != 0) if SWEEPS.has_heights(rows) else True)
     hits = np.where(hit | (sure & (start != end)), 1, CANNOT_SAY).astype(np.int8)
@@ -178,13 +178,13 @@ def answer_sweeps(rows: Rows) -> tuple[Positions, Floats]:
     return hits, np.where((start == 0) & (hits == 1), 0.0, np.nan)
 
 
-def _answers(found: Positions, question: Question) -> tuple[Positions, int]:
-    refused = int(np.count_nonzero(found == REFUSED))
+def _answers(known: Positions, question: Question) -> tuple[Positions, int]:
+    refused = int(np.count_nonzero(known == REFUSED))
     if question == "position":
-        return found, refused
-    yes = (found == POSITION_OF[question]).astype(np.int8)
+        return known, refused
+    yes = (known == POSITION_OF[question]).astype(np.int8)
     if refused:
-        yes[found == REFUSED] = REFUSED
+        yes[known == REFUSED] = REFUSED
     return yes, refused
 
 
@@ -200,7 +200,7 @@ class Buffers(Generic[Number]):
         """Arrays for a chunk of so many rows."""
         if rows == self._rows:
             return self._numbers, self._truths
-        return [each[:rows] for each in self._numbers], [each[:rows] for each in self._truths]
+        return [buffer[:rows] for buffer in self._numbers], [buffer[:rows] for buffer in self._truths]
 
 
 def by_lines(lines: SceneLines, columns: Columns, result: Positions) -> Indices:
@@ -231,8 +231,8 @@ def by_parallel_lines(
     R, T = chunks.plane(*columns, numbers[: chunks.PLANE_BUFFERS[0]])
     if not (np.maximum.reduce(T) <= constants["reach"] and np.maximum.reduce(R) < CAP_OF_SINGLES):  # so with NaN
         return None
-    found = chunks.parallel_lines(R, T, constants, numbers[chunks.PLANE_BUFFERS[0] :], truths)
-    return _filled_in(*found, result)
+    decided = chunks.parallel_lines(R, T, constants, numbers[chunks.PLANE_BUFFERS[0] :], truths)
+    return _filled_in(*decided, result)
 
 
 def by_two_lines(
@@ -281,8 +281,8 @@ def _tilted_positions(rows: Rows) -> Positions:
         row = _columns_of_ten(rows)
         numbers = list(np.empty((tilted.TILTED_BUFFERS[0], len(rows))))
         truths = list(np.empty((tilted.TILTED_BUFFERS[1], len(rows)), dtype=np.bool_))
-        found = tilted.tilted(*row, _multiplier(row), TILTED_CONSTANTS, numbers, truths)
-    _by_integers(rows, _filled_in(*found, result), result, integers.position)
+        decided = tilted.tilted(*row, _multiplier(row), TILTED_CONSTANTS, numbers, truths)
+    _by_integers(rows, _filled_in(*decided, result), result, integers.position)
     return result
 
 
@@ -321,16 +321,16 @@ def _multiplier(row: TenColumns) -> Floats:
     G, m_plane = s * (radius - P1) - p * height, m - t * P1
     a1, a2, b = p * P1, A2 * np.abs(G + A2 * m_plane) / root, B * np.abs(B * m_plane - G) / root
     least, greatest = -0.999 * np.minimum(p, A2), 0.999 * B
-    found: Floats = np.zeros_like(p)
+    multiplier: Floats = np.zeros_like(p)
     for _ in range(_TURNS):
-        i1, i2, i3 = 1 / (p + found), 1 / (A2 + found), 1 / (B - found)
+        i1, i2, i3 = 1 / (p + multiplier), 1 / (A2 + multiplier), 1 / (B - multiplier)
         S1, S2, T3 = a1 * i1 * i1, a2 * i2 * i2, b * i3 * i3
         S, T = S1 + S2, 1 + T3
         root_S, root_T = np.sqrt(S), np.sqrt(T)
         slope = (S1 * i1 + S2 * i2) * T * root_T + T3 * i3 * S * root_S
-        moved = np.fmin(np.fmax(found + (root_S - root_T) * S * T / slope, least), greatest)
-        settled = np.abs(moved - found) <= _SETTLED * np.abs(moved)
-        found = moved
+        moved = np.fmin(np.fmax(multiplier + (root_S - root_T) * S * T / slope, least), greatest)
+        settled = np.abs(moved - multiplier) <= _SETTLED * np.abs(moved)
+        multiplier = moved
         if settled.all():
             break
-    return found
+    return multiplier

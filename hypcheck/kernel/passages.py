@@ -58,8 +58,8 @@ class Passages:
     @property
     def first(self) -> list[tuple[Fraction, Fraction] | None]:
         """Two fractions that enclose the time of the first contact, 0 ≤ t ≤ 1; None where the sweep is clear."""
-        found = [None if first is None else first[0] for first in self._firsts]
-        return found if np.ndim(self.hit) else found[0]  # type: ignore[return-value]
+        times = [None if first is None else first[0] for first in self._firsts]
+        return times if np.ndim(self.hit) else times[0]  # type: ignore[return-value]
 
     @cached_property
     @in_default_environment
@@ -141,7 +141,7 @@ def _rows_of(
     if any(np.ndim(height) or height != usual for height, usual in zip(heights, WITHOUT_ENDS, strict=True)):
         values |= dict(zip(HEIGHTS, heights, strict=True))
     rows = as_rows(values, tilted=True, heights=True, layout=_LAYOUT)
-    return rows, all(not np.ndim(each) for each in values.values())
+    return rows, all(not np.ndim(column) for column in values.values())
 
 
 _FORMS = "passage takes (sizes, start, end), (alpha, gamma, b, d, start, end), rows or a table"
@@ -159,13 +159,13 @@ def _hits(rows: Rows) -> Mask:
     """By bounds, and what these leave exactly. What is clear of a whole hyperboloid is clear of an open wall of it."""
     width = len(SWEEPS.tilted)
     whole = np.ascontiguousarray(rows[:, :width])
-    said = kernel().answer_sweeps(whole)[0]
+    answers = kernel().answer_sweeps(whole)[0]
     if SWEEPS.has_heights(rows):
         ended = np.isfinite(rows[:, width : width + 2]).any(axis=1)
-        sure = ~ended | ((said == 0) & (rows[:, width + 2] == 0))
-        said = np.where(sure, said, CANNOT_SAY)
-    hits = np.asarray(said == 1)
-    for sweep in np.flatnonzero((said == CANNOT_SAY) | (said == REFUSED)).tolist():
+        sure = ~ended | ((answers == 0) & (rows[:, width + 2] == 0))
+        answers = np.where(sure, answers, CANNOT_SAY)
+    hits = np.asarray(answers == 1)
+    for sweep in np.flatnonzero((answers == CANNOT_SAY) | (answers == REFUSED)).tolist():
         hits[sweep] = _passage_of(rows[sweep].tolist()).hit
     return hits
 

@@ -128,7 +128,7 @@ def _valid_row(numbers: Sequence[float], axis: object) -> list[float]:
     trouble = trouble_with_row(row)
     if trouble is not None:
         raise InputError(trouble)
-    return [float(each) for each in row]
+    return [float(number) for number in row]
 
 
 def _plain(number: Argument) -> Argument:

@@ -120,13 +120,13 @@ class Scene(PreparedScene):
 
     def _positions(self, center: Sequence[ArrayLike], heading: ArrayLike, axis: ArrayLike | None) -> Positions:
         axes = self._axes(axis) if axis is not None or self._is_tilted else ()
-        asked = (*_ASKED, *AXIS[: len(axes)])
-        columns = finite_columns(asked, (*center, heading, *axes))
+        names = (*_ASKED, *AXIS[: len(axes)])
+        columns = finite_columns(names, (*center, heading, *axes))
         centres = np.stack(columns[:3], axis=1)
         query, body = self._pairs(centres)
         movers = directions(columns[4:]) if axes else None
-        said = self._said(query, body, centres, columns[3], movers)
-        return _combined(said, query, len(centres))
+        replies = self._replies(query, body, centres, columns[3], movers)
+        return _combined(replies, query, len(centres))
 
     def _kept_apart(
         self,
@@ -168,21 +168,21 @@ class Scene(PreparedScene):
         x, y, z, heading = finite_numbers(x, y, z, heading)
         if axis is not None or self._is_tilted:
             return self._tilted_position((x, y, z), heading, axis)
-        mover, found = self.model.mover, EXTERIOR
+        mover, answer = self.model.mover, EXTERIOR
         for index in self._near(x, y, z):
             body, low, high, inner_low, inner_high = self._body(index)
             if z < low or z > high:  # beyond an end
                 continue
-            said = position_beside(body, mover.b, mover.d, x, y, z)
-            if said != EXTERIOR and not inner_low <= z <= inner_high:
-                said = self._with_ends(said, index, (mover.b, mover.d), (x, y, z), UPRIGHT)
-            if said == CONTACT and mover.parts:
-                said = self._of_parts(index, (x, y, z), heading, UPRIGHT)
-            if said == CONTACT:
+            reply = position_beside(body, mover.b, mover.d, x, y, z)
+            if reply != EXTERIOR and not inner_low <= z <= inner_high:
+                reply = self._with_ends(reply, index, (mover.b, mover.d), (x, y, z), UPRIGHT)
+            if reply == CONTACT and mover.parts:
+                reply = self._of_parts(index, (x, y, z), heading, UPRIGHT)
+            if reply == CONTACT:
                 return self._answer(CONTACT)
-            if said == INTERIOR:
-                found = INTERIOR
-        return self._answer(found)
+            if reply == INTERIOR:
+                answer = INTERIOR
+        return self._answer(answer)
 
     @in_default_environment
     def passage(
@@ -262,12 +262,12 @@ class Scene(PreparedScene):
         clear = np.flatnonzero(~hit[paths.path])
         axes = None if swept.movers is None else swept.movers[clear]
         flights = Flights(paths.starts[clear], paths.ends[clear], paths.path[clear], axes)
-        found = least_distances(self._bodies, self.model.mover, self._grid, self._reaches, flights, len(hit))
-        asked = found.segment >= 0
-        found.segment[asked] = clear[found.segment[asked]]
-        found.lower[hit], found.upper[hit], found.segment[hit] = 0.0, 0.0, segments
-        found.time[hit], found.body[hit] = own.first_upper, own.index
-        return found
+        least = least_distances(self._bodies, self.model.mover, self._grid, self._reaches, flights, len(hit))
+        known = least.segment >= 0
+        least.segment[known] = clear[least.segment[known]]
+        least.lower[hit], least.upper[hit], least.segment[hit] = 0.0, 0.0, segments
+        least.time[hit], least.body[hit] = own.first_upper, own.index
+        return least
 
     def _swept(self, start: ArrayLike, end: ArrayLike, heading: ArrayLike, axis: ArrayLike | None) -> Swept:
         """Straight sweeps, and which pairs of them and of hyperboloids have contact."""
@@ -310,11 +310,11 @@ class Scene(PreparedScene):
             start, end = swept.starts[sweep], swept.ends[sweep]
             far = self._reaches[touched] if self._grid_holds(start[2], end[2]) else np.full(len(touched), np.inf)
             earliest = enters(self._bodies.origins[touched], far, start, end)
-            found: list[First] = []
+            firsts: list[First] = []
             for time, index in sorted(zip(earliest, touched, strict=True)):
-                if not found or time <= min(found)[0][1]:  # what comes later is not the first
-                    found.append((first_contact(self._bodies, index, *sweeps), index))
-            return min(found)
+                if not firsts or time <= min(firsts)[0][1]:  # what comes later is not the first
+                    firsts.append((first_contact(self._bodies, index, *sweeps), index))
+            return min(firsts)
 
         return measure
 
@@ -351,23 +351,23 @@ class Scene(PreparedScene):
         center = points_or_columns(x, y, z)
         columns = finite_columns((*CENTER, *AXIS[: len(axes)]), (*center, *axes))
         movers = directions(columns[3:]) if axes else None
-        found = scene_nearest.nearest(self._bodies, mover, np.stack(columns[:3], axis=1), movers)
-        return scene_nearest.first_of(found) if are_one(center, 0, axis) else found
+        result = scene_nearest.nearest(self._bodies, mover, np.stack(columns[:3], axis=1), movers)
+        return scene_nearest.first_of(result) if are_one(center, 0, axis) else result
 
     def _tilted_position(self, centre: Point, heading: float, axis: ArrayLike | None) -> int:
         """The position where the mover or a hyperboloid is tilted."""
-        mover_axis = [float(each) for each in self._axes(axis)]
+        mover_axis = [float(number) for number in self._axes(axis)]
         trouble = trouble_with_axis(mover_axis)
         if trouble is not None:
             raise InputError(trouble)
-        said = [self._tilted_reply(index, centre, heading, mover_axis) for index in self._near(*centre)]
-        return self._answer(_OF_RANK[max((_RANK[position] for position in said), default=0)])
+        replies = [self._tilted_reply(index, centre, heading, mover_axis) for index in self._near(*centre)]
+        return self._answer(_OF_RANK[max((_RANK[position] for position in replies), default=0)])
 
     def _tilted_reply(self, index: int, centre: Point, heading: float, axis: list[float]) -> int:
         """What a hyperboloid says about one centre."""
         mover = self.model.mover
-        said = self._of_one(index, (mover.b, mover.d), centre, axis)
-        return self._of_parts(index, centre, heading, axis) if said == CONTACT and mover.parts else said
+        reply = self._of_one(index, (mover.b, mover.d), centre, axis)
+        return self._of_parts(index, centre, heading, axis) if reply == CONTACT and mover.parts else reply
 
     def _of_one(
         self, index: int, semi_axes: tuple[float, float], centre: Sequence[float], axis: Sequence[float]
@@ -415,7 +415,7 @@ class Scene(PreparedScene):
             raise InputError(f"axis is of shape {given.shape}; {wanted}")
         return given[..., 0], given[..., 1], given[..., 2]
 
-    def _said(
+    def _replies(
         self, query: Indices, body: Indices, centres: Floats, heading: Floats, movers: Floats | None
     ) -> Positions:
         """What each hyperboloid says about its centre; `movers` are the mover's axes where something is tilted."""
@@ -435,21 +435,21 @@ class Scene(PreparedScene):
             places = pairs[0][some], pairs[1][some], axes
             result[some] = positions_with_ends(result[some], sizes[some], *places, bodies, body[some])
         for pair in np.flatnonzero(result == CONTACT).tolist() if mover.parts else ():
-            asked = query[pair]
-            axis = UPRIGHT if movers is None else movers[asked].tolist()
-            result[pair] = self._of_parts(int(body[pair]), centres[asked].tolist(), float(heading[asked]), axis)
+            owner = query[pair]
+            axis = UPRIGHT if movers is None else movers[owner].tolist()
+            result[pair] = self._of_parts(int(body[pair]), centres[owner].tolist(), float(heading[owner]), axis)
         return result
 
     def _of_parts(self, index: int, centre: Sequence[float], heading: float, mover: Sequence[float]) -> int:
         """The position that all parts of a mover with this axis have in common beside a hyperboloid, else contact."""
-        found = CONTACT
+        common = CONTACT
         for number, place in enumerate(places_of_parts(self.model.mover.parts, centre, heading, mover)):
             part = self.model.mover.parts[number]
-            said = self._of_one(index, (part.b, part.d), place, mover)
-            if said == CONTACT or (number and said != found):
+            reply = self._of_one(index, (part.b, part.d), place, mover)
+            if reply == CONTACT or (number and reply != common):
                 return CONTACT
-            found = said
-        return found
+            common = reply
+        return common
 
     def _answers(self, positions: Positions) -> Positions:
         question = self.model.question
@@ -458,9 +458,9 @@ class Scene(PreparedScene):
         return np.asarray(positions == POSITION_OF[question], np.int8)
 
 
-def _combined(said: Positions, query: Indices, count: int) -> Positions:
+def _combined(replies: Positions, query: Indices, count: int) -> Positions:
     """The answer at each centre by the near hyperboloids: contact, else interior, else exterior."""
-    rank = np.select([said == position for position in _RANK], list(_RANK.values()), 0).astype(np.int8)
+    rank = np.select([replies == position for position in _RANK], list(_RANK.values()), 0).astype(np.int8)
     highest = np.zeros(count, np.int8)
     np.maximum.at(highest, query, rank)
     return np.array(_OF_RANK, np.int8)[highest]

@@ -55,10 +55,10 @@ def limits_of(bodies: Bodies, mover: Mover) -> Floats:
     with np.errstate(all="ignore"):
         ends = np.where(np.isinf(bodies.heights), 0, np.abs(bodies.heights)).max(axis=1)
         far = reach * (1 + MARGIN) + 2.0**-45 * (np.abs(bodies.origins[:, 2]) + reach + ends)
-        found = np.stack([low - far, high + far, low + far, high - far], axis=1)
+        limits = np.stack([low - far, high + far, low + far, high - far], axis=1)
     tilted = bodies.tilted & np.isfinite(bodies.spans).any(axis=1)
-    found[tilted] = -inf, inf, inf, -inf
-    return found
+    limits[tilted] = -inf, inf, inf, -inf
+    return limits
 
 
 @dataclass(frozen=True, slots=True)
@@ -170,10 +170,10 @@ def _by_kernel(rows: Rows, centres: Rows, origins: Rows, inner: Mask, outer: Mas
     )
     solid = rows[:, -1] != 0
     sure = (around == Position.EXTERIOR) | (around == Position.INTERIOR)
-    found = np.where(sure & (solid | inner), around, CANNOT_SAY)
-    found[sure & ~solid & outer] = Position.EXTERIOR
-    found[(within == Position.CONTACT) & fits] = Position.CONTACT
-    return np.where(fits, found, CANNOT_SAY).astype(np.int8)
+    positions = np.where(sure & (solid | inner), around, CANNOT_SAY)
+    positions[sure & ~solid & outer] = Position.EXTERIOR
+    positions[(within == Position.CONTACT) & fits] = Position.CONTACT
+    return np.where(fits, positions, CANNOT_SAY).astype(np.int8)
 
 
 def position_with_ends(

@@ -73,12 +73,12 @@ def paths_of(path: ArrayLike | Sequence[ArrayLike]) -> Paths:
     points: list[Any] = [given] if single else list(given)  # type: ignore[arg-type]  # an array, or a list
     if not points:
         raise InputError("there is no path; there must be one at least")
-    named = [("the path" if single else f"path {number}", each) for number, each in enumerate(points)]
-    corners = [_points(name, each) for name, each in named]
-    starts = [each[: max(len(each) - 1, 1)] for each in corners]
-    counts = [len(each) for each in starts]
+    named = [("the path" if single else f"path {number}", track) for number, track in enumerate(points)]
+    corners = [_points(name, track) for name, track in named]
+    starts = [track[: max(len(track) - 1, 1)] for track in corners]
+    counts = [len(track) for track in starts]
     return Paths(
-        np.concatenate(starts), np.concatenate([each[-count:] for each, count in zip(corners, counts, strict=True)]),
+        np.concatenate(starts), np.concatenate([track[-count:] for track, count in zip(corners, counts, strict=True)]),
         np.cumsum([0, *counts]), single,
     )  # fmt: skip
 
@@ -96,7 +96,7 @@ def _is_of_points(path: object) -> bool:
     """Whether it is a path in a list of paths, not a point in a path."""
     if hasattr(path, "ndim"):
         return bool(path.ndim > 1)
-    return isinstance(path, (list, tuple)) and any(isinstance(each, (list, tuple)) or np.ndim(each) for each in path)
+    return isinstance(path, (list, tuple)) and any(isinstance(point, (list, tuple)) or np.ndim(point) for point in path)
 
 
 def _points(name: str, path: ArrayLike) -> Rows:
@@ -105,7 +105,7 @@ def _points(name: str, path: ArrayLike) -> Rows:
         raise InputError(f"{name} is of shape {points.shape}; it must be points (T, 3), one at least")
     finite = np.isfinite(points)
     if not finite.all():
-        place, column = (int(each[0]) for each in np.nonzero(~finite))
+        place, column = (int(index[0]) for index in np.nonzero(~finite))
         raise InputError(
             f"{name}, point {place}: {CENTER[column]} is {float(points[place, column])!r}; it must be finite"
         )
@@ -174,10 +174,10 @@ class FirstContact:
     @in_default_environment
     def least(self) -> LeastDistance:
         """The least distance along the flight, and where."""
-        found = self.find_least()
-        segment = np.where(found.segment >= 0, found.segment - self.paths.first[:-1], -1)
-        center = _centers(self.paths, segment, found.time)
-        values: list[Any] = [found.lower, found.upper, segment, found.time, found.body]
+        result = self.find_least()
+        segment = np.where(result.segment >= 0, result.segment - self.paths.first[:-1], -1)
+        center = _centers(self.paths, segment, result.time)
+        values: list[Any] = [result.lower, result.upper, segment, result.time, result.body]
         if self.paths.single:
             values, center = [value[0].item() for value in values], center[0]
         lower, upper, segment, time, index = values
@@ -185,17 +185,17 @@ class FirstContact:
 
     def _of_hits(self, values: Any, otherwise: float) -> Any:  # noqa: ANN401 - an array, or its number
         given = np.asarray(values)
-        found = np.full(len(self.paths.first) - 1, otherwise, given.dtype)
-        found[np.atleast_1d(self.hit)] = given
-        return found[0].item() if self.paths.single else found
+        of_flights = np.full(len(self.paths.first) - 1, otherwise, given.dtype)
+        of_flights[np.atleast_1d(self.hit)] = given
+        return of_flights[0].item() if self.paths.single else of_flights
 
 
 def _centers(paths: Paths, segment: Indices, time: Floats) -> Floats:
     """The mover's centre at these times of these segments of the paths, (k, 3); NaN where there is none."""
     place = paths.first[:-1] + np.maximum(segment, 0)
     here, there = paths.starts[place], paths.ends[place]
-    found = np.where((time == 1)[:, None], there, here + time[:, None] * (there - here))
-    return np.asarray(np.where((segment >= 0)[:, None], found, np.nan))
+    centers = np.where((time == 1)[:, None], there, here + time[:, None] * (there - here))
+    return np.asarray(np.where((segment >= 0)[:, None], centers, np.nan))
 
 
 def first_segments(paths: Paths, hits: Indices) -> tuple[Mask, Indices]:

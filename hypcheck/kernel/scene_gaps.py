@@ -76,36 +76,36 @@ def gaps(sizes: Rows, centres: Rows, axes: Rows | None, spans: Rows, solid: Mask
         sizes, centres, spans = (np.ldexp(column, unit_of[:, None]) for column in (sizes, centres, spans))
         alpha, gamma, b, d = np.ascontiguousarray(sizes.T)
         pairs = _Pairs(alpha, gamma, b, d, centres, unit, upright)
-        found = _to_walls(pairs, spans, np.ldexp(farthest, unit_of))
+        result = _to_walls(pairs, spans, np.ldexp(farthest, unit_of))
         for end in (0, 1):
-            _to_discs(found, pairs, spans[:, end], solid)
+            _to_discs(result, pairs, spans[:, end], solid)
         back = -unit_of
-        return Gaps(np.ldexp(found.lower, back), np.ldexp(found.upper, back), np.ldexp(found.point, back[:, None]))
+        return Gaps(np.ldexp(result.lower, back), np.ldexp(result.upper, back), np.ldexp(result.point, back[:, None]))
 
 
 def _to_walls(pairs: _Pairs, spans: Rows, farthest: Floats) -> Gaps:
     count = len(pairs.alpha)
-    found = Gaps(np.zeros(count), np.full(count, np.inf), np.full((count, 3), np.nan))
+    result = Gaps(np.zeros(count), np.full(count, np.inf), np.full((count, 3), np.nan))
     owner, cells = _first_cells(pairs, spans, farthest)
     most = np.zeros(count)
     np.maximum.at(most, owner, np.abs(cells[:, :2]).max(axis=1))
     size = _size(pairs, most)
     for _ in range(_ROUNDS):
         of = pairs.some(owner)
-        normal = _try(found, of, owner, _middles(of, cells))
+        normal = _try(result, of, owner, _middles(of, cells))
         bound, place = _least(of, cells, normal)
-        _try(found, of, owner, place)
+        _try(result, of, owner, place)
         floor = np.full(count, np.inf)
         np.minimum.at(floor, owner, bound)
-        enough = found.upper - _NARROW * size  # what was dropped before is not nearer
-        asked = np.unique(owner)
-        found.lower[asked] = np.maximum(found.lower, np.minimum(floor, enough))[asked]
+        enough = result.upper - _NARROW * size  # what was dropped before is not nearer
+        owners = np.unique(owner)
+        result.lower[owners] = np.maximum(result.lower, np.minimum(floor, enough))[owners]
         few = np.bincount(owner, minlength=count) <= _MOST_CELLS
         keep = np.flatnonzero((bound < enough[owner]) & few[owner])
         if not len(keep):
             break
         owner, cells = _halved(of.some(keep), owner[keep], cells[keep])
-    return found
+    return result
 
 
 def _first_cells(pairs: _Pairs, spans: Rows, farthest: Floats) -> tuple[Indices, Floats]:
@@ -156,15 +156,15 @@ def _middles(of: _Pairs, cells: Floats) -> Floats:
     return _on_wall(of, (cells[:, 0] + cells[:, 1]) / 2, (cells[:, 2] + cells[:, 3]) / 2)
 
 
-def _try(found: Gaps, of: _Pairs, owner: Indices, place: Floats) -> Floats:
+def _try(result: Gaps, of: _Pairs, owner: Indices, place: Floats) -> Floats:
     """Take points into account; the unit vectors along which they are from their spheroids."""
     upper, normal = from_spheroids(of.b, of.d, of.axis, place - of.centre)
-    best = np.full(len(found.upper), np.inf)
+    best = np.full(len(result.upper), np.inf)
     np.minimum.at(best, owner, upper)
-    better = best < found.upper
+    better = best < result.upper
     winners = np.flatnonzero((upper == best[owner]) & better[owner])
-    found.point[owner[winners]] = place[winners]
-    found.upper[better] = best[better]
+    result.point[owner[winners]] = place[winners]
+    result.upper[better] = best[better]
     return normal
 
 
@@ -230,7 +230,7 @@ def _candidates(of: _Pairs, cells: Floats, normal: Floats) -> tuple[list[Floats]
     return [cells[:, 0], cells[:, 1], np.clip(flat, cells[:, 0], cells[:, 1])], turns
 
 
-def _to_discs(found: Gaps, pairs: _Pairs, end: Floats, solid: Mask) -> None:
+def _to_discs(result: Gaps, pairs: _Pairs, end: Floats, solid: Mask) -> None:
     """Take end discs of those that are solid into account, but for their rims."""
     v, rise = pairs.axis, end - pairs.centre[:, 2]
     level = v[:, 0] * v[:, 0] + v[:, 1] * v[:, 1]
@@ -242,7 +242,7 @@ def _to_discs(found: Gaps, pairs: _Pairs, end: Floats, solid: Mask) -> None:
     loose = _LOOSE * (radius + off + np.abs(end) + np.abs(pairs.centre).sum(axis=1) + pairs.b + pairs.d)
     ends = solid & np.isfinite(end)
     above = ends & (off <= radius + loose)
-    found.lower[above] = np.minimum(found.lower, np.maximum(distance - loose, 0))[above]
-    better = ends & (off <= radius - loose) & (distance < found.upper)
-    found.upper[better] = distance[better]
-    found.point[better] = np.concatenate([across, end[:, None]], axis=1)[better]
+    result.lower[above] = np.minimum(result.lower, np.maximum(distance - loose, 0))[above]
+    better = ends & (off <= radius - loose) & (distance < result.upper)
+    result.upper[better] = distance[better]
+    result.point[better] = np.concatenate([across, end[:, None]], axis=1)[better]

@@ -171,7 +171,7 @@ class PlaneGrid:
         count = max(abs(across), abs(along)) / self.side
         if not (count <= MOST_AT_ONCE and max(pad_x, pad_y) <= self.side):
             return None
-        pieces, found = max(ceil(count), 1), set(self.everywhere)
+        pieces, near = max(ceil(count), 1), set(self.everywhere)
         for piece in range(pieces):
             here, there = piece / pieces, (piece + 1) / pieces
             (low_x, high_x), (low_y, high_y) = (
@@ -183,15 +183,15 @@ class PlaneGrid:
             for column in columns:
                 for row in rows:
                     place = (column * ACROSS ^ row * ALONG) & (len(self.starts) - 2)
-                    found.update(self.members[self.starts[place] : self.starts[place + 1]])
-        return found
+                    near.update(self.members[self.starts[place] : self.starts[place + 1]])
+        return near
 
     def near_boxes(self, low: Floats, high: Floats) -> tuple[Indices, Indices]:
         """The hyperboloids of all cells that boxes overlap, but those everywhere: pairs of a box' number and theirs.
 
         `low` and `high` are the boxes' corners, (n, 2); a pair may come several times.
         """
-        first, last = (np.floor(np.clip(each / self.side, -WIDEST, WIDEST)) for each in (low, high))
+        first, last = (np.floor(np.clip(corner / self.side, -WIDEST, WIDEST)) for corner in (low, high))
         column, row, box = _entries(first[:, 0], last[:, 0], first[:, 1], last[:, 1], np.arange(len(low)))
         cell, member = self._members_of(column, row)
         return box[cell], member
@@ -288,11 +288,11 @@ def near_sweeps(
     `grid` and `reach` are those of the bodies for centres in this span of z.
     """
     low, high = np.minimum(starts[:, 2], ends[:, 2]), np.maximum(starts[:, 2], ends[:, 2])
-    found = []
+    kept = []
 
     def take(sweep: Indices, body: Indices, far: Floats) -> None:
         keep = np.flatnonzero(passed(starts, ends, sweep, bodies.origins[body], far))
-        found.append((sweep[keep], body[keep]))
+        kept.append((sweep[keep], body[keep]))
 
     with np.errstate(all="ignore"):
         pieces = _pieces_of(grid, starts, ends)
@@ -304,7 +304,7 @@ def near_sweeps(
         for alone in np.flatnonzero(pieces == 0).tolist():
             far = reaches(bodies, mover, Span(float(low[alone]), float(high[alone])))
             take(np.full(len(far), alone), np.arange(len(far)), far)
-    sweep, body = (np.concatenate(each) for each in zip(*found, strict=True))
+    sweep, body = (np.concatenate(column) for column in zip(*kept, strict=True))
     with np.errstate(all="ignore"):
         reach = max(mover.b, mover.d) * OUTWARD + PAD * (np.abs(low) + np.abs(high))
         keep = (high + reach)[sweep] >= bodies.heights[body, 0]

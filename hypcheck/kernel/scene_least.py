@@ -155,11 +155,11 @@ def least_distances(
     loose = (len(lengths) + 4) * 2.0**-52 * float(length[-1])
     search = _Search(bodies, mover, grid, reach, flights, length, loose)
     _reach_some(search, least)
-    asked = np.unique(flights.flight)
-    asked = asked[np.isfinite(least.upper[asked])]
-    scale = np.frexp(least.upper[asked])[1]
+    flown = np.unique(flights.flight)
+    flown = flown[np.isfinite(least.upper[flown])]
+    scale = np.frexp(least.upper[flown])[1]
     for exponent in np.unique(scale).tolist():
-        _narrow(search, least, asked[scale == exponent])
+        _narrow(search, least, flown[scale == exponent])
     return least
 
 
@@ -211,10 +211,10 @@ def _narrow(search: _Search, least: Least, wanted: Indices) -> None:
 
 def _errors(search: _Search, count: int) -> Floats:
     """The greatest rounding of a place on each flight, (count,)."""
-    flights, found = search.flights, np.zeros(count)
+    flights, errors = search.flights, np.zeros(count)
     error = _ROUNDED * (np.abs(flights.starts).sum(axis=1) + np.abs(flights.ends).sum(axis=1))
-    np.maximum.at(found, flights.flight, error)
-    return found
+    np.maximum.at(errors, flights.flight, error)
+    return errors
 
 
 def _ask(search: _Search, least: Least, pieces: _Pieces) -> tuple[_Places, Floats, Floats]:
@@ -287,7 +287,7 @@ def _halved(pieces: _Pieces) -> _Pieces:
 
 
 def _joined(several: Sequence[_Pieces]) -> _Pieces:
-    columns = zip(*(vars(each).values() for each in several), strict=True)
+    columns = zip(*(vars(some).values() for some in several), strict=True)
     return _Pieces(*(np.concatenate(column) for column in columns))
 
 
@@ -315,11 +315,11 @@ def _near_pieces(search: _Search, segments: Indices, within: float, most: Floats
         cells = np.where(np.isfinite(across).all(axis=1), across.prod(axis=1), np.inf)
     members = min(len(bodies.tall), max(len(grid.members), 1))
     load = np.minimum(cells, members) * (1 + len(grid.everywhere) / np.maximum(cells, 1))
-    found = []
+    near = []
     for some in np.split(np.arange(len(first)), np.flatnonzero(np.diff(np.cumsum(load) // _AT_A_TIME)) + 1):
         piece, body = _looked_up(search, low[some], high[some], cells[some] < members)
-        found.append(_worth_asking(search, first[some][piece], last[some][piece], body, most))
-    return _joined(found)
+        near.append(_worth_asking(search, first[some][piece], last[some][piece], body, most))
+    return _joined(near)
 
 
 def _looked_up(search: _Search, low: Floats, high: Floats, by_cells: Mask) -> tuple[Indices, Indices]:

@@ -64,76 +64,76 @@ class Nearest:
     @property
     def contact(self) -> Mask:
         """Whether the mover is in contact."""
-        found: Mask = self.distance_upper == 0  # of one centre True or False
-        return found
+        touching: Mask = self.distance_upper == 0  # of one centre True or False
+        return touching
 
 
-def first_of(found: Nearest) -> Nearest:
+def first_of(result: Nearest) -> Nearest:
     """What is said of the first centre alone, with numbers in the place of arrays (n,)."""
-    first = [getattr(found, part.name)[0] for part in fields(Nearest)]
+    first = [getattr(result, part.name)[0] for part in fields(Nearest)]
     return Nearest(*(value if np.ndim(value) else value.item() for value in first))
 
 
 def nearest(bodies: Bodies, mover: Mover, centres: Floats, axes: Floats | None) -> Nearest:
     """The nearest of all hyperboloids to a mover at centres (n, 3), with axes (n, 3); None: it is upright."""
     count, some = len(centres), max(1, PAIRS_AT_A_TIME // len(bodies.tall))
-    found = Nearest(
+    result = Nearest(
         np.zeros(count, np.intp), np.zeros(count, np.bool_), np.full(count, np.inf), np.full(count, np.inf),
         np.full((count, 3), np.nan), np.full((count, 3), np.nan),
     )  # fmt: skip
     for start in range(0, count, some):
-        _fill(found, bodies, mover, (centres, axes), np.arange(start, min(start + some, count)))
-    found.normal[:] = _normals(found, mover, centres, axes)
-    return found
+        _fill(result, bodies, mover, (centres, axes), np.arange(start, min(start + some, count)))
+    result.normal[:] = _normals(result, mover, centres, axes)
+    return result
 
 
-def _normals(found: Nearest, mover: Mover, centres: Floats, axes: Floats | None) -> Floats:
+def _normals(result: Nearest, mover: Mover, centres: Floats, axes: Floats | None) -> Floats:
     """The unit vectors from the points to movers at these centres: in the scene, where only the mover matters."""
     rows = np.zeros((len(centres), len(TILTED_COLUMNS)))
     rows[:, 2:4], rows[:, 7:] = (mover.b, mover.d), UPRIGHT if axes is None else axes
     with np.errstate(over="ignore", invalid="ignore"):
-        off = found.point - centres
-    return normals(rows, off, np.where(found.contact | np.isnan(off).any(axis=1), 0, 1).astype(np.int8))
+        off = result.point - centres
+    return normals(rows, off, np.where(result.contact | np.isnan(off).any(axis=1), 0, 1).astype(np.int8))
 
 
 Movers = tuple[Floats, Floats | None]
 """Centres (n, 3) and axes (n, 3), None where the mover is upright."""
 
 
-def _fill(found: Nearest, bodies: Bodies, mover: Mover, movers: Movers, places: Indices) -> None:
+def _fill(result: Nearest, bodies: Bodies, mover: Mover, movers: Movers, places: Indices) -> None:
     least = cylinders(bodies, mover, movers[0][places])
     first = np.argmin(least, axis=1)
-    _ask(found, bodies, mover, movers, places, first)
-    query, body = np.nonzero(least <= found.distance_upper[places, None])
+    _ask(result, bodies, mover, movers, places, first)
+    query, body = np.nonzero(least <= result.distance_upper[places, None])
     others = body != first[query]
-    _ask(found, bodies, mover, movers, places[query[others]], body[others])
+    _ask(result, bodies, mover, movers, places[query[others]], body[others])
 
 
-def _ask(found: Nearest, bodies: Bodies, mover: Mover, movers: Movers, query: Indices, body: Indices) -> None:
+def _ask(result: Nearest, bodies: Bodies, mover: Mover, movers: Movers, query: Indices, body: Indices) -> None:
     """Take these pairs into account: each centre's with the least upper bound, and whether others may be as near."""
     centres, axes = movers
     pairs = _pairs_of(bodies, mover, centres[query], None if axes is None else axes[query], body)
-    low, high, point = _distances(pairs, query, found.distance_upper)
+    low, high, point = _distances(pairs, query, result.distance_upper)
     _decide_contact(pairs, low, high)
     point = pairs.in_scene(point)
     order = np.argsort(high, kind="stable")
     best, first = np.unique(query[order], return_index=True)
-    nearer = high[order][first] < found.distance_upper[best]
-    known = np.isfinite(found.distance_upper)
-    before = found.distance_lower.copy()
+    nearer = high[order][first] < result.distance_upper[best]
+    known = np.isfinite(result.distance_upper)
+    before = result.distance_lower.copy()
     chosen = order[first[nearer]]
     changed = query[chosen]
-    found.index[changed], found.distance_upper[changed], found.point[changed] = (
+    result.index[changed], result.distance_upper[changed], result.point[changed] = (
         body[chosen],
         high[chosen],
         point[chosen],
     )
-    np.minimum.at(found.distance_lower, query, low)
+    np.minimum.at(result.distance_lower, query, low)
     reaching = np.zeros(len(centres), np.intp)
-    np.add.at(reaching, query[low <= found.distance_upper[query]], 1)
-    reaching[known & (before <= found.distance_upper)] += 1
-    asked = np.unique(query)
-    found.tied[asked] = reaching[asked] > 1
+    np.add.at(reaching, query[low <= result.distance_upper[query]], 1)
+    reaching[known & (before <= result.distance_upper)] += 1
+    queries = np.unique(query)
+    result.tied[queries] = reaching[queries] > 1
 
 
 def distances(
@@ -233,10 +233,10 @@ def _pairs_of(bodies: Bodies, mover: Mover, centres: Floats, axes: Floats | None
 def _to_wholes(pairs: _Pairs) -> tuple[Floats, Floats, Floats, Mask]:
     """Bounds of the distances, by those to the whole hyperboloids, points for the upper ones, and where ends matter."""
     rows, rounded, (bottom, top) = pairs.rows, pairs.rounded, pairs.spans.T
-    said = clearances(rows)
+    wholes = clearances(rows)
     with np.errstate(all="ignore"):
-        low, high = np.maximum(said.distance_lower - rounded, 0), said.distance_upper + rounded
-        point = said.nearest.copy()
+        low, high = np.maximum(wholes.distance_lower - rounded, 0), wholes.distance_upper + rounded
+        point = wholes.nearest.copy()
         level, ended = point[:, 2], np.isfinite(pairs.spans).any(axis=1)
         solid = pairs.bodies.solid[pairs.body] & ended
         to_planes = np.nanmin(np.abs(rows[:, 6:7] - pairs.spans), axis=1) - rows[:, 2:4].max(axis=1) - rounded
@@ -260,14 +260,14 @@ def _to_what_stands(pairs: _Pairs, bounds: tuple[Floats, Floats, Floats], some: 
         return
     low, high, point = bounds
     axes = pairs.own_axes
-    found = gaps(
+    measured = gaps(
         pairs.rows[some, :4], pairs.rows[some, 4:7], None if axes is None else axes[some],
         pairs.spans[some], pairs.bodies.solid[pairs.body[some]], high[some],
     )  # fmt: skip
-    low[some] = np.maximum(low[some], found.lower - pairs.rounded[some])
-    better = found.upper + pairs.rounded[some] < high[some]
-    high[some[better]] = (found.upper + pairs.rounded[some])[better]
-    point[some[better]] = found.point[better]
+    low[some] = np.maximum(low[some], measured.lower - pairs.rounded[some])
+    better = measured.upper + pairs.rounded[some] < high[some]
+    high[some[better]] = (measured.upper + pairs.rounded[some])[better]
+    point[some[better]] = measured.point[better]
 
 
 def _decide_contact(pairs: _Pairs, low: Floats, high: Floats) -> None:

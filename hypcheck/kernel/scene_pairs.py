@@ -71,11 +71,12 @@ def _between(sizes: Rows, place: Rows, lost: Floats) -> tuple[Positions, Mask]:
     """The positions about rounded differences that lost so much, and a mask of those that it leaves open."""
     larger, smaller, fits = larger_and_smaller(sizes[:, 2:], lost)
     outer, inner = (
-        classify(np.concatenate([sizes[fits, :2], each[fits], place[fits]], axis=1)) for each in (larger, smaller)
+        classify(np.concatenate([sizes[fits, :2], semi_axes[fits], place[fits]], axis=1))
+        for semi_axes in (larger, smaller)
     )
-    found, unsettled = np.zeros(len(sizes), np.int8), ~fits
-    found[fits], unsettled[fits] = outer, (outer == Position.CONTACT) & (inner != Position.CONTACT)
-    return found, unsettled
+    positions, unsettled = np.zeros(len(sizes), np.int8), ~fits
+    positions[fits], unsettled[fits] = outer, (outer == Position.CONTACT) & (inner != Position.CONTACT)
+    return positions, unsettled
 
 
 def larger_and_smaller(semi_axes: Rows, lost: Floats) -> tuple[Floats, Floats, Mask]:
@@ -122,8 +123,8 @@ def tilted_positions(sizes: Rows, centres: Rows, origins: Rows, movers: Rows, ax
     """The exact position of each mover, int8 (n,): sizes (n, 4), both centres and both axes (n, 3)."""
     tilted = (axes[:, :2] != 0).any(axis=1)
     result = np.empty(len(sizes), np.int8)
-    result[~tilted] = positions_beside(*(each[~tilted] for each in (sizes, centres, origins, movers)))
-    result[tilted] = _beside_tilted(*(each[tilted] for each in (sizes, centres, origins, movers, axes)))
+    result[~tilted] = positions_beside(*(column[~tilted] for column in (sizes, centres, origins, movers)))
+    result[tilted] = _beside_tilted(*(column[tilted] for column in (sizes, centres, origins, movers, axes)))
     return result
 
 
@@ -138,8 +139,8 @@ def tilted_position(
     if axis[0] == axis[1] == 0:
         (alpha, gamma, b, d), (x, y, z), (u, v, w) = sizes, centre, origin
         return position_beside((alpha, gamma, u, v, w), b, d, x, y, z, mover)
-    found = _by_ball(sizes, centre, origin, axis)
-    return _from_exact_difference(sizes, centre, origin, mover, axis) if found is None else int(found)
+    position = _by_ball(sizes, centre, origin, axis)
+    return _from_exact_difference(sizes, centre, origin, mover, axis) if position is None else int(position)
 
 
 def _by_ball(
@@ -166,7 +167,7 @@ def height_and_distance(
     largest, size = max(map(abs, axis)), sum(map(abs, (*centre, *origin)))
     if not (LEAST < largest < GREATEST and size < GREATEST):
         return 0.0, 0.0, inf
-    u, v, w = (each / largest for each in axis)
+    u, v, w = (part / largest for part in axis)
     norm = sqrt(u * u + v * v + w * w)
     u, v, w = u / norm, v / norm, w / norm
     x, y, z = (there - here for there, here in zip(centre, origin, strict=True))

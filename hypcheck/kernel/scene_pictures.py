@@ -57,7 +57,7 @@ def shown_flight(
     paths = paths_of(path)
     if not paths.single:
         raise InputError("a picture shows one flight, and many are given; give points (T, 3)")
-    found = scene.first_contact(path, heading, axis=axis)
+    contact = scene.first_contact(path, heading, axis=axis)
     count = len(paths.starts)
     headings = np.broadcast_to(np.asarray(heading, np.float64), count)
     fixed = scene.model.mover.axis
@@ -73,19 +73,19 @@ def shown_flight(
         contacts.append(ShownContact(segment, (here + float((low + high) / 2) * (there - here)).tolist(), index))
     pieces, segments, flown = _pieces(np.vstack([paths.starts[:1], paths.ends]), count_of_pieces)
     near = _least_on(scene, pieces, segments, headings, free)
-    whole = found.least
+    whole = contact.least
     least_flown = float(flown[whole.segment] + whole.time * (flown[whole.segment + 1] - flown[whole.segment]))
     parts = scene.model.mover.parts
-    places = [places_of_parts(parts, (0, 0, 0), *each) for each in zip(headings.tolist(), axes.tolist(), strict=True)]
-    said = f"{counted(count, 'segment')}, {float(flown[-1]):.6g} long; " + (
-        f"{counted(int(hits.sum()), 'segment')} with contact, the first is segment {found.segment}"
-        if found.hit
+    places = [places_of_parts(parts, (0, 0, 0), *turn) for turn in zip(headings.tolist(), axes.tolist(), strict=True)]
+    caption = f"{counted(count, 'segment')}, {float(flown[-1]):.6g} long; " + (
+        f"{counted(int(hits.sum()), 'segment')} with contact, the first is segment {contact.segment}"
+        if contact.hit
         else f"clear, its least distance is {float(whole.distance_lower):.6g}"
     )
     return ShownFlight(
         np.vstack([paths.starts[:1], paths.ends]), axes, hits, contacts,
         np.array(places, np.float64).reshape(count, len(parts), 3), *near,
-        (least_flown, float(whole.distance_lower), float(whole.distance_upper)), said,
+        (least_flown, float(whole.distance_lower), float(whole.distance_upper)), caption,
     )  # fmt: skip
 
 
@@ -97,15 +97,15 @@ def _least_on(
     Where the mover meets contact, the distance is 0, and which hyperboloid it meets is not asked.
     """
 
-    def asked(chosen: list[int]) -> FirstContact:
+    def first_contacts(chosen: list[int]) -> FirstContact:
         owner = np.concatenate([segments[piece] for piece in chosen])
         these = [pieces[piece] for piece in chosen]
         return scene.first_contact(these, headings[owner], axis=None if axes is None else axes[owner])
 
     lower, upper, index = np.zeros(len(pieces)), np.zeros(len(pieces)), np.zeros(len(pieces), np.intp)
-    clear = np.flatnonzero(~np.asarray(asked(list(range(len(pieces)))).hit))
+    clear = np.flatnonzero(~np.asarray(first_contacts(list(range(len(pieces)))).hit))
     if len(clear):
-        least = asked(clear.tolist()).least
+        least = first_contacts(clear.tolist()).least
         lower[clear], index[clear] = least.distance_lower, np.maximum(least.index, 0)
         upper[clear] = np.where(np.isfinite(least.distance_upper), least.distance_upper, 0.0)
         clear = clear[least.distance_upper != 0]

@@ -48,8 +48,8 @@ class PreparedScene:
         if not self.model.hyperboloids:
             raise InputError("the scene has no hyperboloid; it must have one at least")
         if self.model.question not in QUESTIONS:
-            asked = escaped(reprlib.repr(self.model.question), 60)
-            raise InputError(f"the question is {asked}; it must be {', '.join(QUESTIONS[:-1])} or {QUESTIONS[-1]}")
+            question = escaped(reprlib.repr(self.model.question), 60)
+            raise InputError(f"the question is {question}; it must be {', '.join(QUESTIONS[:-1])} or {QUESTIONS[-1]}")
         require_valid_mover(self.model.mover)
 
     @classmethod
@@ -135,9 +135,9 @@ class PreparedScene:
     def _place(self, which: int | str) -> int:
         bodies = self.model.hyperboloids
         if isinstance(which, str):
-            found = [place for place, body in enumerate(bodies) if body.name == which]
-            if found:
-                return found[0]
+            places = [place for place, body in enumerate(bodies) if body.name == which]
+            if places:
+                return places[0]
         elif 0 <= which < len(bodies):
             return int(which)
         raise InputError(
@@ -189,19 +189,19 @@ class PreparedScene:
         if height is None or ((centres[:, 2] >= height.low) & (centres[:, 2] <= height.high)).all():
             return self._grid.near_each(centres[:, 0], centres[:, 1])
         near = [self._near(x, y, z) for x, y, z in centres.tolist()]
-        counts = [len(each) for each in near]
+        counts = [len(bodies) for bodies in near]
         return np.repeat(np.arange(len(centres)), counts), np.array(list(chain.from_iterable(near)), np.int64)
 
     def _body(self, index: int) -> tuple[Body, float, float, float, float]:
         """A hyperboloid's numbers, and its limits, without arrays; each is kept once it was asked."""
-        found = self._asked.get(index)
-        if found is None:
+        prepared = self._asked.get(index)
+        if prepared is None:
             of = self._bodies
             columns = (of.shapes[index], of.origins[index], self._limits[index])
             alpha, gamma, x, y, z, *limits = (number for column in columns for number in column.tolist())
             low, high, inner_low, inner_high = limits
-            found = self._asked[index] = ((alpha, gamma, x, y, z), low, high, inner_low, inner_high)
-        return found
+            prepared = self._asked[index] = ((alpha, gamma, x, y, z), low, high, inner_low, inner_high)
+        return prepared
 
     def _grid_holds(self, *heights: float) -> bool:
         """Whether what the grid and the reaches promise holds at these heights of the scene: they are in its region."""
@@ -210,10 +210,10 @@ class PreparedScene:
 
     def _near_motion(self, index: int) -> Near:
         """The same for motions."""
-        found = self._asked_of_motions.get(index)
-        if found is None:
-            found = self._asked_of_motions[index] = near_of(self._bodies, self._reaches, self._limits, index)
-        return found
+        prepared = self._asked_of_motions.get(index)
+        if prepared is None:
+            prepared = self._asked_of_motions[index] = near_of(self._bodies, self._reaches, self._limits, index)
+        return prepared
 
     @cached_property
     def _asked_of_motions(self) -> dict[int, Near]:

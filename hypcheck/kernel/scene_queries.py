@@ -43,8 +43,8 @@ def frames_of(axes: Floats) -> Floats:
 
 def turned(frames: Floats, vectors: Floats) -> Floats:
     """Vectors (n, 3) in frames (n, 3, 3)."""
-    found: Floats = np.einsum("nij,nj->ni", frames, vectors)
-    return found
+    result: Floats = np.einsum("nij,nj->ni", frames, vectors)
+    return result
 
 
 def turned_axes(frames: Floats, axes: Floats | None) -> Floats:
@@ -104,7 +104,11 @@ def sweeps_of(start: ArrayLike, end: ArrayLike, heading: ArrayLike, axes: Sequen
         if point.ndim not in (1, 2) or point.shape[-1] != len(CENTER):
             raise InputError(f"{name} is of shape {point.shape}; {POINTS}")
         points.append(point.reshape(-1, len(CENTER)).T)
-    names = (*(f"{each} of the start" for each in CENTER), *(f"{each} of the end" for each in CENTER), "heading")
+    names = (
+        *(f"{letter} of the start" for letter in CENTER),
+        *(f"{letter} of the end" for letter in CENTER),
+        "heading",
+    )
     columns = finite_columns((*names, *AXIS[: len(axes)]), (*points[0], *points[1], heading, *axes))
     return np.stack(columns[:3], axis=1), np.stack(columns[3:6], axis=1), *columns[6:]
 

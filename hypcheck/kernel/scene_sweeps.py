@@ -75,12 +75,14 @@ def bounded_hits(
     larger, smaller, fits = larger_and_smaller(semi_axes, lost)
     heights = [spans, bodies.solid[body][:, None]] if leaves.any() else []
     hits, left = np.zeros(len(body), np.bool_), ~fits & ~beyond
-    asked = np.flatnonzero(fits & ~beyond)
+    open_rows = np.flatnonzero(fits & ~beyond)
     for size, surely in ((larger, 0), (smaller, 1)):
-        said = kernel().answer_sweeps(np.concatenate([shapes, size, start, end, own_axes, *heights], axis=1)[asked])[0]
-        hits[asked[said == surely]] = surely == 1
-        asked = asked[said != surely]
-    left[asked] = True
+        replies = kernel().answer_sweeps(
+            np.concatenate([shapes, size, start, end, own_axes, *heights], axis=1)[open_rows]
+        )[0]
+        hits[open_rows[replies == surely]] = surely == 1
+        open_rows = open_rows[replies != surely]
+    left[open_rows] = True
     some = np.flatnonzero(left & fits & leaves)
     places = shapes[some], spans[some], start[some], end[some], lost[some]
     met = some[_meet_on_the_sweep(semi_axes[some].min(axis=1), *places)]
@@ -90,10 +92,10 @@ def bounded_hits(
 
 def _meet_on_the_sweep(least: Floats, shapes: Rows, spans: Rows, start: Floats, end: Floats, lost: Floats) -> Mask:
     """Whether bounds show contact at one of five times, in the frames of hyperboloids with these ends."""
-    found = np.zeros(len(shapes), np.bool_)
+    met = np.zeros(len(shapes), np.bool_)
     for share in (0.0, 0.25, 0.5, 0.75, 1.0):
-        found |= meets_for_sure(least, shapes, spans, start + share * (end - start), lost)
-    return found
+        met |= meets_for_sure(least, shapes, spans, start + share * (end - start), lost)
+    return met
 
 
 def _in_frames(
@@ -195,14 +197,14 @@ def first_contact(
     Where parts decide, exact decisions about the sweep up to a time halve the interval.
     """
     low, high = bodies.spans[index].tolist()
-    found = swept.passage(
+    first = swept.passage(
         *_between(bodies, index, *mover), z_min=low, z_max=high, solid=float(bodies.solid[index])
     ).first
-    if found is None:
+    if first is None:
         raise AssertionError("a sweep on which is_clear finds contact has none")
     if not parts:
-        return found
-    until, contact = found[0], Fraction(1)
+        return first
+    until, contact = first[0], Fraction(1)
     if not is_clear(bodies, index, *_cut(mover, parts, Fraction(0))):
         return Fraction(0), Fraction(0)
     for _ in range(_HALVINGS):
@@ -313,7 +315,7 @@ def _passed(candidates: set[int], near: Callable[[int], Near], start: Place, end
     across, along = x_end - x, y_end - y
     length = across * across + along * along
     size = abs(x) + abs(y) + abs(x_end) + abs(y_end)
-    found = []
+    passed_by = []
     for index in candidates:
         (u, v, _), reach, (low, high), _, _ = near(index)
         if highest < low or lowest > high:  # beyond an end
@@ -324,5 +326,5 @@ def _passed(candidates: set[int], near: Callable[[int], Near], start: Place, end
         time = min(time, 1.0) if time > 0 else 0.0
         u, v = u - time * across, v - time * along
         if not (u * u + v * v > most * most and length < LONGEST_SQUARE):
-            found.append(index)
-    return found
+            passed_by.append(index)
+    return passed_by

@@ -43,13 +43,13 @@ def shared_files(
     if nothing can be added to an existing file.
     """
     before = {path: _text(root / path) for path in (IGNORED, *(() if force else (SETTINGS, WORKFLOW)))}
-    others = [each for each in LANGUAGES.values() if each != project.language and (root / each.folder).is_dir()]
+    others = [other for other in LANGUAGES.values() if other != project.language and (root / other.folder).is_dir()]
     notes: list[str] = []
     settings = before.get(SETTINGS) or filled("common", "hypcheck.toml", {})
     workflow = before.get(WORKFLOW) or filled("common", "workflow.yml", {"INSTALL": _install(None)})
-    for each in (*(map(Project, others) if force else ()), project):
-        settings = _with_spec(settings, each, root / SETTINGS, notes)
-        workflow = _with_steps(workflow, each, root / WORKFLOW)
+    for written in (*(map(Project, others) if force else ()), project):
+        settings = _with_spec(settings, written, root / SETTINGS, notes)
+        workflow = _with_steps(workflow, written, root / WORKFLOW)
     workflow = _with_install(workflow, wanted, root / WORKFLOW, notes)
     after = {SETTINGS: settings, WORKFLOW: workflow, IGNORED: _with_ignored(before[IGNORED] or "")}
     return {path: text for path, text in after.items() if text != before.get(path)}, notes
@@ -82,8 +82,8 @@ def _with_spec(text: str, project: Project, path: Path, notes: list[str]) -> str
 def _listed(text: str, project: Project) -> str:
     """The text with the SPEC at the end of its list, on a line below a comment with its build command."""
 
-    def longer(found: re.Match[str]) -> str:
-        listed = found["listed"].rstrip()
+    def longer(match: re.Match[str]) -> str:
+        listed = match["listed"].rstrip()
         comma = "," if listed and not listed.endswith(",") else ""
         spec = json.dumps(project.language.spec)
         return f"specs = [{listed}{comma}\n    # Made by: {project.build}\n    {spec},\n]"
@@ -122,8 +122,8 @@ def _install(wanted: Requirement | None) -> str:
         return filled("common", "install-nothing.yml", {}).rstrip("\n")
     about = [
         line
-        for each in wanted.says
-        for line in textwrap.wrap(f"{each[:1].upper()}{each[1:]}.", _WIDTH, break_long_words=False)
+        for sentence in wanted.says
+        for line in textwrap.wrap(f"{sentence[:1].upper()}{sentence[1:]}.", _WIDTH, break_long_words=False)
     ]
     values = {"REQUIREMENT": shlex.quote(wanted.text), "SAYS": "\n".join(f"        # {line}" for line in about)}
     return "\n".join(line for line in filled("common", "install.yml", values).splitlines() if line)

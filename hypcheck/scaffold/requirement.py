@@ -128,8 +128,8 @@ def _refs(repository: str) -> dict[str, str] | str:
     except subprocess.TimeoutExpired:
         return f"no answer within {_SECONDS:g} s"
     if done.returncode:
-        said = done.stderr.decode(errors="replace").strip().splitlines()
-        return said[0].removeprefix("fatal: ").strip() if said else f"git ends with {done.returncode}"
+        messages = done.stderr.decode(errors="replace").strip().splitlines()
+        return messages[0].removeprefix("fatal: ").strip() if messages else f"git ends with {done.returncode}"
     lines = (line.partition("\t") for line in done.stdout.decode(errors="replace").splitlines())
     return {name: commit for commit, _, name in lines if _COMMIT.fullmatch(commit)}
 
@@ -143,10 +143,10 @@ def _of_index(project: str, version: str) -> Requirement:
 
 def _of_url(project: str, url: str, source: str) -> Requirement:
     """A repository or an archive at a URL."""
-    found = _URL.fullmatch(url)
-    if not found:
+    match = _URL.fullmatch(url)
+    if not match:
         raise _wrong(source)
-    scheme, place, user = found["scheme"], found["place"].rstrip("/"), found["user"]
+    scheme, place, user = match["scheme"], match["place"].rstrip("/"), match["user"]
     local = scheme == "file" and not user and _FILE.fullmatch(place)
     if not local and not (scheme in {"https", "ssh"} and _PLACE.fullmatch(place)):
         raise _wrong(source)
@@ -155,9 +155,9 @@ def _of_url(project: str, url: str, source: str) -> Requirement:
             "--from may hold a secret before its @, and everybody can read the workflow; "
             "it must be https://host/… without a user, or ssh://user@host/…"
         )
-    if place.endswith(_ARCHIVES) and not found["git"] and scheme != "ssh":
-        return _of_archive(project, f"{scheme}://{place}", found["end"] or "", source)
-    return _of_git(project, f"{scheme}://{user + '@' if user else ''}{place}", found["end"], source)
+    if place.endswith(_ARCHIVES) and not match["git"] and scheme != "ssh":
+        return _of_archive(project, f"{scheme}://{place}", match["end"] or "", source)
+    return _of_git(project, f"{scheme}://{user + '@' if user else ''}{place}", match["end"], source)
 
 
 def _of_git(project: str, url: str, end: str | None, source: str) -> Requirement:
@@ -196,12 +196,12 @@ def _of_path(path: Path, directory: Path) -> Requirement:
 def _digest(path: Path) -> str:
     try:
         with path.open("rb") as file:
-            found = hashlib.sha256()
+            digest = hashlib.sha256()
             while part := file.read(1 << 20):
-                found.update(part)
+                digest.update(part)
     except OSError as error:
         raise InputError(f"--from: cannot read {path}: {system_reason(error)}") from None
-    return f"#sha256={found.hexdigest()}"
+    return f"#sha256={digest.hexdigest()}"
 
 
 def _here(url: str) -> str:

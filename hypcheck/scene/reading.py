@@ -155,7 +155,7 @@ def _file(name: str) -> tuple[str, str]:
 
 
 def _hyperboloids(top: TomlTable) -> tuple[Hyperboloid, ...]:
-    found: dict[str, int] = {}
+    numbers: dict[str, int] = {}
     result = []
     for number, table in enumerate(top.tables("hyperboloid", _HYPERBOLOID, MOST_HYPERBOLOIDS), start=1):
         body = Hyperboloid(
@@ -167,7 +167,7 @@ def _hyperboloids(top: TomlTable) -> tuple[Hyperboloid, ...]:
             axis=table.optional("axis", tables.axis, UPRIGHT),
             solid=table.optional("solid", tables.truth, False),
         )
-        first = found.setdefault(body.name, number)
+        first = numbers.setdefault(body.name, number)
         if first != number:
             same = tables.shown(body.name)
             table.refuse(f"hyperboloid {number} is called {same} as hyperboloid {first} is; names must differ", "name")

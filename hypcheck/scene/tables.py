@@ -179,16 +179,16 @@ def point(value: object) -> Point:
 def axis(value: object) -> Point:
     """A direction, of any length."""
     wanted = "three finite numbers, [x, y, z], not all 0"
-    found = _three(value, wanted)
-    if not any(found):
+    vector = _three(value, wanted)
+    if not any(vector):
         raise ValueError(wanted)
-    return found
+    return vector
 
 
 def _three(value: object, wanted: str) -> Point:
     if not isinstance(value, list) or len(value) != 3:
         raise ValueError(wanted)
-    x, y, z = (_number(each, wanted) for each in value)
+    x, y, z = (_number(part, wanted) for part in value)
     return x, y, z
 
 

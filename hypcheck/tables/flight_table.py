@@ -43,7 +43,7 @@ def read_flights(path: str) -> FlightTable:
         raise InputError(f"{name} is not UTF-8: byte {error.start} is wrong") from None
     records = csv.reader(lines, strict=True)
     try:
-        header = [each.strip() for each in next(records, [])]
+        header = [cell.strip() for cell in next(records, [])]
         rows = [(records.line_num, cells) for cells in records if cells]
     except csv.Error as error:
         raise InputError(f"{name}, line {records.line_num}: {error}") from None
@@ -59,11 +59,11 @@ def _columns_of(header: list[str], name: str) -> list[str]:
     """The columns of numbers that are read. Raises InputError."""
     if not header:
         raise InputError(f"{name} is empty; its first line must name the columns {', '.join(CENTER)}")
-    twice = next((each for each in header if each and header.count(each) > 1), None)
+    twice = next((title for title in header if title and header.count(title) > 1), None)
     if twice is not None:
         raise InputError(f"{name}: column {shown(twice)} stands twice; it must stand once")
     wanted = (*CENTER, *(AXIS if set(AXIS) & set(header) else ()))
-    missing = [each for each in wanted if each not in header]
+    missing = [title for title in wanted if title not in header]
     if missing:
         raise InputError(
             f"{name}: the first line has no column {', '.join(missing)}; a flight needs {', '.join(CENTER)}, and an "
@@ -76,7 +76,7 @@ def _numbers(cells: list[str], header: list[str], columns: list[str], where: str
     if len(cells) != len(header):
         raise InputError(f"{where}: there are {len(cells)} cells; there must be {len(header)}, as in the first line")
     try:
-        numbers = [number_of_text(each, cells[header.index(each)]) for each in columns]
+        numbers = [number_of_text(title, cells[header.index(title)]) for title in columns]
     except ValueError as trouble:
         raise InputError(f"{where}: {trouble}") from None
     axis = numbers[len(CENTER) : len(CENTER) + len(AXIS)]

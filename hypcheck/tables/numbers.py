@@ -88,8 +88,8 @@ def _valid(name: str, number: float, text: str) -> float:
         raise ValueError(f"{name} is {text}, which is too small for float64; it must be greater than 0")
     trouble = trouble_with(name, number)
     if trouble is not None:
-        asked = trouble.partition("; ")[2]
-        raise ValueError(f"{name} is {text}; {asked}")
+        demand = trouble.partition("; ")[2]
+        raise ValueError(f"{name} is {text}; {demand}")
     return number
 
 

@@ -39,24 +39,24 @@ class Route:
     target_format: str
 
 
-def route(source: str, target: str, said: str | None) -> Route:
-    """The route from `source` to `target`; `said` is the format of names without a known ending.
+def route(source: str, target: str, stated: str | None) -> Route:
+    """The route from `source` to `target`; `stated` is the format of names without a known ending.
 
     Raises InputError if a format is unknown, or the two do not fit: text keeps its format, .npy becomes any, and any
     becomes .npy (positions alone).
     """
-    source_format = _format_of_name(source) or said
+    source_format = _format_of_name(source) or stated
     if source_format is None:
         raise InputError(
             f"--input {source}: its name must end in .csv, .jsonl or .npy, or --format must name one of them"
         )
-    target_format = _format_of_name(target) or said or (source_format if target == STREAM else None)
+    target_format = _format_of_name(target) or stated or (source_format if target == STREAM else None)
     if target_format is None:
         raise InputError(
             f"--output {target}: its name must end in .csv, .jsonl or .npy, or --format must name one of them"
         )
-    if said is not None and said not in (source_format, target_format):
-        raise InputError(f"--format {said} contradicts the names {source} and {target}; leave it out")
+    if stated is not None and stated not in (source_format, target_format):
+        raise InputError(f"--format {stated} contradicts the names {source} and {target}; leave it out")
     if source_format != target_format and "npy" not in (source_format, target_format):
         raise InputError(
             f"{source_format} cannot become {target_format}, since other columns are passed through as they stand; "
@@ -249,7 +249,7 @@ def made_folder(path: Path) -> Iterator[None]:
 
     Raises InputError if it cannot be made.
     """
-    made = [each for each in (path, *path.parents) if not os.path.lexists(each)]
+    made = [folder for folder in (path, *path.parents) if not os.path.lexists(folder)]
     try:
         path.mkdir(parents=True, exist_ok=True)
     except (OSError, ValueError) as error:
@@ -258,9 +258,9 @@ def made_folder(path: Path) -> Iterator[None]:
     try:
         yield
     except BaseException:
-        for each in made:
+        for folder in made:
             with suppress(OSError):
-                each.rmdir()
+                folder.rmdir()
         raise
 
 

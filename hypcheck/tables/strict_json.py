@@ -156,13 +156,13 @@ class _JsonScanner:
 
     def _elements(self) -> tuple[tuple[JsonPlace, Any], ...]:
         self._expect("[", f"{CASES} must be a list")
-        found: list[tuple[JsonPlace, Any]] = []
+        elements: list[tuple[JsonPlace, Any]] = []
         if self._peek() == "]":
             self._at += 1
             return ()
-        while not found or self._more("]"):
-            found.append((self._place(), self._value()))
-        return tuple(found)
+        while not elements or self._more("]"):
+            elements.append((self._place(), self._value()))
+        return tuple(elements)
 
     def _value(self) -> Any:  # noqa: ANN401 - JSON
         place = self._place()
@@ -178,12 +178,12 @@ class _JsonScanner:
 
     def _more(self, end: str) -> bool:
         """Whether a comma follows, and not the end of the list or object."""
-        found = self._peek()
-        if found not in (",", end) or not found:
+        character = self._peek()
+        if character not in (",", end) or not character:
             raise self._not_json(self._at, f"expecting ',' or '{end}'")
         self._at += 1
         self._peek()
-        return found == ","
+        return character == ","
 
     def _expect(self, character: str, otherwise: str) -> None:
         if self._peek() != character:

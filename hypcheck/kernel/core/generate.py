@@ -113,9 +113,9 @@ def header() -> str:
 def _part(name: str) -> str:
     text = (HERE / "parts" / name).read_text(encoding="utf-8")
     printed = {key: make() for key, make in _TEXTS.items() if f"@{key}@" in text}
-    said = {"COMMAND": COMMAND, "STACK_KILOBYTES": str(kilobytes()), "TILTED_KILOBYTES": str(tilted_kilobytes())}
-    said["VERSION"] = VERSION
-    return re.sub(r"@(\w+)@", lambda match: said.get(match[1], match[0]), _filled(text, printed))
+    values = {"COMMAND": COMMAND, "STACK_KILOBYTES": str(kilobytes()), "TILTED_KILOBYTES": str(tilted_kilobytes())}
+    values["VERSION"] = VERSION
+    return re.sub(r"@(\w+)@", lambda match: values.get(match[1], match[0]), _filled(text, printed))
 
 
 def _filled(text: str, printed: Mapping[str, Iterable[str]]) -> str:
@@ -149,30 +149,32 @@ def _first_stage(
     """
     text = (HERE / "parts" / part).read_text(encoding="utf-8")
     fields = {name: "{1}[{2}].{0}".format(*name.split("_")) if name[0] in "aKM" else name for name in constants}
-    found = []
+    texts = []
     for program, name, question in functions:
         results = QUESTIONS[question]
         wanted = (total, *results.values())
-        read = {each for step in needed(program, wanted) for each in step.reads}
+        read = {symbol for step in needed(program, wanted) for symbol in step.reads}
         parts = {
-            "FIELDS": [f"const HC_NUMBER {each} = HC_SET(scene->{at});" for each, at in fields.items() if each in read],
+            "FIELDS": [
+                f"const HC_NUMBER {symbol} = HC_SET(scene->{at});" for symbol, at in fields.items() if symbol in read
+            ],
             "STEPS": statements(program, wanted, VECTOR),
             "RESULTS": [f"found.{field} |= HC_BITS({step}) << at;" for field, step in results.items()],
         }
-        found.append(_filled(text.replace("@NAME@", name).replace("@PROGRAM@", program.name), parts))
-    return "\n".join(found).splitlines()
+        texts.append(_filled(text.replace("@NAME@", name).replace("@PROGRAM@", program.name), parts))
+    return "\n".join(texts).splitlines()
 
 
 def _line_functions() -> list[str]:
     programs = (("one_line", lines.ONE_LINE), ("two_lines", lines.TWO_LINES))
-    asked = [(program, f"{name}_{question}", question) for name, program in programs for question in QUESTIONS]
-    return _first_stage("line_function.h", "R_plus_T", (*lines.LINE_CONSTANTS, "reach"), asked)
+    functions = [(program, f"{name}_{question}", question) for name, program in programs for question in QUESTIONS]
+    return _first_stage("line_function.h", "R_plus_T", (*lines.LINE_CONSTANTS, "reach"), functions)
 
 
 def _plane_functions() -> list[str]:
-    asked = [(lines.ONE_PLANE, "one_plane", "position"), (lines.TWO_PLANES, "two_planes", "position")]
+    functions = [(lines.ONE_PLANE, "one_plane", "position"), (lines.TWO_PLANES, "two_planes", "position")]
     constants = (*lines.PLANE_CONSTANTS, *lines.BASIS, "reach")
-    return _first_stage("plane_function.h", "distance", constants, asked)
+    return _first_stage("plane_function.h", "distance", constants, functions)
 
 
 def _integer_statement(step: Step, bits: dict[str, int]) -> str:
@@ -267,17 +269,17 @@ def _bits_of(program: Program, inputs: Mapping[str, int]) -> dict[str, int]:
 def _bits_about_a_pole(k: Mapping[str, int]) -> list[int]:
     """The bits in use at each step of hc_coefficient_sign and hc_sign_with_root."""
     n, scale = k["k0"] + k["k2"], max(k["k2"], k["q"])
-    u, v, power, found = scale + 3, 0, 1, []
+    u, v, power, bits = scale + 3, 0, 1, []
     for name in ("f3", "f2", "f1", "minus_f0"):
         term = k[name] + power
         v_n, v_k1, u_p = v + n, v + k["k1"], u + k["p"]
         next_u, next_v, next_power = max(v_n, term + 3, u_p) + 1, max(u, v_k1) + 1, power + scale
-        found.append(n + u + v + power + 2 * term + 3 + v_n + v_k1 + u_p + next_u + next_v + next_power)
+        bits.append(n + u + v + power + 2 * term + 3 + v_n + v_k1 + u_p + next_u + next_v + next_power)
         u, v, power = next_u, next_v, next_power
     U, D = max(u + 2, v + k["k1"]) + 1, max(2 * k["k1"], n + 3) + 1
-    found.append(n + u + v + power + u + 2 + v + k["k1"] + U + 2 * U + 2 * v + 2 * k["k1"] + n + 3 + D + 2 * v + D)
-    found[-1] += max(2 * U, 2 * v + D) + 1
-    return found
+    bits.append(n + u + v + power + u + 2 + v + k["k1"] + U + 2 * U + 2 * v + 2 * k["k1"] + n + 3 + D + 2 * v + D)
+    bits[-1] += max(2 * U, 2 * v + D) + 1
+    return bits
 
 
 def _pool_statement(step: Step) -> str:

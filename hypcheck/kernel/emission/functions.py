@@ -123,10 +123,10 @@ class _Body(_Statements):
             yield from self._stages_in_turn(stages.last)
 
     def _thresholds(self) -> Iterator[str]:
-        asked = list(self._beyond_thresholds())
-        if asked:
+        conditions = list(self._beyond_thresholds())
+        if conditions:
             yield from self._entry(("R",))
-        for condition, value in asked:
+        for condition, value in conditions:
             yield self._say("return if", condition=condition, value=value)
         yield self._say("return", value=answer(Position.CONTACT, self._question))
 
@@ -185,17 +185,17 @@ class _Body(_Statements):
 
     def _searched(self, search: DualSearch | TiltedSearch) -> Iterator[str]:
         if isinstance(search, TiltedSearch):
-            found = self._say("free search" if search.free else "fixed search", place=self._place)
+            answer = self._say("free search" if search.free else "fixed search", place=self._place)
         else:
-            found = self._say("search", place=self._place)
+            answer = self._say("search", place=self._place)
         if self._question == "position":
-            yield self._say("return", value=found)
+            yield self._say("return", value=answer)
             return
         if isinstance(search, TiltedSearch):  # it may not settle a centre, which is no answer to any question
-            yield self._say("found", value=found)
-            found = "found"
-            yield self._say("return if", condition=f"{found} == {CANNOT_SAY}", value=CANNOT_SAY)
-        compared = {"exterior": f"{found} > 0", "interior": f"{found} < 0", "contact": f"{found} == 0"}
+            yield self._say("found", value=answer)
+            answer = "found"
+            yield self._say("return if", condition=f"{answer} == {CANNOT_SAY}", value=CANNOT_SAY)
+        compared = {"exterior": f"{answer} > 0", "interior": f"{answer} < 0", "contact": f"{answer} == 0"}
         yield self._say("return", value=self._say("truth", condition=compared[self._question]))
 
     def _return_if(self, condition: str, position: Position) -> str:
@@ -244,10 +244,10 @@ class _Batch(_Statements):
         if isinstance(stages.last, Position):
             rest = answer(stages.last, self._question)
         elif isinstance(stages.last, Thresholds):
-            asked = list(self._beyond_thresholds())
-            if asked:
+            conditions = list(self._beyond_thresholds())
+            if conditions:
                 yield from self._entry(("R",))
-            choices += asked
+            choices += conditions
             rest = answer(Position.CONTACT, self._question)
         elif stages.lines or self._question in ONE_SIDED:
             yield from self._entry(("R", "zz"))
@@ -301,7 +301,7 @@ class _Batch(_Statements):
     def _unmodelled(self) -> list[tuple[str, int]]:
         if self._stages.setting.cut is None:
             return []
-        return [(" | ".join(f"({each})" for each in self._beyond_height()) or "0", CANNOT_SAY)]
+        return [(" | ".join(f"({condition})" for condition in self._beyond_height()) or "0", CANNOT_SAY)]
 
     def _chosen(self, choices: list[tuple[str, int]], rest: str) -> str:
         text = rest

@@ -54,14 +54,14 @@ def description_in_language(value: dict[str, Any], language: str, prefix: str) -
     return "return " + "\n    ".join(quoted) + ";"
 
 
-def in_rust(quoted: Sequence[str], prefix: str, asked: str, width: int) -> str:
+def in_rust(quoted: Sequence[str], prefix: str, predicate: str, width: int) -> str:
     """The description, and what the adapter of `hypcheck init` takes from a module: this and a function of one row.
 
-    `asked` is that function, `width` the numbers of a row; another function is there and answers none.
+    `predicate` is that function, `width` the numbers of a row; another function is there and answers none.
     """
     columns = str(width)
-    other, other_columns = ("tilted", "10") if asked == "predicate" else ("predicate", "7")
-    named = {"asked": asked, "columns": columns, "other": other, "other_columns": other_columns}
+    other, other_columns = ("tilted", "10") if predicate == "predicate" else ("predicate", "7")
+    named = {"asked": predicate, "columns": columns, "other": other, "other_columns": other_columns}
     parts = {"description": ",\n".join(quoted), "prefix": prefix, **named}
     return DIALECTS["rust"].filled("description", parts).strip("\n")
 
@@ -71,8 +71,8 @@ def _lines(value: dict[str, Any], written: Callable[[Any], str]) -> Iterator[str
     settings = value["domain"]["settings"]
     text = written({**value, "domain": {"settings": []}})  # the settings come last: the text ends with []}}
     yield text[:-3]
-    for place, each in enumerate(settings, start=1):
-        yield written(each) + (", " if place < len(settings) else "")
+    for place, setting in enumerate(settings, start=1):
+        yield written(setting) + (", " if place < len(settings) else "")
     yield text[-3:]
 
 
@@ -128,8 +128,8 @@ def emitted(plan: ScenePlan, language: str, command: Sequence[str], prefix: str 
 def prologue(dialect: Dialect) -> dict[str, str]:
     """What C and C++ begin with: headers, options that a compiler must not be given, how functions are exported."""
     phrases = ("includes", "linkage", "end linkage") if dialect.by_block else ()
-    said = {phrase.replace(" ", "_"): dialect.say(phrase) for phrase in phrases}
-    return {"arithmetic": asked_of_compiler(dialect), **said}
+    texts = {phrase.replace(" ", "_"): dialect.say(phrase) for phrase in phrases}
+    return {"arithmetic": asked_of_compiler(dialect), **texts}
 
 
 def asked_of_compiler(dialect: Dialect) -> str:
@@ -174,25 +174,25 @@ def _axis_parts(plan: ScenePlan, dialect: Dialect) -> dict[str, str]:
     with `any` in both.
     """
     axis = plan.axis
-    found = {"tilted": "", "columns": "7", "number_word": "seven", "predicate": "predicate"}
+    parts = {"tilted": "", "columns": "7", "number_word": "seven", "predicate": "predicate"}
     if axis is not None:
-        found |= {"tilted": "_tilted", "columns": "10", "number_word": "ten", "predicate": "tilted"}
+        parts |= {"tilted": "_tilted", "columns": "10", "number_word": "ten", "predicate": "tilted"}
     for kind, has in (("fixed", axis is not None and axis != FREE), ("free", axis == FREE), ("any", axis is not None)):
-        found |= {f"{kind}_{name}": text if has else "" for name, text in dialect.axis.items()}
-    return found
+        parts |= {f"{kind}_{name}": text if has else "" for name, text in dialect.axis.items()}
+    return parts
 
 
 def _settings(plan: ScenePlan, dialect: Dialect) -> list[str]:
     """The tables of constants that searches take."""
-    found = []
+    texts = []
     for place, search in _searched(plan):
         if isinstance(search, TiltedSearch):
-            found.append(_frame(search, place, dialect))
+            texts.append(_frame(search, place, dialect))
         else:
             values = ((name, dialect.literal(search.constants[name], plan.format.name)) for name in SETTING)
             fields = ",\n    ".join(dialect.say("field", name=name, value=value) for name, value in values)
-            found.append(dialect.say("setting", place=place, values=f"\n    {fields},\n"))
-    return found
+            texts.append(dialect.say("setting", place=place, values=f"\n    {fields},\n"))
+    return texts
 
 
 def _choices(plan: ScenePlan, dialect: Dialect) -> list[str]:

@@ -361,14 +361,14 @@ def _valid(kind: Kind, phrases: _Phrases, language: str) -> str:
 def routine_text(kind: Kind, routine: Routine, dialect: Dialect) -> dict[str, str]:
     """The routines of a kind, and the statements that call the one that answers."""
     routines = dict.fromkeys([routine.name, *(number.routine.name for number in kind.numbers.values())])
-    named = {each.name: each for each in (routine, *(number.routine for number in kind.numbers.values()))}
+    named = {function.name: function for function in (routine, *(number.routine for number in kind.numbers.values()))}
     text = routines_text([named[name] for name in routines], dialect, "float64")
     decided = Program("told", ("told",), (Step("decided", "lt", ("told", kind.decided)),))
     call = f"{routine.name}({', '.join(kind.columns)})"
-    told = dialect.say("told", value=call)
+    statement = dialect.say("told", value=call)
     return {
         "constants": "",
         "integers": f"\n{text}\n",
-        "steps": "\n".join([told, *dialect.statements(decided, ("decided",), "float64")]),
+        "steps": "\n".join([statement, *dialect.statements(decided, ("decided",), "float64")]),
         "imports": "import math\n",
     }

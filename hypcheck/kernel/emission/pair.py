@@ -140,10 +140,10 @@ def _head(method: str) -> Iterator[str]:
         yield "2 where float64 cannot say; every other answer is right. The bound of 3Δ is E below, those of c1 and c2"
         yield "are e1 and e2: an answer is given where |3Δ| > E and the signs that it asks for exceed their bounds."
     else:
-        found = "Newton's steps" if method == DUAL else "the local maximum of the cubic, and Newton's steps"
+        means = "Newton's steps" if method == DUAL else "the local maximum of the cubic, and Newton's steps"
         yield "2 where float64 cannot say; every other answer is right. phi(lambda) > e proves clear, e bounding the"
         yield "error. The tangent of phi, which is concave, proves contact, or a point of the hyperboloid at the"
-        yield f"centre's height. lambda is found by {found}; a bad one makes the answer 2."
+        yield f"centre's height. lambda is found by {means}; a bad one makes the answer 2."
 
 
 def _notes(language: str) -> Iterator[str]:
@@ -155,7 +155,7 @@ def _notes(language: str) -> Iterator[str]:
 
 
 def _described(method: str, kind: Kind, language: str, prefix: str) -> str:
-    told: dict[str, Any] = {
+    description: dict[str, Any] = {
         "protocol": 1,
         "name": f"{method} ({language})" if method == "scene" else f"pair, {method} ({language})",
         "version": VERSION,
@@ -167,8 +167,8 @@ def _described(method: str, kind: Kind, language: str, prefix: str) -> str:
         "domain": kind.domain,
     }
     if language == "python":
-        return repr(told)
-    text = json.dumps(told)
+        return repr(description)
+    text = json.dumps(description)
     if language == "javascript":
         return text
     return (
@@ -187,13 +187,17 @@ def _whole(program: Program, language: str) -> Iterator[str]:
         if language == "python":
             yield f"{step.name} = {first} {operators[step.operation]} {second}"
         elif language == "javascript":
-            left, right = (f"{each}n" if isinstance(each, int) else each for each in (first, second))
+            left, right = (f"{operand}n" if isinstance(operand, int) else operand for operand in (first, second))
             yield f"const {step.name} = {left} {operators[step.operation]} {right};"
         elif language == "rust":
-            left, right = (f"&small({each})" if isinstance(each, int) else f"&{each}" for each in (first, second))
+            left, right = (
+                f"&small({operand})" if isinstance(operand, int) else f"&{operand}" for operand in (first, second)
+            )
             yield f"let {step.name} = {calls[step.operation]}({left}, {right});"
         else:
-            left, right = (f"&whole_{each}" if isinstance(each, int) else f"&{each}" for each in (first, second))
+            left, right = (
+                f"&whole_{operand}" if isinstance(operand, int) else f"&{operand}" for operand in (first, second)
+            )
             limbs = -(-bits[step.name] // _LIMB) + 2
             yield f"uint32_t {step.name}_limbs[{limbs}]; whole {step.name} = {{0, 0, {step.name}_limbs}};"
             yield f"{calls[step.operation]}(&{step.name}, {left}, {right});"

@@ -33,10 +33,10 @@ def thresholds_asked(stages: Stages, question: str) -> tuple[tuple[Position, flo
     """The thresholds that the question needs: exterior above the first one, interior below the other."""
     if not isinstance(stages.last, Thresholds):
         return ()
-    found = [(Position.EXTERIOR, stages.last.outer)]
+    sides = [(Position.EXTERIOR, stages.last.outer)]
     if stages.last.inner is not None:
-        found.append((Position.INTERIOR, stages.last.inner))
-    return tuple(side for side in found if question not in ONE_SIDED or side[0] is Position[question.upper()])
+        sides.append((Position.INTERIOR, stages.last.inner))
+    return tuple(side for side in sides if question not in ONE_SIDED or side[0] is Position[question.upper()])
 
 
 def needs_side(stages: Stages, question: str) -> bool:
@@ -50,9 +50,9 @@ def operations_before(stages: Stages, question: str) -> Operations:
     """The operations of all stages before the search, each of which a centre may have to pass."""
     if isinstance(stages.last, Position):
         return Operations()
-    asked = thresholds_asked(stages, question)
+    sides = thresholds_asked(stages, question)
     if isinstance(stages.last, Thresholds):
-        return replace(count(needed(stages.entry, ("R",)) if asked else ()), comparisons=len(asked))
+        return replace(count(needed(stages.entry, ("R",)) if sides else ()), comparisons=len(sides))
     steps, comparisons = list(stages.entry.steps), 2  # neither R nor zz overflows
     for line in stages.lines:
         steps += line.program.steps
@@ -61,8 +61,8 @@ def operations_before(stages: Stages, question: str) -> Operations:
     if stages.discriminant is not None:
         steps += stages.discriminant.program.steps
         comparisons += 4 if stages.discriminant.clear_where_positive else 3  # where the bound holds, then the bound
-    found = count(steps)
-    return replace(found, comparisons=found.comparisons + comparisons)
+    operations = count(steps)
+    return replace(operations, comparisons=operations.comparisons + comparisons)
 
 
 def operations_text(operations: Operations) -> str:
@@ -95,7 +95,7 @@ def whole_header(plan: ScenePlan, scene: SceneModel, command: Sequence[str], pre
     pairs = _question_in_comment(plan.question)
     answers = f"It answers {CANNOT_SAY} outside of the scene's region and to numbers that are not finite."
     at_ends = f"Of a mover that reaches over an end of a hyperboloid it answers what bounds tell, else {CANNOT_SAY}."
-    asked = "`classify` and `predicate` are asked as those of other kernels: x, y and z as seen from the hyperboloid's"
+    note = "`classify` and `predicate` are asked as those of other kernels: x, y and z as seen from the hyperboloid's"
     paragraphs = (
         f'The whole scene "{name}", by `whole`: {question}.',
         f"Beside one hyperboloid, by `classify` and `predicate`: {pairs}.",
@@ -103,7 +103,7 @@ def whole_header(plan: ScenePlan, scene: SceneModel, command: Sequence[str], pre
         "    " + comment_text(shlex.join(command)),
         "`whole` takes the mover's centre in the scene's coordinates and its heading in degrees, which places parts.",
         f"{answers} {at_ends}",
-        f"There are {len(plan.settings)} pairs of sizes. {asked} centre; any other sizes are answered {CANNOT_SAY}.",
+        f"There are {len(plan.settings)} pairs of sizes. {note} centre; any other sizes are answered {CANNOT_SAY}.",
         _bound(plan),
         "`whole` asks each hyperboloid so, its offset from the mover rounded once: by a unit more.",
     )
@@ -158,8 +158,8 @@ def comment_text(text: str) -> str:
     full stop after it: at the end of a line, C and C++ would join that line to the next.
     """
     plain = escaped(text, LONGEST_NAME * 4)
-    for found, broken in (("*/", "* /"), ("/*", "/ *"), ('"""', "'''")):
-        plain = plain.replace(found, broken)
+    for mark, broken in (("*/", "* /"), ("/*", "/ *"), ('"""', "'''")):
+        plain = plain.replace(mark, broken)
     plain = re.sub(r"(?<=\?)(?=\?)", " ", plain)
     return re.sub(r"\\(?=\s|$)", r"\\.", plain)
 
@@ -311,7 +311,7 @@ def _alike(plan: ScenePlan) -> Iterator[list[Numbered]]:
     """The settings, with their numbers in the kernel, grouped by what they leave out and what they cost."""
     groups: dict[object, list[Numbered]] = {}
     for number, stages in enumerate(plan.settings, start=1):
-        what = tuple((each.what, _reason(each.why, stages)) for each in stages.omitted)
+        what = tuple((omission.what, _reason(omission.why, stages)) for omission in stages.omitted)
         groups.setdefault((what, operations_before(stages, plan.question)), []).append((number, stages))
     yield from groups.values()
 

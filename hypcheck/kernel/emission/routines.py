@@ -36,13 +36,13 @@ def routines_text(routines: Sequence[Routine], dialect: Dialect, precision: str)
     Raises ValueError for a name that the language reserves.
     """
     printer = _Printer(dialect, precision)
-    every = {each.name: each for routine in routines for each in (*called(routine), routine)}
-    pairs = any(PAIR in (*each.takes, each.gives) for each in every.values())
+    every = {part.name: part for routine in routines for part in (*called(routine), routine)}
+    pairs = any(PAIR in (*part.takes, part.gives) for part in every.values())
     texts = [dialect.say("pair type")] if pairs else []
     texts += [
         text
-        for each in every.values()
-        for text in (*printer.tables(each.needed), printer.record(each), printer.text(each))
+        for part in every.values()
+        for text in (*printer.tables(part.needed), printer.record(part), printer.text(part))
         if text
     ]
     return ("\n\n\n" if dialect.name == "python" else "\n\n").join(texts) + "\n"
@@ -169,7 +169,7 @@ class _Printer:
         if isinstance(result, str):
             yield self.say("return", value=result)
         elif isinstance(result, tuple):
-            high, low = (argument_of(each, self.spelling) for each in result)
+            high, low = (argument_of(argument, self.spelling) for argument in result)
             yield self.say("return", value=self.say("pair", high=high, low=low))
         else:
             for name, value in result.choices:
@@ -189,12 +189,12 @@ def _broken(head: str) -> Iterator[str]:
     for line in head.splitlines():
         inputs = line.split(", ") if len(line) > WIDTH else [line]
         begun, *others = inputs
-        for each in others:
-            if len(begun) + len(each) + 3 > WIDTH:
+        for parameter in others:
+            if len(begun) + len(parameter) + 3 > WIDTH:
                 yield f"{begun},"
-                begun = f"{2 * INDENT}{each}"
+                begun = f"{2 * INDENT}{parameter}"
             else:
-                begun = f"{begun}, {each}"
+                begun = f"{begun}, {parameter}"
         yield begun
 
 

@@ -191,32 +191,32 @@ def whole(scene: SceneModel, plan: ScenePlan, language: str, command: Sequence[s
 
 
 def _shapes(plan: ScenePlan, dialect: Dialect) -> _Shapes:
-    found, known = _Shapes([], [], [], []), dict[str, int]()
+    shapes, known = _Shapes([], [], [], []), dict[str, int]()
     phrases = {**dialect.phrases, **_SHAPE[dialect.name]}
     for stages in plan.settings:
         recording = _Recording(**{**vars(dialect), "phrases": phrases})
         key = setting_function(plan, stages, 0, recording, shared=True)
         place = known.setdefault(key, len(known))
-        if place == len(found.texts):
+        if place == len(shapes.texts):
             again = _Recording(**{**vars(dialect), "phrases": phrases})
-            found.texts.append(setting_function(plan, stages, place, again, shared=True))
-            found.rows.append([])
-        found.shape.append(place)
-        found.row.append(len(found.rows[place]))
-        found.rows[place].append(recording.values or [0.0])
-    return found
+            shapes.texts.append(setting_function(plan, stages, place, again, shared=True))
+            shapes.rows.append([])
+        shapes.shape.append(place)
+        shapes.row.append(len(shapes.rows[place]))
+        shapes.rows[place].append(recording.values or [0.0])
+    return shapes
 
 
 def _used(scene: SceneModel, plan: ScenePlan) -> list[tuple[int, list[int]]]:
     """The hyperboloids that are ever asked, and the settings of the mover and its parts beside each."""
     places = {stages.setting.sizes: place for place, stages in enumerate(plan.settings)}
-    mover, found = scene.mover, []
+    mover, used = scene.mover, []
     spheroids = [(mover.b, mover.d), *((part.b, part.d) for part in mover.parts)]
     for number, body in enumerate(scene.hyperboloids):
         sizes = [(body.alpha, body.gamma, *spheroid) for spheroid in spheroids]
-        if all(each in places for each in sizes):
-            found.append((number, [places[each] for each in sizes]))
-    return found
+        if all(size in places for size in sizes):
+            used.append((number, [places[size] for size in sizes]))
+    return used
 
 
 def _tables(scene: SceneModel, plan: ScenePlan, shapes: _Shapes, searched: bool, dialect: Dialect) -> list[str]:
@@ -243,7 +243,7 @@ def _tables(scene: SceneModel, plan: ScenePlan, shapes: _Shapes, searched: bool,
             [*bodies.origins.T, *bodies.heights.T, loose, bodies.solid, far * far * (1 + 2.0**-40)], axis=1
         )
     limits = np.clip(limits, -float_info.max, float_info.max)
-    found = [
+    tables = [
         table("sizes_of", [list(stages.setting.sizes) for stages in plan.settings], wide),
         column("shape", shapes.shape, index),
         column("row", shapes.row, index),
@@ -252,7 +252,7 @@ def _tables(scene: SceneModel, plan: ScenePlan, shapes: _Shapes, searched: bool,
         table("settings_of", [places for _, places in used], index),
         table("arms", [[0.0, 0.0], *([part.arm, radians(part.angle)] for part in scene.mover.parts)], wide),
     ]
-    return [*found, _searches(plan, dialect)] if searched else found
+    return [*tables, _searches(plan, dialect)] if searched else tables
 
 
 def _searches(plan: ScenePlan, dialect: Dialect) -> str:

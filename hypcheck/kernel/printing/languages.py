@@ -105,7 +105,7 @@ def declared(name: str, kind: str, value: str, spelling: Spelling) -> str:
 
 def value_of(step: Step, spelling: Spelling) -> str:
     """What a step computes. Raises KeyError for an operation that the language has no template for."""
-    return spelling.operations[step.operation].format(*(argument_of(each, spelling) for each in step.arguments))
+    return spelling.operations[step.operation].format(*(argument_of(argument, spelling) for argument in step.arguments))
 
 
 def argument_of(argument: Argument, spelling: Spelling) -> str:

@@ -158,13 +158,13 @@ def _in_place(
 ) -> list[str]:
     """The function of that name; `arrays` has the types of its inputs. Buffers are float32 where `single` is set."""
     numbers = "Singles" if single else "Floats"
-    copied = tuple(each for each, kind in arrays.items() if kind != numbers)
+    copied = tuple(symbol for symbol, kind in arrays.items() if kind != numbers)
     printed = in_place_statements(program, wanted, copied)
-    read = {each for step in needed(program, wanted) for each in step.reads}
-    constants = [each for each in program.inputs if each not in arrays and each in read]
+    read = {symbol for step in needed(program, wanted) for symbol in step.reads}
+    constants = [symbol for symbol in program.inputs if symbol not in arrays and symbol in read]
     counts = {"n": printed.numbers, "t": printed.truths}
     buffers = {letter: [f"{letter}{k}" for k in range(count)] for letter, count in counts.items()}
-    results = [printed.place[each] for each in wanted]
+    results = [printed.place[symbol] for symbol in wanted]
     kinds = [numbers if place.startswith("n") else "Mask" for place in results]
     upper = name.upper()
     return [
@@ -173,13 +173,13 @@ def _in_place(
         "",
         "",
         f"def {name}(",
-        *(f"{INDENT}{each}: {kind}," for each, kind in arrays.items()),
+        *(f"{INDENT}{symbol}: {kind}," for symbol, kind in arrays.items()),
         *([f"{INDENT}constants: Mapping[str, float],"] if constants else []),
         f"{INDENT}numbers: Sequence[{numbers}],",
         *([f"{INDENT}truths: Sequence[Mask],"] if buffers["t"] else []),
         f") -> tuple[{', '.join(kinds)}]:",
         f'{INDENT}"""{", ".join(wanted)} of "{program.name}"; they lie in the buffers."""',
-        *(f'{INDENT}{each} = constants["{each}"]' for each in constants),
+        *(f'{INDENT}{symbol} = constants["{symbol}"]' for symbol in constants),
         *_unpacked(buffers["n"], "numbers"),
         *_unpacked(buffers["t"], "truths"),
         *(f"{INDENT}{line}" for line in printed.statements),
@@ -227,12 +227,16 @@ def _function(name: str, program: Program, wanted: tuple[str, ...]) -> list[str]
     kind = "bool" if name == "chord" else "float"
     of_lines = {"u_8": lines.U_8, "more": lines.MORE, "less": lines.LESS}
     constants = certified.SINGLE_CONSTANTS if program is certified.SINGLE else of_lines
-    given = [each for each in program.inputs if each not in constants]
-    read = {each for step in needed(program, wanted) for each in step.reads}
+    given = [symbol for symbol in program.inputs if symbol not in constants]
+    read = {symbol for step in needed(program, wanted) for symbol in step.reads}
     return [
-        f"def {name}({', '.join(f'{each}: float' for each in given)}) -> tuple[{kind}, ...]:",
+        f"def {name}({', '.join(f'{symbol}: float' for symbol in given)}) -> tuple[{kind}, ...]:",
         f'{INDENT}"""{", ".join(wanted)} of the program "{program.name}"."""',
-        *(f"{INDENT}{each} = {constants[each]!r}  # {constants[each].hex()}" for each in constants if each in read),
+        *(
+            f"{INDENT}{symbol} = {constants[symbol]!r}  # {constants[symbol].hex()}"
+            for symbol in constants
+            if symbol in read
+        ),
         *(f"{INDENT}{line}" for line in statements_in("python", program, wanted)),
         f"{INDENT}return {', '.join(wanted)}",
     ]

@@ -145,11 +145,11 @@ def errors(program: Program, inputs: Mapping[str, Range]) -> dict[str, Range]:
             raise ValueError(
                 f"program {program.name}: step {step.name}: {step.operation} is not an operation in fixed point"
             )
-        found = rule(left, right)
-        limit = 2 ** (BITS - (found.low < 0))
-        if found.high >= limit or found.low < -limit:
+        value = rule(left, right)
+        limit = 2 ** (BITS - (value.low < 0))
+        if value.high >= limit or value.low < -limit:
             raise ValueError(f"program {program.name}: step {step.name} may leave {BITS} bits")
-        known[step.name] = found
+        known[step.name] = value
     return known
 
 
@@ -202,10 +202,10 @@ def moved_down(number: Range) -> Range:
 def _terms() -> dict[str, Range]:
     most = (2**53 - 1) ** 2 * 2 ** (SQUARE - 106)
     square, whole = Range(0, most, -1, 0), Range(2 ** (SQUARE - 2), most)
-    found = errors(TERMS, {name: whole if name in WHOLE else square for name in TERMS.inputs})
+    terms = errors(TERMS, {name: whole if name in WHOLE else square for name in TERMS.inputs})
     for name in ("radial_2", "axial_2", "p_t", "s_t", "q_s", "p_q"):
-        found[name] = moved_down(found[name])
-    return found
+        terms[name] = moved_down(terms[name])
+    return terms
 
 
 def _balanced(terms: Mapping[str, Range], grown: int) -> dict[str, Range]:
@@ -236,7 +236,10 @@ def _errors() -> dict[str, int]:
     return {
         "coefficient": max(terms[name].error for name in ("n2", "n1")),
         "pole": max(poles[f"{part}_at_{pole}"].error for part in ("offset", "slope") for pole in "AB"),
-        **{name: max(-(-found[name].error // 2**end) for end, found in grown.items()) for name in ("delta", "middle")},
+        **{
+            name: max(-(-of_terms[name].error // 2**end) for end, of_terms in grown.items())
+            for name in ("delta", "middle")
+        },
     }
 
 

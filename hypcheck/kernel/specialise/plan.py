@@ -282,18 +282,18 @@ def _without_tests(setting: Setting, scale: ScaledSetting, position: Position) -
     return Stages(setting, *entry(scale), position, {"always": 1.0}, (Omission("every test", why),), Fraction(0))
 
 
-def _at_one_height(setting: Setting, scale: ScaledSetting, found: Thresholds, question: str) -> Stages:
+def _at_one_height(setting: Setting, scale: ScaledSetting, limits: Thresholds, question: str) -> Stages:
     omitted = [
         Omission(
             "the coefficients, the discriminant and every term in z",
-            f"the height is {found.height!r}: position depends on x² + y² alone and is monotone in it",
+            f"the height is {limits.height!r}: position depends on x² + y² alone and is monotone in it",
         )
     ]
-    if found.inner is None and question != "exterior":
+    if limits.inner is None and question != "exterior":
         omitted.append(Omission("the interior threshold", "at this height not even a centre on the axis is interior"))
     omitted += _one_sided(question)
     bound = first_stages.BACKWARD_BOUND
-    return Stages(setting, *entry(scale), found, {"thresholds": 1.0}, tuple(omitted), bound)
+    return Stages(setting, *entry(scale), limits, {"thresholds": 1.0}, tuple(omitted), bound)
 
 
 def _one_sided(question: str) -> list[Omission]:
@@ -329,13 +329,13 @@ def _omissions(
     setting: Setting, question: str, delta: Discriminant | None, constants: dict[str, float]
 ) -> tuple[Omission, ...]:
     upright = setting.axis is None
-    found = [_SIZES_ALONE if upright else _AXIS, *_one_sided(question)]
+    omitted = [_SIZES_ALONE if upright else _AXIS, *_one_sided(question)]
     if delta is None:
-        found.append(_DISCRIMINANT if upright else _DISCRIMINANT_OF_BALL)
+        omitted.append(_DISCRIMINANT if upright else _DISCRIMINANT_OF_BALL)
     elif upright and not delta.clear_where_positive:
-        found.append(Omission("clear where Δ > 0", "a < 1 or c² < a: Δ > 0 does not mean clear there"))
+        omitted.append(Omission("clear where Δ > 0", "a < 1 or c² < a: Δ > 0 does not mean clear there"))
     if upright and not constants:
-        found.append(Omission("scaling of lengths", "the semi-axes are ordinary: no square leaves the format"))
+        omitted.append(Omission("scaling of lengths", "the semi-axes are ordinary: no square leaves the format"))
     if setting.cut is None and setting.box.z is not None:
-        found.append(Omission("the test of height", "the region ends before the hyperboloids do"))
-    return tuple(found)
+        omitted.append(Omission("the test of height", "the region ends before the hyperboloids do"))
+    return tuple(omitted)

@@ -72,11 +72,11 @@ def settings_of(scene: SceneModel) -> tuple[Setting, ...]:
     a hyperboloid is tilted or has flat ends.
     """
     _require_printable(scene)
-    found: dict[Sizes, Setting] = {}
+    settings: dict[Sizes, Setting] = {}
     for setting in _pairs(scene):
-        known = found.get(setting.sizes)
-        found[setting.sizes] = setting if known is None else _joined(known, setting)
-    return tuple(found.values())
+        known = settings.get(setting.sizes)
+        settings[setting.sizes] = setting if known is None else _joined(known, setting)
+    return tuple(settings.values())
 
 
 def _require_printable(scene: SceneModel) -> None:
@@ -257,8 +257,8 @@ def scaled(sizes: Sizes, form: FloatFormat) -> ScaledSetting:
     """
     alpha, gamma, b, d = map(Fraction, sizes)
     limit = ORDINARY[form.name]
-    radial = Fraction(1) if all(1 / limit < each < limit for each in (alpha, b)) else 1 / power_of_two_near(b)
-    axial = Fraction(1) if all(1 / limit < each < limit for each in (gamma, d)) else 1 / power_of_two_near(d)
+    radial = Fraction(1) if all(1 / limit < length < limit for length in (alpha, b)) else 1 / power_of_two_near(b)
+    axial = Fraction(1) if all(1 / limit < length < limit for length in (gamma, d)) else 1 / power_of_two_near(d)
     for unit in (radial, axial):
         form.rounded(unit)
     least = Fraction(2) ** (form.least + form.bits) * ROOM
