@@ -190,3 +190,12 @@ def named_points(subject: str, points: ArrayLike, names: Sequence[str] = CENTER)
         raise InputError(f"{subject} is of shape {numbers.shape}; {wanted}")
     values = numbers.tolist() if numbers.ndim == 1 else list(numbers.T)
     return dict(zip(names, values, strict=True))
+
+
+def points_or_columns(x: ArrayLike, y: ArrayLike | None, z: ArrayLike | None) -> tuple[Any, Any, Any]:
+    """Three columns, as they are, or those of points, which stand alone."""
+    if y is None and z is None:
+        x, y, z = named_points("the centre", x).values()
+    if y is None or z is None:
+        raise InputError(f"{'y' if y is None else 'z'} is not given; there must be x, y and z, or points (n, 3) alone")
+    return x, y, z

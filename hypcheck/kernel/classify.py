@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from hypcheck.errors import InputError
 from hypcheck.float_environment import in_default_environment
-from hypcheck.geometry.forms import Answers, Argument, named_points, pairs_of
+from hypcheck.geometry.forms import Answers, Argument, pairs_of, points_or_columns
 from hypcheck.geometry.pair import (
     AXIS,
     CENTER,
@@ -243,7 +243,7 @@ def classify_scene(
             raise InputError("axis is given, and the scene was prepared with its own; it must be given once")
         axis, sizes = sizes.axis, sizes.sizes
     four = _sizes(sizes)
-    center = _center(x, y, z)
+    center = points_or_columns(x, y, z)
     if margin:
         columns = {**dict(zip(SIZES, four, strict=True)), **dict(zip(CENTER, map(np.atleast_1d, center), strict=True))}
         answers = classify(columns, axis=axis, margin=margin, on_invalid=on_invalid, question=question, threads=threads)
@@ -262,15 +262,6 @@ def classify_scene(
     if refused and on_invalid == "raise":
         raise _not_finite((u, v, w))
     return _into(out, result)
-
-
-def _center(x: ArrayLike, y: ArrayLike | None, z: ArrayLike | None) -> tuple[Any, Any, Any]:
-    """Three columns, or those of points."""
-    if y is None and z is None:
-        x, y, z = named_points("the centre", x).values()
-    if y is None or z is None:
-        raise InputError(f"{'y' if y is None else 'z'} is not given; there must be x, y and z, or points (n, 3) alone")
-    return x, y, z
 
 
 _Options = tuple[str, Question, "int | None"]

@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike
 
 from hypcheck.errors import InputError
 from hypcheck.float_environment import in_default_environment
-from hypcheck.geometry.forms import Answers
+from hypcheck.geometry.forms import Answers, points_or_columns
 from hypcheck.geometry.pair import AXIS, CENTER, trouble_with_axis
 from hypcheck.geometry.rows import Floats, Indices, Positions, as_numbers
 from hypcheck.kernel import scene_nearest
@@ -54,7 +54,6 @@ from hypcheck.kernel.scene_queries import (
     finite_columns,
     finite_numbers,
     places_of_parts,
-    points_or_columns,
     sweeps_of,
 )
 from hypcheck.kernel.scene_sweeps import (

@@ -7,13 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from math import cos, isfinite, radians, sin, sqrt
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.forms import named_points
 from hypcheck.geometry.pair import AXIS, CENTER, NO_DIRECTION, UPRIGHT, trouble_with
 from hypcheck.geometry.rows import Floats, as_columns, as_numbers
 from hypcheck.scene.model import MoverPart, Point
@@ -80,15 +78,6 @@ def places_of_parts(
 
 
 POINTS = f"it must be three numbers, {', '.join(CENTER)}, or an array (n, 3) of them"
-
-
-def points_or_columns(x: ArrayLike, y: ArrayLike | None, z: ArrayLike | None) -> tuple[Any, Any, Any]:
-    """Three columns, as they are, or those of points, which stand alone."""
-    if y is None and z is None:
-        x, y, z = named_points("the centre", x).values()
-    if y is None or z is None:
-        raise InputError(f"{'y' if y is None else 'z'} is not given; there must be x, y and z, or points (n, 3) alone")
-    return x, y, z
 
 
 def are_one(center: Sequence[ArrayLike], heading: ArrayLike, axis: ArrayLike | None) -> bool:

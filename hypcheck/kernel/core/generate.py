@@ -18,15 +18,6 @@ from hypcheck.geometry.pair import COLUMNS, TILTED_COLUMNS
 from hypcheck.kernel import clearance_bounds
 from hypcheck.kernel.printing.languages import INFIX, Spelling, c_statements, literal, statements
 from hypcheck.kernel.programs import certified, fixed, integers, lines, tilted
-from hypcheck.kernel.programs.integers import (
-    COEFFICIENTS,
-    DISCRIMINANT,
-    FLOAT64_BITS,
-    INTEGERS,
-    INVARIANTS,
-    QUARTIC,
-    bits_counted,
-)
 from hypcheck.version import VERSION
 
 HERE = Path(__file__).parent
@@ -186,9 +177,9 @@ def _integer_statement(step: Step, bits: dict[str, int]) -> str:
 
 
 def _integers(wanted: tuple[str, ...], known: tuple[str, ...] = ()) -> list[str]:
-    bits = bits_counted(INTEGERS)
-    before = needed(INTEGERS, known)
-    return [_integer_statement(step, bits) for step in needed(INTEGERS, wanted) if step not in before]
+    bits = integers.bits_counted(integers.INTEGERS)
+    before = needed(integers.INTEGERS, known)
+    return [_integer_statement(step, bits) for step in needed(integers.INTEGERS, wanted) if step not in before]
 
 
 _MOVED = {"p_t": "by_t", "s_t": "by_t", "q_s": "by_q", "p_q": "by_q"}
@@ -230,11 +221,11 @@ _DELTA = ("delta", "n2", "n1")
 
 def kilobytes() -> int:
     """What the stack holds at most for an upright row: the integers, and what calls them."""
-    limbs = sum(bits // 64 + 2 for bits in bits_counted(INTEGERS).values())
+    limbs = sum(bits // 64 + 2 for bits in integers.bits_counted(integers.INTEGERS).values())
     return -(-(8 * limbs + 24 * 70 + 16 * 1024) // 1024)
 
 
-KEPT = ("p", "q", "s", "t", "k0", "k1", "k2", *COEFFICIENTS)
+KEPT = ("p", "q", "s", "t", "k0", "k1", "k2", *integers.COEFFICIENTS)
 """What hc_quartic_of keeps, in the order of the program."""
 
 CUT_BITS = 128
@@ -242,17 +233,17 @@ CUT_BITS = 128
 
 def pool_bits() -> tuple[int, int]:
     """The most bits that the integers of hc_exact_tilted_position have at any time, and the most numbers these are."""
-    quartic = bits_counted(QUARTIC)
+    quartic = integers.bits_counted(integers.QUARTIC)
     kept = sum(quartic[name] for name in KEPT)
-    invariants = _bits_of(INVARIANTS, {name: quartic[name] for name in COEFFICIENTS})
-    discriminant = _bits_of(DISCRIMINANT, {name: invariants[name] for name in ("I", "J")})
+    invariants = _bits_of(integers.INVARIANTS, {name: quartic[name] for name in integers.COEFFICIENTS})
+    discriminant = _bits_of(integers.DISCRIMINANT, {name: invariants[name] for name in ("I", "J")})
     phases = (
         sum(quartic.values()),
         kept + 5 * (CUT_BITS + 64) + sum(invariants.values()),
         kept + 5 * (CUT_BITS + 64) + sum(discriminant.values()),
         kept + max(_bits_about_a_pole(quartic)),
     )
-    return max(phases), len(QUARTIC.steps) + len(TILTED_COLUMNS)
+    return max(phases), len(integers.QUARTIC.steps) + len(TILTED_COLUMNS)
 
 
 def tilted_kilobytes() -> int:
@@ -262,7 +253,7 @@ def tilted_kilobytes() -> int:
 
 
 def _bits_of(program: Program, inputs: Mapping[str, int]) -> dict[str, int]:
-    bits = bits_counted(program, max(inputs.values()))
+    bits = integers.bits_counted(program, max(inputs.values()))
     return {**bits, **inputs}
 
 
@@ -313,9 +304,9 @@ def _tilted() -> tuple[tuple[str, ...], tuple[str, ...]]:
 
 _TEXTS: dict[str, Callable[[], Iterable[str]]] = {
     "TILTED_POOL": _pool_size,
-    "TILTED_QUARTIC": lambda: _pool_statements(QUARTIC, KEPT, "pool"),
-    "TILTED_INVARIANTS": lambda: _pool_statements(INVARIANTS, ("I", "J"), "&pool"),
-    "TILTED_DISCRIMINANT": lambda: _pool_statements(DISCRIMINANT, ("delta",), "&pool"),
+    "TILTED_QUARTIC": lambda: _pool_statements(integers.QUARTIC, KEPT, "pool"),
+    "TILTED_INVARIANTS": lambda: _pool_statements(integers.INVARIANTS, ("I", "J"), "&pool"),
+    "TILTED_DISCRIMINANT": lambda: _pool_statements(integers.DISCRIMINANT, ("delta",), "&pool"),
     "TILTED_LEVEL": lambda: _part("tilted_level.h").splitlines(),
     "NEAR_LEVEL": lambda: _part("near_level.h").splitlines(),
     "TILTED_CONSTANTS": lambda: _set(tilted.CONSTANTS),
@@ -351,7 +342,7 @@ _TEXTS: dict[str, Callable[[], Iterable[str]]] = {
     "WAIST_SIDES": lambda: integers.statements_of(
         integers.WAIST, ("W_p_2", "room"), ("excess", "W", "opposite"), short=False
     ),
-    "INTEGER_INPUTS": lambda: [f"HC_INTEGER({name}, {FLOAT64_BITS});" for name in COLUMNS],
+    "INTEGER_INPUTS": lambda: [f"HC_INTEGER({name}, {integers.FLOAT64_BITS});" for name in COLUMNS],
     "INTEGERS": lambda: _integers(_DELTA),
     "INTEGERS_AT_B": lambda: _integers(("offset_at_B", "slope_at_B"), _DELTA),
     "INTEGERS_AT_A": lambda: _integers(("offset_at_A", "slope_at_A"), _DELTA),

@@ -16,23 +16,6 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.pair import SIZES, Position
 from hypcheck.geometry.rows import Floats, Mask
 from hypcheck.kernel.specialise import first_stages, last_stages, tilted
-from hypcheck.kernel.specialise.first_stages import (
-    CENTRE,
-    ProvedLine,
-    Thresholds,
-    centre_constants,
-    entry,
-    lines_for,
-    thresholds,
-)
-from hypcheck.kernel.specialise.last_stages import (
-    Discriminant,
-    DualSearch,
-    TiltedSearch,
-    discriminant,
-    search,
-    tilted_search,
-)
 from hypcheck.kernel.specialise.settings import (
     REACH,
     ScaledSetting,
@@ -98,18 +81,18 @@ class Stages:
     setting: Setting
     entry: Program
     entry_constants: dict[str, float]
-    last: Position | Thresholds | DualSearch | TiltedSearch
+    last: Position | first_stages.Thresholds | last_stages.DualSearch | last_stages.TiltedSearch
     shares: dict[str, float]
     omitted: tuple[Omission, ...]
     bound_u: Fraction
-    lines: tuple[ProvedLine, ...] = ()
+    lines: tuple[first_stages.ProvedLine, ...] = ()
     centre: dict[str, float] = field(default_factory=dict)
-    discriminant: Discriminant | None = None
+    discriminant: last_stages.Discriminant | None = None
 
     @property
     def searches(self) -> bool:
         """Whether the last stage is a search."""
-        return isinstance(self.last, DualSearch | TiltedSearch)
+        return isinstance(self.last, last_stages.DualSearch | last_stages.TiltedSearch)
 
 
 @dataclass(frozen=True)
@@ -174,7 +157,7 @@ def _stages(setting: Setting, question: str, form: FloatFormat) -> Stages:
         return _without_tests(setting, scale, position)
     height = setting.box.z
     if setting.axis is None and height is not None and height.fixed:
-        return _at_one_height(setting, scale, thresholds(setting.sizes, height.low, scale, form), question)
+        return _at_one_height(setting, scale, first_stages.thresholds(setting.sizes, height.low, scale, form), question)
     return _in_turn(setting, question, form)
 
 
@@ -194,15 +177,15 @@ def _in_turn(setting: Setting, question: str, form: FloatFormat) -> Stages:
     fixed = None if axis == FREE else axis
     if fixed is not None:
         _require_kept(fixed)
-    tilted_last = None if axis is None else tilted_search(setting.sizes, fixed)
+    tilted_last = None if axis is None else last_stages.tilted_search(setting.sizes, fixed)
     inner, outer = (scaled(sizes, form) for sizes in setting.inner_and_outer)
-    first, constants = entry(outer)
+    first, constants = first_stages.entry(outer)
     R, zz = _sample(setting, first, constants, form)
     lines, by_lines = _lines(question, outer, form, R, zz)
-    sides = centre_constants(outer, form)
+    sides = first_stages.centre_constants(outer, form)
     by_lines = by_lines | _by_centre(question, sides, form, R, zz)
     left = np.flatnonzero(~by_lines)
-    delta = discriminant(inner, form, first, constants, far_corner(setting))
+    delta = last_stages.discriminant(inner, form, first, constants, far_corner(setting))
     if delta is not None and tilted_last is not None:
         delta = replace(delta, clear_where_positive=False)
     by_delta = np.zeros(len(left), dtype=bool) if delta is None else decided_by(delta, form, R[left], zz[left])
@@ -212,7 +195,7 @@ def _in_turn(setting: Setting, question: str, form: FloatFormat) -> Stages:
         bound = last_stages.backward_bound()
     else:
         bound = first_stages.CENTRE_BOUND if question in ONE_SIDED else tilted.BOUND_U
-    last = search(outer, form, far_corner(setting, AFAR)) if tilted_last is None else tilted_last
+    last = last_stages.search(outer, form, far_corner(setting, AFAR)) if tilted_last is None else tilted_last
     omitted = _omissions(setting, question, delta, constants)
     shares = _shares(by_lines, by_delta)
     return Stages(setting, first, constants, last, shares, omitted, bound, lines, sides, delta)
@@ -227,12 +210,12 @@ def _sample(setting: Setting, first: Program, constants: dict[str, float], form:
 
 def _lines(
     question: str, scale: ScaledSetting, form: FloatFormat, R: Floats, zz: Floats
-) -> tuple[tuple[ProvedLine, ...], Mask]:
+) -> tuple[tuple[first_stages.ProvedLine, ...], Mask]:
     """The lines that the question can use, and a mask of the centres that they decide."""
-    lines: list[ProvedLine] = []
+    lines: list[first_stages.ProvedLine] = []
     decided = np.zeros(len(R), dtype=bool)
     for side in SIDES[question]:
-        own, by_own = lines_for(side, scale, form, R, zz, len(lines) + 1)
+        own, by_own = first_stages.lines_for(side, scale, form, R, zz, len(lines) + 1)
         lines += own
         decided |= by_own
     return tuple(lines), decided
@@ -242,7 +225,7 @@ def _by_centre(question: str, sides: dict[str, float], form: FloatFormat, R: Flo
     """A mask of the centres whose side alone answers a one-sided question."""
     if question not in ONE_SIDED:
         return np.zeros(len(R), dtype=bool)
-    (outside,) = outputs(CENTRE, float_arithmetic(form.name), {"R": R, "zz": zz, **sides}, ("outside",))
+    (outside,) = outputs(first_stages.CENTRE, float_arithmetic(form.name), {"R": R, "zz": zz, **sides}, ("outside",))
     return np.asarray(outside == (question == "interior"))
 
 
@@ -255,7 +238,7 @@ def _shares(by_lines: Mask, by_delta: Mask) -> dict[str, float]:
     }
 
 
-def decided_by(delta: Discriminant, form: FloatFormat, R: Floats, zz: Floats) -> Mask:
+def decided_by(delta: last_stages.Discriminant, form: FloatFormat, R: Floats, zz: Floats) -> Mask:
     """Which centres the discriminant tells: within its region, and larger than its bound."""
     values = evaluate(delta.program, float_arithmetic(form.name), {"R": R, "zz": zz, **delta.constants})
     inside = (R <= delta.widest) & (zz <= delta.highest)
@@ -279,10 +262,12 @@ def _without_tests(setting: Setting, scale: ScaledSetting, position: Position) -
         f"the least favourable corner of the region is {name}, decided exactly, and {name} positions are monotone in "
         "each coordinate (docs/mathematics.md)"
     )
-    return Stages(setting, *entry(scale), position, {"always": 1.0}, (Omission("every test", why),), Fraction(0))
+    return Stages(
+        setting, *first_stages.entry(scale), position, {"always": 1.0}, (Omission("every test", why),), Fraction(0)
+    )
 
 
-def _at_one_height(setting: Setting, scale: ScaledSetting, limits: Thresholds, question: str) -> Stages:
+def _at_one_height(setting: Setting, scale: ScaledSetting, limits: first_stages.Thresholds, question: str) -> Stages:
     omitted = [
         Omission(
             "the coefficients, the discriminant and every term in z",
@@ -293,7 +278,7 @@ def _at_one_height(setting: Setting, scale: ScaledSetting, limits: Thresholds, q
         omitted.append(Omission("the interior threshold", "at this height not even a centre on the axis is interior"))
     omitted += _one_sided(question)
     bound = first_stages.BACKWARD_BOUND
-    return Stages(setting, *entry(scale), limits, {"thresholds": 1.0}, tuple(omitted), bound)
+    return Stages(setting, *first_stages.entry(scale), limits, {"thresholds": 1.0}, tuple(omitted), bound)
 
 
 def _one_sided(question: str) -> list[Omission]:
@@ -326,7 +311,7 @@ _DISCRIMINANT_OF_BALL = Omission("the discriminant of the largest ball", "it dec
 
 
 def _omissions(
-    setting: Setting, question: str, delta: Discriminant | None, constants: dict[str, float]
+    setting: Setting, question: str, delta: last_stages.Discriminant | None, constants: dict[str, float]
 ) -> tuple[Omission, ...]:
     upright = setting.axis is None
     omitted = [_SIZES_ALONE if upright else _AXIS, *_one_sided(question)]

@@ -16,16 +16,6 @@ from hypcheck.derivation.routines import Call, Half, Loop, Part, Return, Routine
 from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.kernel.specialise import last_stages, tilted
 from hypcheck.kernel.specialise.double_double import WHOLE, in_double_double
-from hypcheck.kernel.specialise.last_stages import (
-    ARITHMETIC,
-    GEOMETRIC,
-    GEOMETRIC_STEPS,
-    HALF,
-    PHI,
-    PLACE,
-    START,
-    falls,
-)
 
 SETTING = ("A", "B", "PR", "QZ", "AR", "CZ", "low_a", "low_b")
 """The constants of a search, in the order in which a kernel holds them."""
@@ -34,7 +24,7 @@ FALLS = Routine(
     "falling",
     "Whether the dual function does not rise at the multiplier with these distances to its poles.",
     ("ar", "cz", "to_a", "to_b"),
-    falls().steps,
+    last_stages.falls().steps,
     "past",
 )
 
@@ -43,17 +33,20 @@ PAST_MAXIMUM = Routine(
     "Whether the maximum of the dual function lies beyond the multiplier at this distance from 0, or from the pole.",
     ("ar", "cz", "pole", "other", "distance", "near_zero", "inside"),
     (
-        *PLACE.steps,
-        *falls().steps,
+        *last_stages.PLACE.steps,
+        *last_stages.falls().steps,
         *steps_of("beyond = past != is_inside"),
     ),
     "beyond",
 )
 
 ABOVE_ZERO = Routine(
-    "above_zero", "Whether the dual function is above zero there: the spheroid is clear.", PHI.inputs, PHI.steps,
     "above_zero",
-)  # fmt: skip
+    "Whether the dual function is above zero there: the spheroid is clear.",
+    last_stages.PHI.inputs,
+    last_stages.PHI.steps,
+    "above_zero",
+)
 
 
 _IS_PAST = Call("beyond", PAST_MAXIMUM, ("ar", "cz", "pole", "other", "middle", "near_zero", "inside"))
@@ -81,7 +74,7 @@ def halving(times: int, mean: Program, low: tuple[str, str], high: tuple[str, st
 def search_of(steps: int) -> Routine:
     """The search of so many halvings in all."""
     parts: tuple[Part, ...] = (
-        *(step for step in START.steps),
+        *(step for step in last_stages.START.steps),
         Call("is_interior", FALLS, ("ar", "cz", "A", "B")),
         *steps_of(
             """
@@ -91,12 +84,12 @@ def search_of(steps: int) -> Routine:
             first = is_interior ? low_a : low_b
             """
         ),
-        *HALF.steps,
+        *last_stages.HALF.steps,
         Call("beyond_half", PAST_MAXIMUM, ("ar", "cz", "pole", "other", "half", 1, "inside")),
         *steps_of("near_zero = beyond_half ? 1 : 0"),
-        halving(GEOMETRIC_STEPS, GEOMETRIC, ("low", "first"), ("high", "half")),
-        halving(steps - GEOMETRIC_STEPS, ARITHMETIC, ("near", "low"), ("distance", "high")),
-        *PLACE.steps,
+        halving(last_stages.GEOMETRIC_STEPS, last_stages.GEOMETRIC, ("low", "first"), ("high", "half")),
+        halving(steps - last_stages.GEOMETRIC_STEPS, last_stages.ARITHMETIC, ("near", "low"), ("distance", "high")),
+        *last_stages.PLACE.steps,
         Call("clear", ABOVE_ZERO, ("P", "Q", "lambda_", "to_a", "to_b")),
         *steps_of("clear_inside = clear and is_interior"),
     )
@@ -228,20 +221,27 @@ POWER_FOR = Routine(
 )
 """Five times 200 octaves are all that float64 has on a side."""
 
+_LARGEST = steps_of(
+    """
+    size_x = abs axis_x
+    size_y = abs axis_y
+    size_z = abs axis_z
+    y_is_longer = size_y > size_x
+    flat_size = y_is_longer ? size_y : size_x
+    z_is_longer = size_z > flat_size
+    largest = z_is_longer ? size_z : flat_size
+    """
+)
+"""The largest part of an axis, and the larger of the two across, without their signs."""
+
 FREE_SEARCH = Routine(
     "tilted_search_free",
     "The same of any axis, whose frame is made of it.",
     (*CENTRE, *AXIS),
     (
+        *_LARGEST,
         *steps_of(
             """
-            size_x = abs axis_x
-            size_y = abs axis_y
-            size_z = abs axis_z
-            y_is_longer = size_y > size_x
-            flat_size = y_is_longer ? size_y : size_x
-            z_is_longer = size_z > flat_size
-            largest = z_is_longer ? size_z : flat_size
             is_flat = flat_size > 0
             some_size = is_flat ? flat_size : 1
             """
@@ -288,13 +288,11 @@ HAS_DIRECTION = Routine(
             both = half + half
             lost = normal - both
             shortest = lost * scale
-            size_x = abs axis_x
-            size_y = abs axis_y
-            size_z = abs axis_z
-            y_is_longer = size_y > size_x
-            flat_size = y_is_longer ? size_y : size_x
-            z_is_longer = size_z > flat_size
-            largest = z_is_longer ? size_z : flat_size
+            """
+        ),
+        *_LARGEST,
+        *steps_of(
+            """
             is_long = largest > shortest
             nothing_x = axis_x - axis_x
             nothing_y = axis_y - axis_y
