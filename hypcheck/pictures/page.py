@@ -177,8 +177,8 @@ def _filled(name: str, summary: str, data: dict[str, Any], *, with_flight: bool)
     }  # fmt: skip
     before, *rest = _text("view.html").split("{{")
     filled = [before]
-    for each in rest:
-        key, _, after = each.partition("}}")
+    for part in rest:
+        key, _, after = part.partition("}}")
         filled += [values[key], after]
     return "".join(filled)
 

@@ -38,15 +38,15 @@ def plot_of(model: SceneModel, flight: ShownFlight | None) -> Figure:
     rings = [_rings(body, 12 if len(near) <= 40 else 3) for body in bodies[near]]
     figure = Figure(figsize=(11, 5), layout="constrained")
     axes = figure.subplots(1, 2)
-    for each, (title, across, up, x, y) in zip(axes, _VIEWS, strict=True):
+    for panel, (title, across, up, x, y) in zip(axes, _VIEWS, strict=True):
         for touched, colour in ((0, "#8a9a7b"), (1, "#c2161d")):
             chosen = [ring for place, ring in zip(near, rings, strict=True) if bodies[place, 11] == touched]
             slices = [hull for ring in chosen for hull in _hulls(ring[:, :, [across, up]])]
-            each.add_collection(PolyCollection(slices, facecolors=colour, edgecolors="none", alpha=0.55, zorder=1))
+            panel.add_collection(PolyCollection(slices, facecolors=colour, edgecolors="none", alpha=0.55, zorder=1))
         if flight is not None:
-            _draw_flight(each, PolyCollection, model.mover, flight, (across, up))
-        each.set(title=title, xlabel=x, ylabel=y, aspect="equal")
-        each.autoscale_view()
+            _draw_flight(panel, PolyCollection, model.mover, flight, (across, up))
+        panel.set(title=title, xlabel=x, ylabel=y, aspect="equal")
+        panel.autoscale_view()
     return figure
 
 

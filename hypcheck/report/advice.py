@@ -139,7 +139,7 @@ def _covers(old: Advice, new: Advice) -> bool:
 
 
 _COVERED = (
-    *((each, each) for each in (EVERYWHERE, EVERYDAY, POSITION, CLEAR)),
+    *((need, need) for need in (EVERYWHERE, EVERYDAY, POSITION, CLEAR)),
     (EVERYWHERE, EVERYDAY),
     (POSITION, CLEAR),
 )

@@ -156,14 +156,14 @@ def render_sarif(record: Record) -> bytes:
     """
     placed = placed_failures(record)
     causes = cause_facts(record) if placed else []
-    known = dict.fromkeys(each.rule for each in placed)
+    known = dict.fromkeys(failure.rule for failure in placed)
     rules = [_rule(rule) for rule in known]
     rules += {sentence(facts.name): _cause_rule(facts) for facts in causes}.values()
     number = {rule["id"]: place for place, rule in enumerate(rules)}
-    places, names = dict(_places(record)), {each.line.spec: each.name for each in under_test(record)}
+    places, names = dict(_places(record)), {tested.line.spec: tested.name for tested in under_test(record)}
     ended, footer = verdict(record), record.footer
     invocation = {
-        "executionSuccessful": footer is not None and not any(each.failure.subject == "run" for each in placed),
+        "executionSuccessful": footer is not None and not any(failure.failure.subject == "run" for failure in placed),
         **({} if footer is None else {"exitCode": footer.exit_code}),
         "exitCodeDescription": sentence(ended.sentence),
     }
@@ -178,7 +178,7 @@ def render_sarif(record: Record) -> bytes:
         "invocations": [invocation],
         "columnKind": "unicodeCodePoints",
         "results": [
-            *(_result(each, number[each.rule]) for each in placed),
+            *(_result(failure, number[failure.rule]) for failure in placed),
             *(
                 _cause_result(facts, number[sentence(facts.name)], places.get(names.get(facts.line.spec, ""), UNKNOWN))
                 for facts in causes
@@ -265,11 +265,11 @@ def _badge_text(record: Record) -> tuple[str, str]:
     if record.footer is None or record.footer.exit_code in EXITS_UNFINISHED:
         return "unfinished", "lightgrey"
     if verdict(record).passed:
-        asked = sum(each.asked for each in implementations(record) if each.gated)
+        asked = sum(total.asked for total in implementations(record) if total.gated)
         return (f"held on {counted(asked, 'case')}" if asked else "held"), "brightgreen"
     if record.footer.exit_code == EXIT_INCONCLUSIVE:
         return "inconclusive", "yellow"
-    number = sum(each.count for each in failures(record))
+    number = sum(failure.count for failure in failures(record))
     return (counted(number, "failure") if number else "failed"), "red"
 
 

@@ -52,7 +52,7 @@ def _off(path: Path) -> tuple[list[list[float]], list[list[int]]]:
 def turn(axis: Point) -> list[float]:
     """The rotation that takes the z axis to a line along `axis`, as a quaternion x, y, z, w."""
     length = math.hypot(*axis)
-    x, y, z = (part / length for part in axis)
+    x, y, z = (each / length for each in axis)
     if z < 0:  # the other end of the same line
         x, y, z = -x, -y, -z
     half = math.hypot(1 + z, x, y)

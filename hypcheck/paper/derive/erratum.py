@@ -121,7 +121,7 @@ def _point(coordinates: Iterable[Fraction | float]) -> str:
 def _leaning(entry: LedgerEntry) -> dict[str, str]:
     """The pair that is clear upright and in contact tilted."""
     witnesses = [witness for evidence in entry.evidence for witness in evidence.leaning]
-    (dangerous,) = (each for each in witnesses if each.certificate.position is Position.CONTACT)
+    (dangerous,) = (witness for witness in witnesses if witness.certificate.position is Position.CONTACT)
     return _words_of(dangerous)
 
 

@@ -125,10 +125,10 @@ def _family_table(totals: Sequence[ImplementationTotal]) -> TableBlock:
 
 def _mistakes(totals: Sequence[ImplementationTotal]) -> list[str]:
     """The kinds of mistakes that can be made about the questions of these methods."""
-    layouts = {QUESTIONS[each.question].layout for each in totals}
+    layouts = {QUESTIONS[total.question].layout for total in totals}
     of_positions = [Mistake.WRONG_SIDE] if PAIRS in layouts else []
     of_times = [Mistake.LATE, Mistake.EARLY] if SWEEPS in layouts else []
-    return [each.value for each in (Mistake.FALSE_CLEAR, Mistake.FALSE_CONTACT, *of_positions, *of_times)]
+    return [mistake.value for mistake in (Mistake.FALSE_CLEAR, Mistake.FALSE_CONTACT, *of_positions, *of_times)]
 
 
 def _status_row(group: GroupLine, seen: Sequence[str], names: Sequence[str], *, fresh: bool) -> Row:

@@ -161,7 +161,7 @@ def _totals(methods: Sequence[ImplementationTotal]) -> TableBlock:
     columns = (
         "method | question | # asked | # right | # tolerated | # wrong | # false clear | # worst error in u | its case"
     )
-    return table("methods", columns, [_method_row(each) for each in methods])
+    return table("methods", columns, [_method_row(method) for method in methods])
 
 
 def _method_row(method: ImplementationTotal) -> Row:
