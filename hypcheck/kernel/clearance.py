@@ -77,9 +77,9 @@ def _ended_clearances(rows: Rows, threads: int | None = None) -> Clearance:
     `nearest` where no shorter gap was measured. Nothing is proved of their error.
     Invalid rows are left as rows of which nothing is known.
     """
-    from hypcheck.truth import ended_error, exact, least  # noqa: PLC0415 - rows with heights alone need them
-    from hypcheck.truth.rationals import rounded_toward  # noqa: PLC0415 - as above
+    from hypcheck.truth import ended_error, exact, least, rationals  # noqa: PLC0415 - rows with heights alone need them
 
+    toward = rationals.rounded_toward
     result = replace(clearances_without_ends(np.ascontiguousarray(rows[:, : len(TILTED_COLUMNS)]), threads), rows=rows)
     refused = invalid(rows)
     for values in (
@@ -99,11 +99,11 @@ def _ended_clearances(rows: Rows, threads: int | None = None) -> Clearance:
         low, high = ended_error.enclosure(pair, decision)
         clear = decision.position is not Position.CONTACT
         result.position[index] = decision.position
-        result.lower[index], result.upper[index] = rounded_toward(low, -np.inf), rounded_toward(high, np.inf)
+        result.lower[index], result.upper[index] = toward(low, -np.inf), toward(high, np.inf)
         result.touch[index] = result.nearest[index] = least.to_border(pair).point
         result.touch_error[index] = np.inf
-        result.distance_lower[index] = rounded_toward(low * Fraction(min(pair.b, pair.d)), -np.inf) if clear else 0.0
-        result.distance_upper[index] = rounded_toward(high * Fraction(max(pair.b, pair.d)), np.inf) if clear else 0.0
+        result.distance_lower[index] = toward(low * Fraction(min(pair.b, pair.d)), -np.inf) if clear else 0.0
+        result.distance_upper[index] = toward(high * Fraction(max(pair.b, pair.d)), np.inf) if clear else 0.0
     _measure_gaps(result, rows, ended[result.position[ended] != Position.CONTACT])
     return result
 
