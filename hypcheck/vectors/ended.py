@@ -8,9 +8,11 @@ Exact touches have w/γ, the direction of N and the azimuth from Pythagorean tri
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
+
 import numpy as np
 
-from hypcheck.geometry.pair import UPRIGHT
+from hypcheck.geometry.pair import COLUMNS, TILTED_COLUMNS, UPRIGHT
 from hypcheck.geometry.rows import PAIRS, Floats, Rows
 from hypcheck.vectors import random_pairs, tilted
 from hypcheck.vectors.draw import Draw, Integers, Maker, ldexp, stepped, turns
@@ -51,32 +53,19 @@ def _hair(draw: Draw, n: int) -> Floats:
     return np.asarray(1 + draw.signs(n) * draw.log_uniform(n, -50, -3))
 
 
-def uniform(draw: Draw, n: int) -> Rows:
-    """All regimes and places, the upper end within one and a half radii of the centre's height."""
-    rows = random_pairs.uniform(draw, n)
-    return _beside_an_end(draw, rows, rows[:, 3])
+def uniform(beside: Maker = random_pairs.uniform, sizes: Sequence[int] = (3,)) -> Maker:
+    """All regimes and places, the upper end within one and a half radii of the centre's height.
 
+    A radius is the largest of the numbers in these places of a row.
+    """
 
-def tilted_uniform(draw: Draw, n: int) -> Rows:
-    """The same with axes in every direction."""
-    rows = tilted.uniform(draw, n)
-    return _beside_an_end(draw, rows, np.maximum(rows[:, 2], rows[:, 3]))
+    def make(draw: Draw, n: int) -> Rows:
+        rows = beside(draw, n)
+        unit = rows[:, sizes].max(axis=1)
+        high = rows[:, 6] + unit * draw.between(n, -1.5, 1.5)
+        return _rows(draw, rows, _lower(draw, high, unit), high)
 
-
-def _beside_an_end(draw: Draw, rows: Rows, unit: Floats) -> Rows:
-    high = rows[:, 6] + unit * draw.between(len(rows), -1.5, 1.5)
-    return _rows(draw, rows, _lower(draw, high, unit), high)
-
-
-def _touching(size: Sizes, axis: Vectors, point: Vectors, normal: Vectors, share: Floats) -> Rows:
-    """Rows whose spheroid, `share` times as far away, touches the plane through the point across the normal."""
-    length = np.sqrt(sum(part * part for part in axis))
-    unit = [part / length for part in axis]
-    along = sum(p * q for p, q in zip(normal, unit, strict=True))
-    shift = [size.b * size.b * (p - along * q) + size.d * size.d * along * q for p, q in zip(normal, unit, strict=True)]
-    half = np.sqrt(sum(p * q for p, q in zip(normal, shift, strict=True)))
-    center = [p + share * q / half for p, q in zip(point, shift, strict=True)]
-    return tilted.stack(size, center, axis)
+    return make
 
 
 def _at_rim(draw: Draw, size: Sizes, height: Floats, axis: Vectors) -> Rows:
@@ -86,31 +75,32 @@ def _at_rim(draw: Draw, size: Sizes, height: Floats, axis: Vectors) -> Rows:
     out, up = draw.circle(n)
     radius, up = size.alpha * np.sqrt(1 + height * height), np.abs(up)
     point = (radius * cosine, radius * sine, size.gamma * height)
-    rows = _touching(size, axis, point, (out * cosine, out * sine, up), _hair(draw, n))
+    rows = tilted.touching(size, axis, point, (out * cosine, out * sine, up), _hair(draw, n))
     high = size.gamma * height
     return _rows(draw, rows, _lower(draw, high, size.d), high)
 
 
-def _upward(n: int) -> Vectors:
+Axes = Callable[[Draw, int], Vectors]
+
+
+def _upward(_: Draw, n: int) -> Vectors:
     return np.zeros(n), np.zeros(n), np.ones(n)
 
 
-def rim(draw: Draw, n: int) -> Rows:
+def rim(axes: Axes = _upward) -> Maker:
     """From 2⁻⁵⁰ to 2⁻³ radii off contact with a rim, from above, from beside and from within."""
-    size, height = _ordinary(draw, n)
-    return _at_rim(draw, size, height, _upward(n))
 
+    def make(draw: Draw, n: int) -> Rows:
+        size, height = _ordinary(draw, n)
+        return _at_rim(draw, size, height, axes(draw, n))
 
-def tilted_rim(draw: Draw, n: int) -> Rows:
-    """The same with axes in every direction."""
-    size, height = _ordinary(draw, n)
-    return _at_rim(draw, size, height, anywhere(draw, n))
+    return make
 
 
 def stiff(draw: Draw, n: int) -> Rows:
     """Near contact with a rim, ratios of sizes up to 2²⁷."""
     size = sizes(draw, draw.log_uniform(n, -13, 13), draw.log_uniform(n, -13, 13), units=(-12, 12))
-    return _at_rim(draw, size, draw.signs(n) * draw.log_uniform(n, -18, 3), _upward(n))
+    return _at_rim(draw, size, draw.signs(n) * draw.log_uniform(n, -18, 3), _upward(draw, n))
 
 
 def rim_tangent(draw: Draw, n: int) -> Rows:
@@ -151,21 +141,17 @@ def opening(draw: Draw, n: int) -> Rows:
     return _rows(draw, rows, _lower(draw, high, size.d), high)
 
 
-def thin(draw: Draw, n: int) -> Rows:
+def thin(beside: Maker = random_pairs.uniform) -> Maker:
     """Near contact with the surface, of which a thin slab is left somewhere within reach."""
-    return _thin(draw, random_pairs.uniform(draw, n), draw.between(n, -1.2, 1.2))
 
+    def make(draw: Draw, n: int) -> Rows:
+        rows, shift = beside(draw, n), draw.between(n, -1.2, 1.2)
+        unit = rows[:, 3]
+        low = rows[:, 6] + unit * shift
+        high = low + np.maximum(unit * draw.log_uniform(n, -30, -1), np.abs(low) * 2.0**-50)
+        return _rows(draw, rows, low, high)
 
-def tilted_thin(draw: Draw, n: int) -> Rows:
-    """The same with axes in every direction."""
-    return _thin(draw, tilted.near_contact(draw, n), draw.between(n, -1.2, 1.2))
-
-
-def _thin(draw: Draw, rows: Rows, shift: Floats) -> Rows:
-    unit = rows[:, 3]
-    low = rows[:, 6] + unit * shift
-    high = low + np.maximum(unit * draw.log_uniform(len(rows), -30, -1), np.abs(low) * 2.0**-50)
-    return _rows(draw, rows, low, high)
+    return make
 
 
 def swallowed(draw: Draw, n: int) -> Rows:
@@ -178,27 +164,20 @@ def swallowed(draw: Draw, n: int) -> Rows:
     return _rows(draw, rows, low, low + size.d * draw.log_uniform(n, -8, 0))
 
 
-def disc(draw: Draw, n: int) -> Rows:
+def disc(axes: Axes = _upward) -> Maker:
     """Above an end, the lowest point all but at it or exactly at it, over the opening or the flat end."""
-    size, height = _ordinary(draw, n)
-    return _at_disc(draw, size, height, _upward(n))
 
+    def make(draw: Draw, n: int) -> Rows:
+        size, height = _ordinary(draw, n)
+        axis, (cosine, sine) = axes(draw, n), draw.circle(n)
+        across = size.alpha * np.sqrt(1 + height * height) * draw.between(n, 0, 1.05)
+        high = size.gamma * height
+        share = np.where(turns(n, True, False, False), 1.0, _hair(draw, n))
+        point = (across * cosine, across * sine, high)
+        rows = tilted.touching(size, axis, point, (np.zeros(n), np.zeros(n), np.ones(n)), share)
+        return _rows(draw, rows, _lower(draw, high, size.d), high, solid=turns(n, 1, 1, 0))
 
-def tilted_disc(draw: Draw, n: int) -> Rows:
-    """The same with axes in every direction."""
-    size, height = _ordinary(draw, n)
-    return _at_disc(draw, size, height, anywhere(draw, n))
-
-
-def _at_disc(draw: Draw, size: Sizes, height: Floats, axis: Vectors) -> Rows:
-    n = len(height)
-    cosine, sine = draw.circle(n)
-    across = size.alpha * np.sqrt(1 + height * height) * draw.between(n, 0, 1.05)
-    high = size.gamma * height
-    share = np.where(turns(n, True, False, False), 1.0, _hair(draw, n))
-    point = (across * cosine, across * sine, high)
-    rows = _touching(size, axis, point, (np.zeros(n), np.zeros(n), np.ones(n)), share)
-    return _rows(draw, rows, _lower(draw, high, size.d), high, solid=turns(n, 1, 1, 0))
+    return make
 
 
 def groove(draw: Draw, n: int) -> Rows:
@@ -223,7 +202,7 @@ def waist(draw: Draw, n: int) -> Rows:
     """An end at the waist itself, or a hair from it."""
     size, _ = _ordinary(draw, n)
     height = np.where(turns(n, True, False), 0.0, draw.signs(n) * draw.log_uniform(n, -40, -8))
-    return _at_rim(draw, size, height, _upward(n))
+    return _at_rim(draw, size, height, _upward(draw, n))
 
 
 def far(draw: Draw, n: int) -> Rows:
@@ -237,44 +216,38 @@ def far(draw: Draw, n: int) -> Rows:
     return _rows(draw, rows, low, high)
 
 
-def integers(draw: Draw, n: int) -> Rows:
-    """Whole numbers as a person types them, upright."""
-    return _integers(draw, n, upright=True)
+def integers(columns: Sequence[str] = COLUMNS) -> Maker:
+    """Whole numbers as a person types them, the axis too where there are columns of it."""
 
+    def make(draw: Draw, n: int) -> Rows:
+        rows = tilted.small_integers(draw, n)[:, : len(columns)]
+        high = (rows[:, 6] + draw.integers(n, -6, 6)).astype(np.float64)
+        low = np.where(turns(n, True, False, False), -np.inf, high - draw.integers(n, 1, 12))
+        return _rows(draw, rows, low, high)
 
-def tilted_integers(draw: Draw, n: int) -> Rows:
-    """The same with axes of whole numbers."""
-    return _integers(draw, n, upright=False)
-
-
-def _integers(draw: Draw, n: int, *, upright: bool) -> Rows:
-    rows = tilted.small_integers(draw, n)
-    rows = rows[:, :7] if upright else rows
-    high = (rows[:, 6] + draw.integers(n, -6, 6)).astype(np.float64)
-    low = np.where(turns(n, True, False, False), -np.inf, high - draw.integers(n, 1, 12))
-    return _rows(draw, rows, low, high)
+    return make
 
 
 FAMILIES: dict[str, tuple[Maker, int]] = {
-    "ended-uniform": (uniform, 48),
-    "ended-rim": (rim, 60),
+    "ended-uniform": (uniform(), 48),
+    "ended-rim": (rim(), 60),
     "ended-rim-tangent": (rim_tangent, 60),
     "ended-rim-neighbourhood": (rim_neighbourhood, 60),
     "ended-opening": (opening, 48),
-    "ended-thin": (thin, 48),
+    "ended-thin": (thin(), 48),
     "ended-swallowed": (swallowed, 48),
-    "ended-disc": (disc, 48),
+    "ended-disc": (disc(), 48),
     "ended-groove": (groove, 60),
     "ended-waist": (waist, 40),
     "ended-far": (far, 40),
     "ended-stiff": (stiff, 40),
-    "ended-small-integers": (integers, 48),
+    "ended-small-integers": (integers(), 48),
 }
 TILTED: dict[str, tuple[Maker, int]] = {
-    "tilted-ended-uniform": (tilted_uniform, 48),
-    "tilted-ended-rim": (tilted_rim, 48),
-    "tilted-ended-thin": (tilted_thin, 40),
-    "tilted-ended-disc": (tilted_disc, 48),
-    "tilted-ended-small-integers": (tilted_integers, 60),
+    "tilted-ended-uniform": (uniform(tilted.uniform, (2, 3)), 48),
+    "tilted-ended-rim": (rim(anywhere), 48),
+    "tilted-ended-thin": (thin(tilted.near_contact), 40),
+    "tilted-ended-disc": (disc(anywhere), 48),
+    "tilted-ended-small-integers": (integers(TILTED_COLUMNS), 60),
 }
 """The generators by the names of their families, upright and tilted, each with how many rows are frozen."""

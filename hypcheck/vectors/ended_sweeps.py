@@ -1,4 +1,4 @@
-"""Ways beside hyperboloids that end: rows of sixteen numbers, with the traps that a rim, an opening or a flat end has.
+"""Sweeps beside hyperboloids that end: rows of sixteen numbers, with the traps of a rim, an opening or a flat end.
 
 Each goes through the centre of a row of ended.py, ends at it, or begins there. Rows about touches are whole numbers
 times one power of two, and so are the ends of their sweeps.
@@ -15,15 +15,15 @@ from hypcheck.vectors.draw import Draw, Maker, turns
 CENTRE = slice(4, 7)
 
 
-def _ways(rows: Rows, start: Rows, end: Rows) -> Rows:
+def _sweeps(rows: Rows, start: Rows, end: Rows) -> Rows:
     """The rows with these ends of sweeps in the place of their centres."""
     return np.asarray(np.concatenate([rows[:, :4], start, end, rows[:, 7:]], axis=1) + 0.0)
 
 
 def _through(draw: Draw, rows: Rows, step: Rows) -> Rows:
-    """Ways through the centres of rows, which lie anywhere on them."""
+    """Sweeps through the centres of rows, which lie anywhere on them."""
     share = draw.between(len(rows), 0, 1)[:, None]
-    return _ways(rows, rows[:, CENTRE] - share * step, rows[:, CENTRE] + (1 - share) * step)
+    return _sweeps(rows, rows[:, CENTRE] - share * step, rows[:, CENTRE] + (1 - share) * step)
 
 
 def _any_step(draw: Draw, rows: Rows) -> Rows:
@@ -38,56 +38,48 @@ def _around(rows: Rows) -> Rows:
     return np.stack([-rows[:, 5], rows[:, 4], np.zeros(len(rows))], axis=1)
 
 
-def uniform(draw: Draw, n: int) -> Rows:
+def uniform(rows_of: Maker) -> Maker:
     """Both ends anywhere about the end of a hyperboloid of any regime."""
-    rows = ended.uniform(draw, n)
-    return _ways(rows, rows[:, CENTRE], rows[:, CENTRE] + _any_step(draw, rows))
+
+    def make(draw: Draw, n: int) -> Rows:
+        rows = rows_of(draw, n)
+        return _sweeps(rows, rows[:, CENTRE], rows[:, CENTRE] + _any_step(draw, rows))
+
+    return make
 
 
-def tilted_uniform(draw: Draw, n: int) -> Rows:
-    """The same with axes in every direction."""
-    rows = ended.tilted_uniform(draw, n)
-    return _ways(rows, rows[:, CENTRE], rows[:, CENTRE] + _any_step(draw, rows))
-
-
-def over(draw: Draw, n: int) -> Rows:
+def over(rows_of: Maker) -> Maker:
     """Through a place beside or above a rim, 2⁻⁵⁰ to 2⁻³ radii off contact: along the rim, across it, or anywhere."""
-    return _over(draw, ended.rim(draw, n))
+
+    def make(draw: Draw, n: int) -> Rows:
+        rows = rows_of(draw, n)
+        length = draw.signs(n) * draw.log_uniform(n, -3, 3)
+        radial = np.stack([rows[:, 4], rows[:, 5], np.zeros(n)], axis=1)
+        reach = np.sqrt(rows[:, 4] * rows[:, 4] + rows[:, 5] * rows[:, 5])
+        distance = np.maximum(reach, rows[:, 2] * 2.0**-40)
+        direction = np.where(turns(n, True, False)[:, None], _around(rows), radial)
+        level = direction * (rows[:, 2] * length / distance)[:, None]
+        return _through(draw, rows, np.where(turns(n, True, True, False)[:, None], level, _any_step(draw, rows)))
+
+    return make
 
 
-def tilted_over(draw: Draw, n: int) -> Rows:
-    """The same with axes in every direction."""
-    return _over(draw, ended.tilted_rim(draw, n))
+def landing(rows_of: Maker) -> Maker:
+    """Straight down, or up from below, to a place that is all but in contact with a rim, or with a flat end or opening.
 
+    From outside the end towards which the spheroid lies; every third goes on beyond its centre.
+    """
 
-def _over(draw: Draw, rows: Rows) -> Rows:
-    n, length = len(rows), draw.signs(len(rows)) * draw.log_uniform(len(rows), -3, 3)
-    radial = np.stack([rows[:, 4], rows[:, 5], np.zeros(n)], axis=1)
-    reach = np.sqrt(rows[:, 4] * rows[:, 4] + rows[:, 5] * rows[:, 5])
-    distance = np.maximum(reach, rows[:, 2] * 2.0**-40)
-    level = np.where(turns(n, True, False)[:, None], _around(rows), radial) * (rows[:, 2] * length / distance)[:, None]
-    return _through(draw, rows, np.where(turns(n, True, True, False)[:, None], level, _any_step(draw, rows)))
+    def make(draw: Draw, n: int) -> Rows:
+        rows = rows_of(draw, n)
+        nearer = np.abs(rows[:, 6] - rows[:, 10]) < np.abs(rows[:, 6] - rows[:, 11])
+        away = np.where(nearer, -1.0, 1.0) * rows[:, 3] * draw.log_uniform(n, -4, 5)
+        start, end = rows[:, CENTRE].copy(), rows[:, CENTRE].copy()
+        start[:, 2] += away
+        end[:, 2] -= np.where(turns(n, True, False, False), away, 0.0)
+        return _sweeps(rows, start, end)
 
-
-def landing(draw: Draw, n: int) -> Rows:
-    """Straight down, or up from below, to a place that is all but in contact with a rim."""
-    return _landing(draw, ended.rim(draw, n))
-
-
-def disc(draw: Draw, n: int) -> Rows:
-    """The same to a place just above a flat end, or the opening, or through it."""
-    return _landing(draw, ended.disc(draw, n))
-
-
-def _landing(draw: Draw, rows: Rows) -> Rows:
-    """From outside the end towards which the spheroid lies; every third goes on beyond its centre."""
-    n = len(rows)
-    nearer = np.abs(rows[:, 6] - rows[:, 10]) < np.abs(rows[:, 6] - rows[:, 11])
-    away = np.where(nearer, -1.0, 1.0) * rows[:, 3] * draw.log_uniform(n, -4, 5)
-    start, end = rows[:, CENTRE].copy(), rows[:, CENTRE].copy()
-    start[:, 2] += away
-    end[:, 2] -= np.where(turns(n, True, False, False), away, 0.0)
-    return _ways(rows, start, end)
+    return make
 
 
 def opening(draw: Draw, n: int) -> Rows:
@@ -100,7 +92,7 @@ def opening(draw: Draw, n: int) -> Rows:
 
 def thin(draw: Draw, n: int) -> Rows:
     """Through a place near contact with a surface of which a thin slab is left."""
-    rows = ended.thin(draw, n)
+    rows = ended.thin()(draw, n)
     return _through(draw, rows, _any_step(draw, rows))
 
 
@@ -111,20 +103,20 @@ def touch(draw: Draw, n: int) -> Rows:
     step = np.where(turns(n, True, True, False)[:, None], _around(rows), away)
     step = step * np.where(turns(n, False, False, True), rows[:, 3], 1.0)[:, None]
     centre, back = rows[:, CENTRE], np.where(turns(n, 1.0, 1.0, 1.0, 0.0), 1.0, 0.0)[:, None]
-    return _ways(rows, centre - step * back, centre + step)
+    return _sweeps(rows, centre - step * back, centre + step)
 
 
 FAMILIES: dict[str, tuple[Maker, int]] = {
-    "ended-way-uniform": (uniform, 16),
-    "ended-way-over": (over, 20),
-    "ended-way-landing": (landing, 16),
-    "ended-way-disc": (disc, 16),
+    "ended-way-uniform": (uniform(ended.uniform()), 16),
+    "ended-way-over": (over(ended.rim()), 20),
+    "ended-way-landing": (landing(ended.rim()), 16),
+    "ended-way-disc": (landing(ended.disc()), 16),
     "ended-way-opening": (opening, 16),
     "ended-way-thin": (thin, 12),
     "ended-way-touch": (touch, 20),
 }
 TILTED: dict[str, tuple[Maker, int]] = {
-    "tilted-ended-way-uniform": (tilted_uniform, 12),
-    "tilted-ended-way-over": (tilted_over, 12),
+    "tilted-ended-way-uniform": (uniform(ended.TILTED["tilted-ended-uniform"][0]), 12),
+    "tilted-ended-way-over": (over(ended.TILTED["tilted-ended-rim"][0]), 12),
 }
 """The generators by the names of their families, upright and tilted, each with how many rows are frozen."""

@@ -64,13 +64,18 @@ def beside_at(size: Sizes, direction: tuple[Floats, Floats], height: Floats, axi
     radius = np.sqrt(1 + height * height)
     point = (size.alpha * radius * cosine, size.alpha * radius * sine, size.gamma * height)
     normal = (radius * cosine / size.alpha, radius * sine / size.alpha, -height / size.gamma)
+    return touching(size, axis, point, normal, offset)
+
+
+def touching(size: Sizes, axis: Vectors, point: Vectors, normal: Vectors, share: Floats) -> Rows:
+    """Rows whose spheroid, `share` times as far away, touches the plane through the point across the normal."""
     length = np.sqrt(dot(axis, axis))
     unit = (axis[0] / length, axis[1] / length, axis[2] / length)
     along = dot(normal, unit)
     across = [n - along * v for n, v in zip(normal, unit, strict=True)]
-    way = [size.b * size.b * q + size.d * size.d * along * v for q, v in zip(across, unit, strict=True)]
-    half = np.sqrt(dot(normal, (way[0], way[1], way[2])))
-    return stack(size, [p + offset * w / half for p, w in zip(point, way, strict=True)], axis)
+    reach = [size.b * size.b * q + size.d * size.d * along * v for q, v in zip(across, unit, strict=True)]
+    half = np.sqrt(dot(normal, reach))
+    return stack(size, [p + share * w / half for p, w in zip(point, reach, strict=True)], axis)
 
 
 def stack(size: Sizes, centre: list[Floats], axis: Vectors) -> Rows:
