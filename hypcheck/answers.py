@@ -140,7 +140,7 @@ def classify_table(
 
 
 def _alone(table: Table, alone: int) -> int:
-    """Chunks that this process answers before it starts others: to a row that may lean, a process is soon worth it."""
+    """Chunks that this process answers before it starts others: for rows that may be tilted, these soon pay."""
     return alone if table.columns == COLUMNS else 1
 
 

@@ -56,10 +56,10 @@ def height_of_point(pair: Pair, point: Point) -> Fraction:
 
 def reach_of_point(pair: Pair, point: Point) -> Fraction:
     """s, the squared distance of a point from the spheroid's centre in spheroid radii: at most 1 in the spheroid."""
-    way = [coordinate - Fraction(center) for coordinate, center in zip(point, (pair.x, pair.y, pair.z), strict=True)]
+    offset = [coordinate - Fraction(center) for coordinate, center in zip(point, (pair.x, pair.y, pair.z), strict=True)]
     axis = [Fraction(number) for number in pair.axis]
-    square = sum((number * number for number in way), Fraction(0))
-    along = sum((a * b for a, b in zip(way, axis, strict=True)), Fraction(0)) ** 2 / sum(
+    square = sum((number * number for number in offset), Fraction(0))
+    along = sum((a * b for a, b in zip(offset, axis, strict=True)), Fraction(0)) ** 2 / sum(
         number * number for number in axis
     )
     return (square - along) / Fraction(pair.b) ** 2 + along / Fraction(pair.d) ** 2
@@ -113,7 +113,7 @@ def _piece_as_json(piece: Piece) -> dict[str, str]:
 
 
 def _tilted_proof_as_json(pair: Pair, certificate: Certificate) -> dict[str, Any]:
-    """The same where the axis leans: pivots of S + λH, or the quartic f of a double root and pivots of M + mD."""
+    """The same where the axis is tilted: pivots of S + λH, or the quartic f of a double root and pivots of M + mD."""
     if certificate.multiplier is not None:
         pivots = _pivots(pair, certificate.multiplier, 4)
         return {

@@ -121,11 +121,11 @@ def method_answers(task: tuple[BenchPlan, str]) -> list[MethodAnswers]:
     """The answers of the method with that name, to each workload of the plan."""
     plan, name = task
     contender = contenders(plan)[name]
-    with closing(contender.load()) as way:
-        return [_answered(plan, contender, way, workload) for workload in chosen_workloads(plan)]
+    with closing(contender.load()) as loaded:
+        return [_answered(plan, contender, loaded, workload) for workload in chosen_workloads(plan)]
 
 
-def _answered(plan: BenchPlan, contender: Contender, way: LoadedMethod, workload: Workload) -> MethodAnswers:
+def _answered(plan: BenchPlan, contender: Contender, loaded: LoadedMethod, workload: Workload) -> MethodAnswers:
     rows = _rows(workload, plan.seed, workload.judged(plan))
     places = contender.asked(rows)
     part = timed_rows(plan, contender, workload)
@@ -133,10 +133,10 @@ def _answered(plan: BenchPlan, contender: Contender, way: LoadedMethod, workload
         contender.name,
         workload.name,
         places,
-        way.answer(rows[places]),
-        answers_print(way.answer(part)),
-        answers_print(way.answer(part[: contender.singles])),
-        way.trouble,
+        loaded.answer(rows[places]),
+        answers_print(loaded.answer(part)),
+        answers_print(loaded.answer(part[: contender.singles])),
+        loaded.trouble,
     )
 
 
@@ -267,13 +267,13 @@ def memory_line(contender: Contender, rows: Rows) -> MemoryLine:
     first = contender.load()
     first.answer(rows[:1])  # code that is loaded at the first call does not count
     first.close()
-    way = contender.load()
+    loaded = contender.load()
     before = forget_peak()
-    ready = way.batch(rows)
+    ready = loaded.batch(rows)
     if ready is not None:
         ready.answers()
     grown = peak() - before
-    way.close()
+    loaded.close()
     return MemoryLine(method=contender.name, rows=len(rows), peak_bytes=max(0, grown))
 
 

@@ -204,14 +204,14 @@ def forms_of_ten_rows(rounds: int) -> Iterator[KernelLine]:
         yield from _lines(subject, forms("rows"), {**names, "classify": call}, rounds)
 
 
-def _lines(subject: str, ways: Mapping[str, Form], names: dict[str, object], rounds: int) -> Iterator[KernelLine]:
+def _lines(subject: str, calls: Mapping[str, Form], names: dict[str, object], rounds: int) -> Iterator[KernelLine]:
     entries = [TimingEntry("loop", 1, statement("pass"))]
-    entries += [TimingEntry(form, 1, statement(text, **names)) for form, (text, _) in ways.items()]
+    entries += [TimingEntry(form, 1, statement(text, **names)) for form, (text, _) in calls.items()]
     net = without_loop(measured_samples(entries, 3 * rounds))
-    usual, *others = ways
+    usual, *others = calls
     for form in others:
-        text, wanted = ways[form]
-        form_target = KernelTarget(f"{subject}, {form}", f"{text}, to {ways[usual][0]}", wanted, at_most=True)
+        text, wanted = calls[form]
+        form_target = KernelTarget(f"{subject}, {form}", f"{text}, to {calls[usual][0]}", wanted, at_most=True)
         says = f"{np.median(net[form]):.3g} ns; {usual} {np.median(net[usual]):.3g} ns: an empty loop is taken off"
         yield form_target.line((net[form] / net[usual]).tolist(), says)
 

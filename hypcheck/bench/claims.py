@@ -149,8 +149,10 @@ def _prepared_procedures(library: Path | None, plan: BenchPlan) -> dict[str, Pre
 def _prepared_formulas(library: Path | None, listed: dict[str, Formula], plan: BenchPlan) -> dict[str, PreparedWork]:
     rows = WORKLOADS["uniform"].rows(plan.seed, plan.amounts.timed)
     if library is None:
-        ways = {name: (by_rows(formula, "float64"), by_scene(formula, "float64")) for name, formula in listed.items()}
-        return {name: InPython(*way).batch(rows) for name, way in ways.items()}
+        functions = {
+            name: (by_rows(formula, "float64"), by_scene(formula, "float64")) for name, formula in listed.items()
+        }
+        return {name: InPython(*by_both).batch(rows) for name, by_both in functions.items()}
     places = {name: place_of(f"{formula.name}-float64") for name, formula in listed.items()}
     return {name: InC(library, place).batch(rows) for name, place in places.items()}
 

@@ -6,7 +6,7 @@ set of the kernel. The plain formula is Table 2 as the programs print it, with w
 the loop, and contraction allowed. It only answers whether the pair is exterior, and certifies nothing. It is compiled
 for each width of vectors, and the fastest counts.
 
-Spheroids that lean are asked about in the same scene, with axes in all directions, as one calls it from Python, with
+Tilted spheroids are asked about in the same scene, with axes in all directions, as one calls it from Python, with
 one thread: beside the upright ones, and beside numpy.linalg.eigh.
 """
 
@@ -313,7 +313,7 @@ def axes(count: int) -> Floats:
 
 
 def touching_rows(count: int) -> Rows:
-    """Rows of the tower's body leaning in all directions, within about 1e-15 radii of contact: (n, 10)."""
+    """Rows of the tower's body tilted in all directions, within about 1e-15 radii of contact: (n, 10)."""
     random = np.random.Generator(np.random.PCG64(SEED))
     alpha, gamma, b, d = TOWER_SIZES
     turn, height = 2 * np.pi * random.random(count), (2 * random.random(count) - 1) * gamma
@@ -322,9 +322,9 @@ def touching_rows(count: int) -> Rows:
     normal = point * [alpha**-2, alpha**-2, -(gamma**-2)]
     axis = axes(count)
     along = (axis * normal).sum(axis=1, keepdims=True) / (axis * axis).sum(axis=1, keepdims=True) * axis
-    way = b * b * (normal - along) + d * d * along
+    reach = b * b * (normal - along) + d * d * along
     side = np.where(random.random(count) < 0.5, -1.0, 1.0) * (1 + (2 * random.random(count) - 1) * 1e-15)
-    centre = point + (side / np.sqrt((way * normal).sum(axis=1)))[:, None] * way
+    centre = point + (side / np.sqrt((reach * normal).sum(axis=1)))[:, None] * reach
     return tilted_rows(TOWER_SIZES, (centre[:, 0], centre[:, 1], centre[:, 2]), (*axis.T,))
 
 
@@ -334,11 +334,11 @@ def one_orientation(rounds: int) -> Iterator[KernelLine]:
         ask = partial(hypcheck.classify_scene, TOWER_SIZES, *uniform_columns(count), threads=1)
         entries = [
             TimingEntry("upright", count, thread_clocked(ask)),
-            TimingEntry("leaning", count, thread_clocked(partial(ask, axis=AXIS))),
+            TimingEntry("tilted", count, thread_clocked(partial(ask, axis=AXIS))),
         ]
         samples = measured_samples(entries, more * rounds)
-        says = f"{rate_text(samples['leaning'])}; upright: {rate_text(samples['upright'])}"
-        yield target(name).line(times_as_fast(samples["leaning"], samples["upright"]), says)
+        says = f"{rate_text(samples['tilted'])}; upright: {rate_text(samples['upright'])}"
+        yield target(name).line(times_as_fast(samples["tilted"], samples["upright"]), says)
 
 
 def axis_along_z(rounds: int) -> Iterator[KernelLine]:

@@ -1,8 +1,8 @@
 """All contenders by name: numpy and Python, C, meshes of collision engines, and implementations under test.
 
 Methods in C are printed and compiled when bench starts. Meshes have 100 to 100,000 triangles, and are built once or for
-each row; a spheroid that leans is asked as the engine's ellipsoid, posed by its axis, against the same mesh. Runs about
-spheroids that lean and runs about sweeps have contenders of their own.
+each row; a tilted spheroid is asked as the engine's ellipsoid, posed by its axis, against the same mesh. Runs about
+tilted spheroids and runs about sweeps have contenders of their own.
 """
 
 from __future__ import annotations

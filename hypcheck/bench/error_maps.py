@@ -62,8 +62,8 @@ def stability_lines(task: tuple[BenchPlan, str]) -> list[StabilityLine]:
     contender = contenders(plan)[name]
     rows, cells = stability_rows(plan)
     places = contender.asked(rows)
-    with closing(contender.load()) as way:
-        answers = way.answer(rows[places])
+    with closing(contender.load()) as loaded:
+        answers = loaded.answer(rows[places])
     wrong = judge.is_wrong(float_filter.positions(rows[places]), answers, contender.question)
     counts = np.bincount(cells[places], minlength=cells.max() + 1).tolist()
     errors = np.bincount(cells[places][wrong], minlength=cells.max() + 1).tolist()
@@ -119,14 +119,14 @@ def place_lines(task: tuple[BenchPlan, str]) -> list[PlacesLine]:
     """The lines of the method with that name, one for each region."""
     plan, name = task
     contender = contenders(plan)[name]
-    with closing(contender.load()) as way:
+    with closing(contender.load()) as loaded:
         return [
             PlacesLine(
                 method=name,
                 scene=Scenery(**dict(zip(SIZES, MAPPED_SCENE, strict=True))),
                 r=r,
                 z=z,
-                wrong=letters_of(way.answer(rows), rows, contender.question, r[2]),
+                wrong=letters_of(loaded.answer(rows), rows, contender.question, r[2]),
                 region=region,
             )
             for region, (r, z) in mapped_regions(plan).items()

@@ -16,7 +16,7 @@ REFERENCE = "table-2-float64"
 """All ratios are relative to the time of this method: the paper's own formula in numpy, which runs everywhere."""
 
 TILTED_REFERENCE = "eigh"
-"""The same where spheroids lean: numpy.linalg.eigh and the dual function, as one writes it in numpy."""
+"""The same where spheroids are tilted: numpy.linalg.eigh and the dual function, as one writes it in numpy."""
 
 PASSAGE_REFERENCE = "passage-exact"
 """The same of sweeps: the exact decision in Python's integers."""
@@ -76,8 +76,8 @@ class BenchPlan:
     `max_slowdown` times slower against the reference than there.
 
     `kernel`, `forest` and `scenes` measure one thing only: the fast path against its targets, a walker's step among
-    many trees, the savings of these scenes. `tilted` compares methods for spheroids whose axis leans; so does a scene
-    whose mover leans. `question` is "passage" where methods for sweeps are compared.
+    many trees, the savings of these scenes. `tilted` compares methods for tilted spheroids; so does a scene
+    whose mover is tilted. `question` is "passage" where methods for sweeps are compared.
 
     Files go into `folder`, also the library `compiled` of methods in C, if there is one. `missing` are needs of methods
     that are not available here, and `foreign` are the methods of the SPECs (bench/foreign.py).

@@ -43,12 +43,12 @@ def stages(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome) -> Sequence
         return (Stage("the fast path", targets.steps(), lambda advance: _kernel(plan, recorder, outcome, advance)),)
     if plan.forest:
         return (_forest(plan, recorder, outcome),)
-    leaning = leaning_scenes(plan.scenes)
-    if plan.scenes and not leaning and not plan.tilted:
+    tilted_movers = leaning_scenes(plan.scenes)
+    if plan.scenes and not tilted_movers and not plan.tilted:
         if plan.chosen:
-            raise InputError("--scene measures only scenes; other choices are allowed only if its mover leans")
+            raise InputError("--scene measures only scenes; other choices are allowed only if its mover is tilted")
         return (_scenes(plan, plan.scenes, recorder, outcome),)
-    plan = _tilted_plan(plan, leaning)
+    plan = _tilted_plan(plan, tilted_movers)
     workloads = chosen_workloads(plan)
     before = read_baseline(plan)
     plan = plan_with_needs(plan_with_specs(plan, recorder), recorder)  # a wrong SPEC is refused before C is compiled
@@ -70,14 +70,16 @@ def stages(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome) -> Sequence
     )
 
 
-def _tilted_plan(plan: BenchPlan, leaning: Sequence[str]) -> BenchPlan:
-    """The plan of a run about one scene that leans, or any other plan. Raises InputError for more scenes than one."""
+def _tilted_plan(plan: BenchPlan, tilted_movers: Sequence[str]) -> BenchPlan:
+    """The plan, about the tilted mover of its one scene if it has any. Raises InputError for more scenes than one."""
     if not plan.scenes:
         return plan
-    if not leaning:
-        raise InputError(f"--tilted measures movers that lean; the mover of the scene {plan.scenes[0]!r} does not")
+    if not tilted_movers:
+        raise InputError(f"--tilted measures tilted movers; the mover of the scene {plan.scenes[0]!r} is not")
     if len(plan.scenes) > 1:
-        raise InputError(f"the mover of the scene {leaning[0]!r} leans; measure that scene alone, with one --scene")
+        raise InputError(
+            f"the mover of the scene {tilted_movers[0]!r} is tilted; measure that scene alone, with one --scene"
+        )
     return replace(plan, tilted=True)
 
 

@@ -92,18 +92,18 @@ class _Together:
 def run_session(session: MeasuringSession) -> list[Measurement]:
     """All measurements, in the order of workloads and modes."""
     by_name = contenders(session.plan)
-    ways = {name: contender.load() for name, contender in by_name.items() if not contender.accuracy_only}
+    methods_loaded = {name: contender.load() for name, contender in by_name.items() if not contender.accuracy_only}
     measured = []
     try:
         for workload in chosen_workloads(session.plan):
             for mode in _modes(workload):
-                here, refused = _methods(session, by_name, ways, workload, mode)
+                here, refused = _methods(session, by_name, methods_loaded, workload, mode)
                 measured += [*refused, *_measured(session, here)]
         for claim in cost_claims(session.plan):
             measured += _measured(session, _compared(session, claim))
     finally:
-        for way in ways.values():
-            way.close()
+        for loaded in methods_loaded.values():
+            loaded.close()
     return measured
 
 
@@ -124,19 +124,19 @@ def _modes(workload: Workload) -> Sequence[str]:
 def _methods(
     session: MeasuringSession,
     by_name: Mapping[str, Contender],
-    ways: Mapping[str, LoadedMethod],
+    methods_loaded: Mapping[str, LoadedMethod],
     workload: Workload,
     mode: str,
 ) -> tuple[_Together, list[Measurement]]:
     """The methods that are measured, and those that are refused because their answers are others than before."""
     here, refused = _Together((workload.name, mode), {}), []
-    for name, way in ways.items():
+    for name, loaded in methods_loaded.items():
         rows = timed_rows(session.plan, by_name[name], workload)
         if mode == "single":
             rows = rows[: by_name[name].singles]
         key = (name, *here.where)
         expected_print = session.expected.get(key)
-        ready = getattr(way, mode)(rows) if len(rows) and expected_print != NOT_ANSWERED else None
+        ready = getattr(loaded, mode)(rows) if len(rows) and expected_print != NOT_ANSWERED else None
         if ready is None:
             continue
         answers = ready.answers()
@@ -145,7 +145,7 @@ def _methods(
             refused.append(Measurement(key, Samples(name, ready.rows, 0, 0, refused=reason), 0.0, ready.timed_by))
             continue
         here.ready[name], here.sums[name] = ready, int(answers.sum(dtype=np.int64))
-        if (empty := way.empty(rows, mode)) is not None:
+        if (empty := loaded.empty(rows, mode)) is not None:
             here.empties[name] = empty
     return here, refused
 

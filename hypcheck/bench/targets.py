@@ -104,10 +104,10 @@ def left_open(_rounds: int) -> Iterator[KernelLine]:
 
 
 def _open_share(name: str) -> float:
-    ways = name in ENDED_SWEEP_FAMILIES
-    family = ENDED_SWEEP_FAMILIES[name] if ways else ENDED_FAMILIES[name]
+    sweeps = name in ENDED_SWEEP_FAMILIES
+    family = ENDED_SWEEP_FAMILIES[name] if sweeps else ENDED_FAMILIES[name]
     rows = np.ascontiguousarray(family.rows(SEED, ORDINARY if name.endswith("uniform") else NEAR))
-    answers = answer_sweeps(rows)[0] if ways else answer_ended(rows, 1)
+    answers = answer_sweeps(rows)[0] if sweeps else answer_ended(rows, 1)
     return float((answers == CANNOT_SAY).mean())
 
 

@@ -1,7 +1,7 @@
 """The workloads of a benchmark: rows on which methods are compared, of upright and tilted spheroids and of sweeps.
 
 Some are timed and judged, the others only judged. A workload's rows depend only on its name, the seed and their place;
-a shorter call returns the first rows of a longer one (vectors/draw.py). Pairs of spheroids that lean whose nearest
+a shorter call returns the first rows of a longer one (vectors/draw.py). Pairs of tilted spheroids whose nearest
 point is not unique are in none of them, because there the estimated error, which rests on derivatives, is too large.
 """
 
@@ -232,7 +232,7 @@ SWEEP_WORKLOADS = _by_name(
 """Those of sweeps of upright spheroids, by name, in the order of the record."""
 
 PITCH = 20.0
-"""Degrees by which the quadcopter leans along x in the workload of one axis."""
+"""Degrees by which the quadcopter is tilted along x in the workload of one axis."""
 
 TILTED_SHARE = 4
 """To estimate a row's distance to another position takes ten milliseconds: a quarter of the rows is judged."""
@@ -283,15 +283,15 @@ def _tilted_workload(name: str, title: str, text: str, make: _Block, *, timed: b
 TILTED_WORKLOADS = _by_name(
     _tilted_workload(
         "one-axis",
-        "leaning one way around the tower",
-        f"A quadcopter's body that leans by {PITCH:g}° along x, uniform in the box |x|, |y| ≤ 4 m, |z| ≤ 17.8 m "
+        "tilted one way around the tower",
+        f"A quadcopter's body that is tilted by {PITCH:g}° along x, uniform in the box |x|, |y| ≤ 4 m, |z| ≤ 17.8 m "
         "about the paper's cooling tower.",
         _one_axis,
     ),
     _tilted_workload(
         "an-axis-each",
         "an axis each around the tower",
-        "The same body in the same box; each row leans to any side, by up to 45°.",
+        "The same body in the same box; each row is tilted to any side, by up to 45°.",
         _an_axis_each,
     ),
     _tilted_workload(
@@ -317,7 +317,7 @@ TILTED_WORKLOADS = _by_name(
         timed=False,
     ),
 )
-"""Those of spheroids that lean, by name, in the order of the record."""
+"""Those of tilted spheroids, by name, in the order of the record."""
 
 
 def _pitched(names: Sequence[str]) -> _Block:
@@ -376,7 +376,7 @@ TILTED_SWEEP_WORKLOADS = _by_name(
 
 
 def leaning_scenes(names: tuple[str, ...]) -> list[str]:
-    """The scenes whose mover leans, or may. Raises InputError for a scene that does not exist."""
+    """The scenes whose mover is tilted, or may be. Raises InputError for a scene that does not exist."""
     return [name for name in names if is_tilted(read_scene(name).mover.axis)]
 
 

@@ -28,7 +28,7 @@ A sweep:   hypcheck classify --alpha 1 --gamma 2 --b 1 --d 1 --center 4 0 0 --en
 It ends:   hypcheck classify --alpha 1 --gamma 2 --b 1 --d 1 --center 2 0 4 --z-max 3 --solid
 A table:   hypcheck classify --input pairs.csv --output answers.csv
 
-A sweep is the straight motion of the centre to --end. The answer is contact or none on the way, both ends included,
+A sweep is the straight motion of the centre to --end. The answer is contact or none on the sweep, both ends included,
 and between which two numbers the time of the first contact lies, from 0 at the start to 1 at the end.
 
 The hyperboloid ends at --z-min and --z-max. Without --solid its wall alone is there: contact is contact with the wall,
@@ -143,10 +143,10 @@ def _refuse(options: dict[str, bool], reason: str) -> None:
 def _answer_table(source: str, target: str | None, said: str | None, margin: float | None, *, mark: bool) -> None:
     if target is None:
         raise InputError("--output is missing; name a file for the answers, or - for standard output")
-    way = route(source, target, said)
+    streams = route(source, target, said)
     from hypcheck.answers import classify_table
 
-    classify_table(way, mark=mark, watch=_watch, margin=margin)
+    classify_table(streams, mark=mark, watch=_watch, margin=margin)
 
 
 @contextmanager

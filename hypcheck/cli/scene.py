@@ -198,9 +198,9 @@ def _require_routine(sweeps: bool, whole: bool, question: str | None, proof: str
     if sweeps and question is not None:
         raise InputError("--question is about positions; --sweeps asks for contact on a straight motion")
     if proof is not None:
-        raise InputError("--proof is for kernels of pairs, and of whole scenes in which nothing leans")
+        raise InputError("--proof is for kernels of pairs, and of whole scenes in which nothing is tilted")
     if precision != "float64":
-        raise InputError(f"no kernel is made in {precision}: sweeps, and scenes in which something leans, need float64")
+        raise InputError(f"no kernel is made in {precision}: sweeps, and scenes with something tilted, need float64")
 
 
 def _command(context: click.Context) -> list[str]:

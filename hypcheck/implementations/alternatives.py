@@ -17,7 +17,7 @@ The sphere and the cylinder are circumscribed, so "clear" is right (for the cyli
 often is not. The sphere has the radius max(b, d), the cylinder the radius b, the half height d and an axis parallel to
 that of the hyperboloid.
 
-Spheroids that lean, rows (n, 10), are decided as one would write it without certificates. Eigenvectors turn the pair
+Tilted spheroids, rows (n, 10), are decided as one would write it without certificates. Eigenvectors turn the pair
 into a unit ball about the origin and a surface with three poles, x²/A1 + y²/A2 − z²/B = 1 (docs/mathematics.md,
 "General position"); then the greatest value of the dual function decides. The roots of det(S + λH) beside its poles
 decide as well. Plain floats err near contact.

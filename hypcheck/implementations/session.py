@@ -157,7 +157,7 @@ class Answered:
 
     @property
     def outcomes(self) -> frozenset[Outcome]:
-        """All ways in which rows ended."""
+        """How rows ended, each outcome once."""
         if not self.reasons:
             return frozenset({Outcome.ANSWERED}) if len(self.status) else frozenset()
         return frozenset(map(Outcome, np.unique(self.status).tolist()))

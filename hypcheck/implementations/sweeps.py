@@ -367,10 +367,10 @@ def _stepping(engine: MeshLibrary) -> Callable[[object, float, float], Meets]:
         distance = engine.distance(mesh)
 
         def meets(start: Floats, end: Floats) -> tuple[int, float]:
-            way, time = end - start, 0.0
-            speed = math.hypot(*way)
+            sweep, time = end - start, 0.0
+            speed = math.hypot(*sweep)
             for _ in range(MOST_ADVANCES):
-                gap = distance(*(start + time * way).tolist()) - 1
+                gap = distance(*(start + time * sweep).tolist()) - 1
                 if gap <= NEARNESS:
                     return 1, time
                 if time >= 1 or not speed:

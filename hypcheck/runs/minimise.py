@@ -182,19 +182,19 @@ def brought_back(row: Row, layout: Layout) -> Iterator[Row]:
     for alpha, gamma, height in product(_SMALL, _SMALL, {0.0, 1.0, row[6]}):
         changed |= {(alpha, gamma, 1.0, 1.0, radius, 0.0, height) for radius in (0.0, 1.0, alpha + 1)}
     limit = complexity(row)[0]
-    ways = [
-        (row, max(columns, key=lambda column: abs(row[column])), name, far)
-        for row, (name, columns), far in product(sorted(changed), MOVERS.items(), (False, True))
+    moves = [
+        (other, max(columns, key=lambda column: abs(other[column])), name, far)
+        for other, (name, columns), far in product(sorted(changed), MOVERS.items(), (False, True))
     ]
     # Only if the other numbers leave room for one that is not 0.
-    ways = [way for way in ways if sum(map(characters, way[0])) - characters(way[0][way[1]]) + 1 < limit]
-    rows = np.array([each for each, *_ in ways]).reshape(-1, 7)
-    mask = columns_of(np.array([name for _, _, name, _ in ways]))
-    factors = border_factors(rows, mask, np.array([far for *_, far in ways], dtype=np.bool_))
-    for (each, lead, _, _), factor in zip(ways, factors.tolist(), strict=True):
+    moves = [move for move in moves if sum(map(characters, move[0])) - characters(move[0][move[1]]) + 1 < limit]
+    rows = np.array([other for other, *_ in moves]).reshape(-1, 7)
+    mask = columns_of(np.array([name for _, _, name, _ in moves]))
+    factors = border_factors(rows, mask, np.array([far for *_, far in moves], dtype=np.bool_))
+    for (other, lead, _, _), factor in zip(moves, factors.tolist(), strict=True):
         if math.isfinite(factor):
-            for value in rounded(each[lead] * factor):
-                yield _with(each, {lead: value})
+            for value in rounded(other[lead] * factor):
+                yield _with(other, {lead: value})
 
 
 def _simple_values(row: Row, column: int, layout: Layout) -> set[float]:

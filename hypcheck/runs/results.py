@@ -58,7 +58,7 @@ NO_RETEST = Retest(asked=0, within=0, beyond=0)
 class CasesResult:
     """The result of some cases: a tally for each family, and `pending` cases that no tally counts yet.
 
-    `retest` counts cases that were asked again. `outcomes` are all ways in which questions ended. `excusing` are the
+    `retest` counts cases that were asked again. `outcomes` say how questions ended. `excusing` are the
     numbers of the known failures that excused a case, `named` the cases that known failures name and that were asked.
     """
 

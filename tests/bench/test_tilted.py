@@ -1,4 +1,4 @@
-"""Bench about spheroids that lean: its workloads, a small run, scenes whose mover leans, and what is refused."""
+"""Bench about tilted spheroids: its workloads, a small run, scenes whose mover is tilted, and what is refused."""
 
 from __future__ import annotations
 
@@ -126,7 +126,7 @@ def test_bench_tilted_compares_errors_and_times_with_the_reference(small):
 
 def test_the_report_of_bench_tilted_names_its_workload_and_reference(small):
     text = markdown.render(small[1]).decode()
-    assert "leaning one way around the tower" in text
+    assert "tilted one way around the tower" in text
     assert "The reference, of ratio 1, is `eigh`." in text
 
 
@@ -156,7 +156,7 @@ def test_bench_refuses_a_scene_with_a_leaning_hyperboloid(tmp_path):
         (("--tilted", "--kernel"), "--kernel measures only the fast path"),
         (
             ("--tilted", "--scene", "tower"),
-            "--tilted measures movers that lean; the mover of the scene 'tower' does not",
+            "--tilted measures tilted movers; the mover of the scene 'tower' is not",
         ),
         (("--tilted", "--workloads", "uniform"), "there is no workload 'uniform'"),
         (("--tilted", "--methods", "fast-c"), "there is no method 'fast-c'"),
@@ -168,7 +168,7 @@ def test_bench_tilted_refuses_methods_and_workloads_that_it_does_not_have(tmp_pa
 
 
 def test_bench_refuses_a_leaning_scene_together_with_another_scene(tmp_path):
-    with pytest.raises(InputError, match="leans; measure that scene alone"):
+    with pytest.raises(InputError, match="is tilted; measure that scene alone"):
         ended(tmp_path, "--scene", scene(tmp_path, '"free"'), "--scene", "tower")
 
 
