@@ -134,7 +134,8 @@ def _in_radii(rows: Rows, centres: Floats) -> tuple[Floats, Floats]:
 
 def _along_and_across(rows: Rows, along: Floats, across: Floats) -> Floats:
     """Matrices (n, 3, 3) that multiply by `along` along the spheroid's axis, by `across` across it."""
-    axis = rows[:, len(SWEEP_COLUMNS) :] / np.linalg.norm(rows[:, len(SWEEP_COLUMNS) :], axis=1, keepdims=True)
+    axis = rows[:, len(SWEEP_COLUMNS) : len(SWEEP_COLUMNS) + 3]  # heights may follow
+    axis = axis / np.linalg.norm(axis, axis=1, keepdims=True)
     onto: Floats = axis[:, :, None] * axis[:, None, :]
     return across[:, None, None] * (np.eye(3) - onto) + along[:, None, None] * onto
 
