@@ -41,6 +41,9 @@ Proof.
   rewrite minus_is_right, EL, ER by assumption; symmetry; apply Zminus_mod.
 Qed.
 
+(** The number that the C takes 128 bits for, in two's complement. *)
+Definition signed_value n := if W / 2 <=? high_word n then pattern n - bits128 else pattern n.
+
 Definition fits r := if low r <? 0 then (- (bits128 / 2) <=? low r) && (high r <? bits128 / 2) else high r <? bits128.
 
 Lemma pattern_range n : is_number n -> 0 <= pattern n < bits128.
@@ -52,6 +55,13 @@ Lemma pattern_of_negative n k : stands n k -> - (bits128 / 2) <= k < 0 -> patter
 Proof.
   intros [_ E] K; rewrite E; symmetry; apply Z.mod_unique with (-1); [left | ring].
   numbers; lia.
+Qed.
+
+Lemma signed_value_is n k : stands n k -> - (bits128 / 2) <= k < bits128 / 2 -> signed_value n = k.
+Proof.
+  intros S K; unfold signed_value; pose proof S as [[L H] _]; destruct (Z.lt_ge_cases k 0) as [N | N].
+  - pose proof (pattern_of_negative n k S ltac:(lia)) as P; destruct (Z.leb_spec (W / 2) (high_word n)); unfold pattern in *; numbers; lia.
+  - pose proof (pattern_of_unsigned n k S ltac:(numbers; lia)) as P; destruct (Z.leb_spec (W / 2) (high_word n)); unfold pattern in *; numbers; lia.
 Qed.
 
 Lemma masked_is_right n k m : stands n k -> - (bits128 / 2) <= k < bits128 / 2 ->
@@ -151,17 +161,18 @@ Qed.
 
 Section Run.
 
-Variables (num : string -> number) (x : string -> R).
+(** [shift] are the bits by which numbers are moved, by the name that the C gives them. *)
+Variables (num : string -> number) (x : string -> R) (shift : string -> Z).
 
 Definition halves (a b : string) := (x a * x b / IZR bits128)%R.
 
 (** The call of C, with its arguments. *)
 Inductive call := Plus (a c : string) | Minus (a c : string) | Times (k : Z) (a : string) | Product (a c : string)
-  | Signed (a c : string) | BothSigned (a c : string) | Square (a : string) | Moved (a c : string) | Other.
+  | Signed (a c : string) | BothSigned (a c : string) | Square (a : string) | Moved (by_name a c : string) | Other.
 
 Definition call_of (s : step) := match look (operation s) [("hc_fixed_plus", Plus); ("hc_fixed_minus", Minus);
     ("hc_fixed_product", Product); ("hc_fixed_signed_product", Signed); ("hc_fixed_both_signed_product", BothSigned);
-    ("hc_fixed_product by_t", Moved); ("hc_fixed_product by_q", Moved)], arguments s with
+    ("hc_fixed_product by_t", Moved "by_t"); ("hc_fixed_product by_q", Moved "by_q")], arguments s with
   | Some f, [Name a; Name c] => f a c
   | None, [Name a] => if String.eqb (operation s) "hc_fixed_square" then Square a else Other
   | None, [Number k; Name a] => if String.eqb (operation s) "hc_fixed_times" then Times k a else Other
@@ -175,8 +186,8 @@ Definition runs (s : step) : Prop := let n := name s in match call_of s with
   | Signed a c => num n = signed_product (num a) (num c) /\ x n = halves a c
   | BothSigned a c => num n = both_signed_product (num a) (num c) /\ x n = halves a c
   | Square a => num n = square (num a) /\ x n = halves a a
-  | Moved a c => exists k, 0 <= k /\ is_number (num n) /\ pattern (num n) = pattern (product (num a) (num c)) / 2 ^ k
-    /\ x n = (halves a c / IZR (2 ^ k))%R
+  | Moved by_name a c => let k := shift by_name in 0 <= k /\ is_number (num n)
+    /\ pattern (num n) = pattern (product (num a) (num c)) / 2 ^ k /\ x n = (halves a c / IZR (2 ^ k))%R
   | Other => False end.
 
 Definition with_two known a c (f : range -> range -> option range) := match look a known, look c known with
@@ -192,7 +203,7 @@ Definition range_of known (s : step) : option range := match call_of s with
   | Signed a c => with_two known a c (fun r q => provided ((low r <? 0) && (0 <=? low q)) (times_range r q))
   | BothSigned a c => with_two known a c (fun r q => provided ((low r <? 0) && (low q <? 0)) (times_range r q))
   | Square a => with_two known a a (fun r _ => provided (low r <? 0) (times_range r r))
-  | Moved a c => with_two known a c (fun r q =>
+  | Moved _ a c => with_two known a c (fun r q =>
       provided ((0 <=? low r) && (0 <=? low q) && fits (times_range r q)) (moved_down (times_range r q)))
   | Other => None end.
 
@@ -225,7 +236,7 @@ Proof. destruct c; [| discriminate]; intros E; injection E; auto. Qed.
 
 Lemma step_holds known s r : all_hold known -> runs s -> range_of known s = Some r -> fits r = true -> holds (name s) r.
 Proof.
-  intros K R E F; unfold runs, range_of in R, E; destruct (call_of s) as [a c | a c | m a | a c | a c | a c | a | a c |];
+  intros K R E F; unfold runs, range_of in R, E; destruct (call_of s) as [a c | a c | m a | a c | a c | a c | a | m a c |];
     try contradiction; apply two in E; try exact K; destruct E as (p & q & (v & S & I & G) & (w & T & J & H) & E);
     try (apply provided_is in E; destruct E as [C E]; repeat (apply andb_prop in C as [C ?])); try injection E as E; subst r;
     repeat match goal with X : (0 <=? _) = true |- _ => apply Z.leb_le in X | X : (_ <? 0) = true |- _ => apply Z.ltb_lt in X end.
@@ -246,7 +257,7 @@ Proof.
     exists k; rewrite RN, RX; split; [exact U | split; [apply product_within with v w |]; assumption].
   - destruct R as [RN RX]; destruct (square_stands (num a) v S) as (k & U & V); [apply (fits_signed p v (x a)); assumption |].
     exists k; rewrite RN, RX; split; [exact U | split; [apply product_within with v v |]; assumption].
-  - destruct R as (k & K0 & RN & RP & RX); destruct (product_stands (num a) (num c) v w S T) as (t & U & V);
+  - set (k := shift m) in R; destruct R as (K0 & RN & RP & RX); destruct (product_stands (num a) (num c) v w S T) as (t & U & V);
       [apply (fits_unsigned p v (x a)) | apply (fits_unsigned q w (x c)) |]; try assumption.
     assert (TI : within (times_range p q) t (halves a c)) by (apply product_within with v w; assumption).
     assert (T0 : 0 <= t).
@@ -274,10 +285,12 @@ End Run.
 (** ** The bounds of the header. *)
 
 Definition part n := match nth_error HeaderText.parts n with Some (_, t) => match declarations t with Some l => l | None => [] end | None => [] end.
-Definition C_terms := part 1.
-Definition C_discriminant := part 2.
-Definition C_at_B := part 3.
-Definition C_at_A := part 4.
+Definition C_terms := Eval vm_compute in part 1.
+Definition C_discriminant := Eval vm_compute in part 2.
+Definition C_at_B := Eval vm_compute in part 3.
+Definition C_at_A := Eval vm_compute in part 4.
+Theorem steps_are_read : [C_terms; C_discriminant; C_at_B; C_at_A] = map part [1; 2; 3; 4]%nat.
+Proof. vm_compute; reflexivity. Qed.
 
 (** Squares of lengths are below 1 in units of 2^-126, and at most one unit of them is cut; what is whole is 1/4 at least. *)
 Definition longest := (2 ^ 53 - 1) ^ 2 * 2 ^ 20.
@@ -305,25 +318,29 @@ Definition balanced grown := [("N", balanced_range (term "N") 2); ("ps", balance
 Definition said n := match look n HeaderText.fixed_bounds with Some k => k | None => -1 end.
 Definition most_grown := match look "most_grown" HeaderText.fixed_bounds with Some k => k | None => 0 end.
 
-Definition covered known l n bound := match found known l n with Some r => error r <=? bound | None => false end.
+Definition covers bounds known := forallb (fun p => match look (fst p) known with
+  | Some r => (low r <? 0) && (error r <=? snd p) | None => false end) bounds.
+Definition covered known l bounds := match ranges known l with Some t => covers bounds t | None => false end.
 Definition all_grown := map Z.of_nat (seq 0 (S (Z.to_nat most_grown))).
 
 Theorem header_covers_coefficients : (error n2_range <=? said "coefficient") && (error (term "n1") <=? said "coefficient") = true.
 Proof. vm_compute; reflexivity. Qed.
-Theorem header_covers_poles : forallb (fun n => covered poles C_at_B n (said "pole")) ["offset_at_B"; "slope_at_B"]
-  && forallb (fun n => covered poles C_at_A n (said "pole")) ["offset_at_A"; "slope_at_A"] = true.
+Theorem header_covers_poles : covered poles C_at_B (map (fun n => (n, said "pole")) ["offset_at_B"; "slope_at_B"])
+  && covered poles C_at_A (map (fun n => (n, said "pole")) ["offset_at_A"; "slope_at_A"]) = true.
 Proof. vm_compute; reflexivity. Qed.
-Theorem header_covers_cubic : forallb (fun g => covered (balanced g) C_discriminant "delta" (said "delta" * 2 ^ g)
-  && covered (balanced g) C_discriminant "middle" (said "middle" * 2 ^ g)) all_grown = true.
+Theorem header_covers_cubic : forallb (fun g => covered (balanced g) C_discriminant
+  [("delta", said "delta" * 2 ^ g); ("middle", said "middle" * 2 ^ g)]) all_grown = true.
 Proof. vm_cast_no_check (eq_refl true). Qed.
 
 (** A number farther from 0 than its bound has the sign of the exact value. *)
-Lemma covered_sign num x known l n bound : all_hold num x known -> Forall (runs num x) l -> covered known l n bound = true ->
-  exists v, stands (num n) v /\ (bound < v -> (0 < x n)%R) /\ (v < - bound -> (x n < 0)%R).
+Lemma covered_sign num x shift known l bounds n bound : all_hold num x known -> Forall (runs num x shift) l -> covered known l bounds = true ->
+  In (n, bound) bounds -> let v := signed_value (num n) in (bound < v -> (0 < x n)%R) /\ (v < - bound -> (x n < 0)%R).
 Proof.
-  unfold covered, found; intros K R C; destruct (ranges known l) as [t |] eqn:E; [| discriminate].
-  destruct (look n t) as [r |] eqn:L; [| discriminate]; apply Z.leb_le in C; unfold error in C.
-  destruct (ranges_hold num x l known t K R E n r L) as (v & S & [_ [I1 I2]] & _); exists v; split; [exact S |].
+  unfold covered, covers; intros K R C IN; destruct (ranges known l) as [t |] eqn:E; [| discriminate].
+  rewrite forallb_forall in C; specialize (C _ IN); cbn [fst snd] in C.
+  destruct (look n t) as [r |] eqn:L; [| discriminate]; apply andb_prop in C as [C0 C]; apply Z.ltb_lt in C0; apply Z.leb_le in C; unfold error in C.
+  destruct (ranges_hold num x shift l known t K R E n r L) as (v & S & I & F); cbv zeta.
+  rewrite (signed_value_is (num n) v S (fits_signed r v (x n) F C0 I)); destruct I as [_ [I1 I2]].
   assert (U : (- IZR bound <= IZR (under r))%R) by (rewrite <- opp_IZR; apply IZR_le; lia).
   assert (O : (IZR (over r) <= IZR bound)%R) by (apply IZR_le; lia).
   split; intros H; apply IZR_lt in H; [| rewrite opp_IZR in H]; lra.
@@ -335,28 +352,30 @@ Proof.
   apply in_map, in_seq; split; [apply Nat.le_0_l |]; apply le_n_S, Z2Nat.inj_le; [apply G | apply Z.le_trans with g; apply G | apply G].
 Qed.
 
-Theorem sign_of_delta num x grown : 0 <= grown <= most_grown -> all_hold num x (balanced grown) ->
-  Forall (runs num x) C_discriminant -> exists v, stands (num "delta") v
-    /\ (said "delta" * 2 ^ grown < v -> (0 < x "delta")%R) /\ (v < - (said "delta" * 2 ^ grown) -> (x "delta" < 0)%R).
+Theorem sign_of_delta num x shift grown : 0 <= grown <= most_grown -> all_hold num x (balanced grown) ->
+  Forall (runs num x shift) C_discriminant -> let v := signed_value (num "delta") in
+    (said "delta" * 2 ^ grown < v -> (0 < x "delta")%R) /\ (v < - (said "delta" * 2 ^ grown) -> (x "delta" < 0)%R).
 Proof.
-  intros G K R; pose proof (at_every_move _ header_covers_cubic grown G) as C; cbv beta in C; apply andb_prop in C.
-  destruct C as [A1 A2]; exact (covered_sign num x (balanced grown) C_discriminant "delta" _ K R A1).
+  intros G K R; pose proof (at_every_move _ header_covers_cubic grown G) as C; cbv beta in C.
+  exact (covered_sign num x shift (balanced grown) C_discriminant _ "delta" _ K R C (or_introl eq_refl)).
 Qed.
 
-Theorem sign_of_middle num x grown : 0 <= grown <= most_grown -> all_hold num x (balanced grown) ->
-  Forall (runs num x) C_discriminant -> exists v, stands (num "middle") v
-    /\ (said "middle" * 2 ^ grown < v -> (0 < x "middle")%R) /\ (v < - (said "middle" * 2 ^ grown) -> (x "middle" < 0)%R).
+Theorem sign_of_middle num x shift grown : 0 <= grown <= most_grown -> all_hold num x (balanced grown) ->
+  Forall (runs num x shift) C_discriminant -> let v := signed_value (num "middle") in
+    (said "middle" * 2 ^ grown < v -> (0 < x "middle")%R) /\ (v < - (said "middle" * 2 ^ grown) -> (x "middle" < 0)%R).
 Proof.
-  intros G K R; pose proof (at_every_move _ header_covers_cubic grown G) as C; cbv beta in C; apply andb_prop in C.
-  destruct C as [A1 A2]; exact (covered_sign num x (balanced grown) C_discriminant "middle" _ K R A2).
+  intros G K R; pose proof (at_every_move _ header_covers_cubic grown G) as C; cbv beta in C.
+  exact (covered_sign num x shift (balanced grown) C_discriminant _ "middle" _ K R C (or_intror (or_introl eq_refl))).
 Qed.
 
-Theorem signs_at_the_poles num x l n : (l = C_at_B /\ In n ["offset_at_B"; "slope_at_B"])
-  \/ (l = C_at_A /\ In n ["offset_at_A"; "slope_at_A"]) -> all_hold num x poles -> Forall (runs num x) l ->
-  exists v, stands (num n) v /\ (said "pole" < v -> (0 < x n)%R) /\ (v < - said "pole" -> (x n < 0)%R).
+Theorem signs_at_the_poles num x shift l n : (l = C_at_B /\ In n ["offset_at_B"; "slope_at_B"])
+  \/ (l = C_at_A /\ In n ["offset_at_A"; "slope_at_A"]) -> all_hold num x poles -> Forall (runs num x shift) l ->
+  let v := signed_value (num n) in (said "pole" < v -> (0 < x n)%R) /\ (v < - said "pole" -> (x n < 0)%R).
 Proof.
   intros L K R; pose proof header_covers_poles as H; apply andb_prop in H; destruct H as [H1 H2].
-  rewrite forallb_forall in H1, H2; destruct L as [[-> I] | [-> I]].
-  - exact (covered_sign num x poles C_at_B n _ K R (H1 n I)).
-  - exact (covered_sign num x poles C_at_A n _ K R (H2 n I)).
+  destruct L as [[-> I] | [-> I]]; destruct I as [<- | [<- | []]].
+  - exact (covered_sign num x shift poles C_at_B _ _ _ K R H1 (or_introl eq_refl)).
+  - exact (covered_sign num x shift poles C_at_B _ _ _ K R H1 (or_intror (or_introl eq_refl))).
+  - exact (covered_sign num x shift poles C_at_A _ _ _ K R H2 (or_introl eq_refl)).
+  - exact (covered_sign num x shift poles C_at_A _ _ _ K R H2 (or_intror (or_introl eq_refl))).
 Qed.

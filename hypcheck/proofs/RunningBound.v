@@ -1,7 +1,7 @@
 (** The running bounds of the kernel's second stage cover the errors of 3 delta, of the slopes at the poles and of the
     offsets from them, whatever was rounded and contracted. *)
 
-Require Import Reals Lra Lia List.
+Require Import Reals Lra Lia List Arith.
 From Hypcheck Require Import Geometry UnitBall Cubic Rounding Kernel.
 From Hypcheck Require StageTwo.
 Import ListNotations.
@@ -436,6 +436,66 @@ Proof.
   pose proof running_bound_covers_the_error as H; set (D := disc _ _ _) in *.
   pose proof (Rle_abs (delta_3 - 3 * D)); pose proof (Rle_abs (- (delta_3 - 3 * D))); rewrite Rabs_Ropp in *.
   split; intros; lra.
+Qed.
+
+(** ** The coefficients: what the machine computes of their bounds covers them too. *)
+
+Let at_least_still e v X : positive row e -> (count exact_inputs e <= 30)%nat -> returns e X -> value row e = v ->
+  forall k f, (k <= 100)%nat -> factor u k f -> v <= slack * f * X.
+Proof.
+  intros PE K C EV k f L F; destruct (positive_factor u exact_inputs row e X U1 PE C) as (t & T & ->).
+  pose proof (positive_value row e PE) as V0; rewrite EV in *.
+  assert (S : 1 <= slack * (f * t)) by (apply slack_covers with (k + count exact_inputs e)%nat; [lia | apply factor_mul; assumption]).
+  replace (slack * f * (v * t)) with (slack * (f * t) * v) by ring.
+  rewrite <- (Rmult_1_l v) at 1; apply Rmult_le_compat_r; assumption.
+Qed.
+
+Let still k f : (k <= 100)%nat -> factor u k f -> A <= slack * f * fA /\ B <= slack * f * fB /\ P <= slack * f * fP /\ Q <= slack * f * fQ
+  /\ A * B <= slack * f * fAB /\ B * P <= slack * f * fBP /\ A * Q <= slack * f * fAQ.
+Proof.
+  intros K F; repeat split.
+  - apply (at_least_still StageTwo.A) with k; [apply row_positive | vm_compute; lia | exact CA | | exact K | exact F]; unfold A, row; simpl; field; lra.
+  - apply (at_least_still StageTwo.B) with k; [apply row_positive | vm_compute; lia | exact CB | | exact K | exact F]; unfold B, row; simpl; field; lra.
+  - apply (at_least_still StageTwo.P) with k; [apply row_positive | vm_compute; lia | exact CP | | exact K | exact F]; unfold P, row; simpl; field; lra.
+  - apply (at_least_still StageTwo.Q) with k; [apply row_positive | vm_compute; lia | exact CQ | | exact K | exact F]; unfold Q, row; simpl; field; lra.
+  - apply (at_least_still StageTwo.AB) with k; [left; split; apply row_positive | vm_compute; lia | exact CAB | | exact K | exact F];
+      unfold A, B, row; simpl; field; lra.
+  - apply (at_least_still StageTwo.BP) with k; [left; split; apply row_positive | vm_compute; lia | exact CBP | | exact K | exact F];
+      unfold B, P, row; simpl; field; lra.
+  - apply (at_least_still StageTwo.AQ) with k; [left; split; apply row_positive | vm_compute; lia | exact CAQ | | exact K | exact F];
+      unfold A, Q, row; simpl; field; lra.
+Qed.
+
+Let exact_sizes : 0 <= A /\ 0 <= B /\ 0 <= P /\ 0 <= Q /\ 0 <= A * B /\ 0 <= B * P /\ 0 <= A * Q.
+Proof.
+  assert (0 <= A) by (apply Rlt_le, A_pos; assumption); assert (0 <= B) by (apply Rlt_le, B_pos; assumption).
+  assert (0 <= P) by (apply P_ge_0; assumption); assert (0 <= Q) by apply Q_ge_0; repeat split; try assumption;
+    apply Rmult_le_pos; assumption.
+Qed.
+
+Theorem bound_covers_c1 X : computes u exact_inputs known StageTwo.Bound.e1 X -> Rabs (f1 - UnitBall.c1 A B P Q) <= X.
+Proof.
+  intros C; destruct (positive_factor u exact_inputs known _ X U1 (sums_positive StageTwo.Bound.e1 eq_refl) C) as (f & F & ->).
+  assert (K : (count exact_inputs StageTwo.Bound.e1 <= 100)%nat) by (vm_compute; lia).
+  destruct (still _ f K F) as (SA & SB & _ & _ & SAB & SBP & SAQ); destruct exact_sizes as (A0 & B0 & _ & _ & AB0 & BP0 & AQ0).
+  apply Rle_trans with (1 := error_of_c1 alpha gamma b d x y z u Ha Hg Hb Hd U f1 C1).
+  change (value known StageTwo.Bound.e1) with (V StageTwo.Bound.e1); rewrite E1.
+  replace (12 * unit * slack * (fA + fB + fAB + (fBP + fAQ)) * f)
+    with (12 * unit * (slack * f * fA + slack * f * fB + slack * f * fAB + slack * f * fBP + slack * f * fAQ)) by ring.
+  unfold Kernel.M1; fold A B P Q; apply Rmult_le_compat; try lra; unfold unit; lra.
+Qed.
+
+Theorem bound_covers_c2 X : computes u exact_inputs known StageTwo.Bound.e2 X -> Rabs (f2 - UnitBall.c2 A B P Q) <= X.
+Proof.
+  intros C; destruct (positive_factor u exact_inputs known _ X U1 (sums_positive StageTwo.Bound.e2 eq_refl) C) as (f & F & ->).
+  assert (K : (count exact_inputs StageTwo.Bound.e2 <= 100)%nat) by (vm_compute; lia).
+  pose proof (slack_covers _ f ltac:(apply Nat.le_trans with (1 := K); lia) F) as S1.
+  destruct (still _ f K F) as (SA & SB & SP & SQ & _); destruct exact_sizes as (A0 & B0 & P0 & Q0 & _).
+  apply Rle_trans with (1 := error_of_c2 alpha gamma b d x y z u Ha Hg Hb Hd U f2 C2).
+  change (value known StageTwo.Bound.e2) with (V StageTwo.Bound.e2); rewrite E2.
+  replace (8 * unit * slack * (fA + fB + 1 + (fP + fQ)) * f)
+    with (8 * unit * (slack * f * fA + slack * f * fB + slack * f + slack * f * fP + slack * f * fQ)) by ring.
+  unfold Kernel.M2; fold A B P Q; apply Rmult_le_compat; try lra; unfold unit; lra.
 Qed.
 
 (** ** The slopes at the poles, g'(B) and g'(-A), and the offsets 3B + c2 and 3A - c2. *)

@@ -1,22 +1,99 @@
-(** Stage 5: the integers of the program that Coq reads have the signs that the exact rule asks for. *)
+(** Stage 5: every integer that Coq reads in the C fits its bits, and has the sign that the exact rule asks for. *)
 
-Require Import List String ZArith Reals Lra.
+Require Import List String ZArith Reals Lra Lia Bool.
 From Hypcheck Require Import Geometry UnitBall Cubic Rule Positions Steps.
-From Hypcheck Require Programs.
+From Hypcheck Require HeaderText.
 Import ListNotations.
 Open Scope string_scope.
 
-Section Integers.
+(** ** The steps of the C, and the bits of each number. *)
+
+Definition text := match HeaderText.parts with (_, t) :: _ => statements t | [] => [] end.
+Definition C_integers := Eval vm_compute in match every (filled text) with Some l => map meaning l | None => [] end.
+Definition C_rooms := Eval vm_compute in match every (rooms text) with Some l => l | None => [] end.
+Theorem steps_are_read : every (filled text) <> None /\ every (rooms text) = Some C_rooms
+  /\ Some C_integers = option_map (map meaning) (every (filled text)).
+Proof. vm_compute; repeat split; discriminate. Qed.
 
 (** The integers by name, each step right. *)
-Variable v : string -> Z.
-Definition integer a := match a with Name n => v n | Number z => z end.
-Definition is_right (s : step) : Prop := match arguments s with
-  | [a; c] => if String.eqb (operation s) "add" then v (name s) = (integer a + integer c)%Z
-    else if String.eqb (operation s) "sub" then v (name s) = (integer a - integer c)%Z
-    else if String.eqb (operation s) "mul" then v (name s) = (integer a * integer c)%Z else False
+Definition integer (v : string -> Z) a := match a with Name n => v n | Number z => z end.
+Definition is_right (v : string -> Z) (s : step) : Prop := match arguments s with
+  | [a; c] => if String.eqb (operation s) "add" then v (name s) = (integer v a + integer v c)%Z
+    else if String.eqb (operation s) "sub" then v (name s) = (integer v a - integer v c)%Z
+    else if String.eqb (operation s) "mul" then v (name s) = (integer v a * integer v c)%Z else False
   | _ => False end.
-Hypothesis Right : Forall is_right Programs.integers.
+
+Section Rooms.
+
+Open Scope Z_scope.
+
+Definition lengths := ["alpha"; "gamma"; "b"; "d"; "x"; "y"; "z"].
+
+(** The bits of a number by those of its arguments: its size is below 2^bits. *)
+Definition bits_of_argument (known : list (string * Z)) a := match a with Name n => look n known | Number z => Some (Z.log2 (Z.abs z) + 1) end.
+Definition bits_of known (s : step) := match arguments s with
+  | [a; c] => match bits_of_argument known a, bits_of_argument known c with
+    | Some i, Some j => if String.eqb (operation s) "mul" then Some (i + j) else Some (Z.max i j + 1) | _, _ => None end
+  | _ => None end.
+
+(** Every number has room for its bits. *)
+Fixpoint counted known (l : list step) : option (list (string * Z)) := match l with
+  | [] => Some known
+  | s :: rest => match bits_of known s, look (name s) C_rooms with
+    | Some i, Some k => if (0 <=? i) && (i <=? k) then counted ((name s, i) :: known) rest else None | _, _ => None end end.
+
+Variable v : string -> Z.
+Definition below k z := 0 <= k /\ Z.abs z < 2 ^ k.
+Definition bounded known := forall n i, look n known = Some i -> below i (v n).
+
+Lemma size_holds known s i : bounded known -> is_right v s -> bits_of known s = Some i -> below i (v (name s)).
+Proof.
+  intros K R; unfold bits_of, is_right in *; destruct (arguments s) as [| a [| c [|]]]; try discriminate.
+  assert (arg : forall e j, bits_of_argument known e = Some j -> below j (integer v e)).
+  { intros [n | z] j; cbn; [apply K | intros H; injection H as <-]; unfold below; pose proof (Z.log2_nonneg (Z.abs z)); split; [lia |].
+    destruct (Z.eq_dec z 0) as [-> | N]; [reflexivity | apply Z.log2_spec; lia]. }
+  destruct (bits_of_argument known a) as [p |] eqn:Ea; [| discriminate]; destruct (bits_of_argument known c) as [q |] eqn:Ec; [| discriminate].
+  apply arg in Ea as [P0 P]; apply arg in Ec as [Q0 Q].
+  assert (sums : forall z, Z.abs z <= Z.abs (integer v a) + Z.abs (integer v c) -> below (Z.max p q + 1) z).
+  { intros z H; split; [lia |]; rewrite Z.pow_add_r by lia; pose proof (Z.pow_le_mono_r 2 p (Z.max p q)); pose proof (Z.pow_le_mono_r 2 q (Z.max p q)); lia. }
+  destruct (String.eqb (operation s) "add") eqn:O1.
+  - apply String.eqb_eq in O1; rewrite O1; cbn; intros H; injection H as <-; apply sums; lia.
+  - destruct (String.eqb (operation s) "sub") eqn:O2.
+    + apply String.eqb_eq in O2; rewrite O2; cbn; intros H; injection H as <-; apply sums; lia.
+    + destruct (String.eqb (operation s) "mul"); [| contradiction]; intros H; injection H as <-.
+      split; [lia |]; rewrite R, Z.abs_mul, Z.pow_add_r by assumption; apply Z.mul_lt_mono_nonneg; lia.
+Qed.
+
+Theorem counts_hold l : forall known found, bounded known -> Forall (is_right v) l -> counted known l = Some found ->
+  forall s, In s l -> exists k, look (name s) C_rooms = Some k /\ Z.abs (v (name s)) < 2 ^ k.
+Proof.
+  induction l as [| s l IH]; cbn [counted]; intros known found K R E; [contradiction |].
+  inversion R; subst; destruct (bits_of known s) as [i |] eqn:G; [| discriminate]; destruct (look (name s) C_rooms) as [k |] eqn:L; [| discriminate].
+  destruct ((0 <=? i) && (i <=? k)) eqn:F; [| discriminate]; apply andb_prop in F as [_ F]; apply Z.leb_le in F.
+  pose proof (size_holds known s i K ltac:(assumption) G) as [B0 B]; pose proof (Z.pow_le_mono_r 2 i k).
+  intros t [<- | T]; [exists k; split; [exact L | lia] | apply (IH ((name s, i) :: known) found); try assumption].
+  intros n j M; cbn [look] in M; destruct (String.eqb_spec (name s) n) as [<- | N]; [injection M as <-; split; assumption | apply K; exact M].
+Qed.
+
+(** The bits that the C gives a length. *)
+Definition given := flat_map (fun n => match look n C_rooms with Some k => [(n, k)] | None => [] end) lengths.
+Theorem rooms_are_counted : map fst given = lengths /\ counted given C_integers <> None.
+Proof. vm_compute; split; [reflexivity | discriminate]. Qed.
+
+(** Where the lengths fit the bits that the C gives them, each number fits its own. *)
+Theorem rooms_suffice s : bounded given -> Forall (is_right v) C_integers -> In s C_integers ->
+  exists k, look (name s) C_rooms = Some k /\ Z.abs (v (name s)) < 2 ^ k.
+Proof.
+  intros H R I; pose proof (proj2 rooms_are_counted) as C; destruct (counted given C_integers) as [found |] eqn:E; [| contradiction].
+  exact (counts_hold C_integers given found H R E s I).
+Qed.
+
+End Rooms.
+
+Section Integers.
+
+Variable v : string -> Z.
+Hypothesis Right : Forall (is_right v) C_integers.
 
 (** The lengths in two units. *)
 Variables u w : R.
@@ -29,12 +106,12 @@ Let B := (I "gamma" * w / (I "d" * w)) ^ 2.
 Let P := ((I "x" * u) ^ 2 + (I "y" * u) ^ 2) / (I "b" * u) ^ 2.
 Let Q := (I "z" * w / (I "d" * w)) ^ 2.
 
-Let right_of n : option step := find (fun s => String.eqb (name s) n) Programs.integers.
-Let right n s : right_of n = Some s -> is_right s.
+Let right_of n : option step := find (fun s => String.eqb (name s) n) C_integers.
+Let right n s : right_of n = Some s -> is_right v s.
 Proof. intros E; apply (proj1 (Forall_forall _ _) Right); apply (find_some _ _ E). Qed.
 
 Ltac equation n := let s := eval vm_compute in (right_of n) in match s with Some ?k =>
-  let H := fresh "E" in assert (H : is_right k) by (apply (right n); vm_compute; reflexivity);
+  let H := fresh "E" in assert (H : is_right v k) by (apply (right n); vm_compute; reflexivity);
   cbv [is_right arguments operation name String.eqb Ascii.eqb Bool.eqb integer] in H;
   apply (f_equal IZR) in H; rewrite ?plus_IZR, ?minus_IZR, ?mult_IZR in H end.
 

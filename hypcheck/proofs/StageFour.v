@@ -154,24 +154,31 @@ End Run.
 
 (** ** The steps of the C. *)
 
-Definition C_tangency := part 5 ++ part 6 ++ part 7.
-Definition C_short := part 8 ++ part 9.
-Definition C_waist := part 10 ++ part 11 ++ part 12.
+Definition C_tangency := Eval vm_compute in part 5 ++ part 6 ++ part 7.
+Definition C_short := Eval vm_compute in part 8 ++ part 9.
+Definition C_waist := Eval vm_compute in part 10 ++ part 11 ++ part 12.
+Theorem steps_are_read : C_tangency ++ C_short ++ C_waist = flat_map part [5; 6; 7; 8; 9; 10; 11; 12]%nat.
+Proof. vm_compute; reflexivity. Qed.
 
 Definition lengths w := map (fun n => (n, Interval 64 0 (2 ^ w - 1))) ["alpha"; "gamma"; "b"; "d"; "x"; "y"; "z"].
 Definition long_inputs := ("M", Interval 128 0 (2 ^ 126 - 1)) :: ("e", Interval 128 0 (2 ^ 126 - 1)) :: lengths 62.
 Definition short_inputs := ("M", Interval 64 0 (2 ^ 46)) :: ("e", Interval 64 0 (2 ^ 46)) :: lengths 23.
 Definition waist_inputs := ("size", Interval 128 0 (2 ^ 126 - 1)) :: lengths 62.
 
-(** Every number fits, and what is compared with 0 has a sign. *)
-Definition all_fit inputs l asked := match intervals inputs l with
-  | Some known => forallb (fun n => match look n known with Some i => signed i | None => false end) asked | None => false end.
+(** Every number fits, and what is compared with 0 has a sign and so many bits. *)
+Definition all_fit inputs l asked bits_of := match intervals inputs l with
+  | Some known => forallb (fun n => match look n known with Some i => signed i && (bits i =? bits_of n) | None => false end) asked
+  | None => false end.
+
+Definition twice_M inputs := Z.mul 2 (match look "M" inputs with Some i => bits i | None => 0 end).
+Definition bits_of n := if existsb (String.eqb n) ["excess"; "room"] then 256 else 128.
 
 Definition of_tangency := ["r1"; "r2"; "r3"; "room_within"; "beyond"; "room_without"].
 Definition of_waist := ["W"; "opposite"; "excess"; "W_p_2"; "room"].
 
-Theorem widths_suffice : all_fit long_inputs C_tangency of_tangency = true /\ all_fit short_inputs C_short of_tangency = true
-  /\ all_fit waist_inputs C_waist of_waist = true.
+Theorem widths_suffice : all_fit long_inputs C_tangency of_tangency (fun _ => twice_M long_inputs) = true
+  /\ all_fit short_inputs C_short of_tangency (fun _ => twice_M short_inputs) = true
+  /\ all_fit waist_inputs C_waist of_waist bits_of = true.
 Proof. vm_compute; repeat split; reflexivity. Qed.
 
 (** ** What the comparisons say. *)
@@ -184,18 +191,16 @@ Hypotheses (Steps : (inputs = long_inputs /\ l = C_tangency) \/ (inputs = short_
 Hypotheses (Ia : 0 < v "alpha") (Ig : 0 < v "gamma") (Ib : 0 < v "b") (Id : 0 < v "d").
 
 (** The bits of the numbers that C compares with 0. *)
-Let wide := Z.mul 2 (match look "M" inputs with Some i => bits i | None => 0 end).
+Let wide := twice_M inputs.
 Let not_negative n := ~ 2 ^ (wide - 1) <= num n.
 
 Lemma compared n : In n of_tangency -> (is_0 num n <-> v n = 0) /\ (not_negative n <-> 0 <= v n).
 Proof.
-  intros I; assert (A : all_fit inputs l of_tangency = true) by (destruct Steps as [[-> ->] | [-> ->]]; apply widths_suffice).
+  intros I; assert (A : all_fit inputs l of_tangency (fun _ => twice_M inputs) = true)
+    by (destruct widths_suffice as (W1 & W2 & _); destruct Steps as [[-> ->] | [-> ->]]; assumption).
   unfold all_fit in A; destruct (intervals inputs l) as [known |] eqn:K; [| discriminate].
   pose proof (intervals_hold num v inner l inputs known Inputs Runs K) as H; rewrite forallb_forall in A; specialize (A n I).
-  destruct (look n known) as [i |] eqn:L; [| discriminate].
-  assert (B : bits i = wide).
-  { unfold wide; destruct Steps as [[-> ->] | [-> ->]]; vm_compute in K; injection K as <-;
-      repeat (destruct I as [<- | I]; [vm_compute in L; injection L as <-; reflexivity |]); contradiction. }
+  destruct (look n known) as [i |] eqn:L; [| discriminate]; apply andb_prop in A as [A B]; apply Z.eqb_eq in B; fold wide in B.
   destruct (asked num v n i (H n i L) A) as [Z N]; split; [exact Z |].
   unfold not_negative, is_negative in *; rewrite B in N; lia.
 Qed.
@@ -308,17 +313,13 @@ Hypotheses (Ia : 0 < v "alpha") (Ig : 0 < v "gamma") (Ib : 0 < v "b") (Id : 0 < 
 Hypothesis Size : v "size" = Z.abs (v "W").
 
 Let negative n w := 2 ^ (w - 1) <= num n.
-Definition bits_of n := if existsb (String.eqb n) ["excess"; "room"] then 256 else 128.
 
 Lemma waist_compared n : In n of_waist -> (negative n (bits_of n) <-> v n < 0).
 Proof.
-  intros I; assert (A : all_fit waist_inputs C_waist of_waist = true) by apply widths_suffice.
+  intros I; assert (A : all_fit waist_inputs C_waist of_waist bits_of = true) by apply widths_suffice.
   unfold all_fit in A; destruct (intervals waist_inputs C_waist) as [known |] eqn:K; [| discriminate].
   pose proof (intervals_hold num v inner C_waist waist_inputs known Inputs Runs K) as H; rewrite forallb_forall in A; specialize (A n I).
-  destruct (look n known) as [i |] eqn:L; [| discriminate].
-  assert (B : bits i = bits_of n).
-  { vm_compute in K; injection K as <-.
-    repeat (destruct I as [<- | I]; [vm_compute in L; injection L as <-; reflexivity |]); contradiction. }
+  destruct (look n known) as [i |] eqn:L; [| discriminate]; apply andb_prop in A as [A B]; apply Z.eqb_eq in B.
   destruct (asked num v n i (H n i L) A) as [_ N]; unfold negative, is_negative in *; rewrite B in N; exact N.
 Qed.
 

@@ -9,6 +9,15 @@ Require Import List String Ascii ZArith Bool.
 Import ListNotations.
 Open Scope string_scope.
 
+(** Long texts as bytes, which Coq reads several times as fast as strings. *)
+Inductive text := Text (bytes : list Byte.byte).
+Definition text_of (bytes : list Byte.byte) := Text bytes.
+Definition bytes_of (t : text) := let 'Text bytes := t in bytes.
+Definition string_of (t : text) := string_of_list_byte (bytes_of t).
+Declare Scope text_scope.
+Delimit Scope text_scope with text.
+String Notation text text_of bytes_of : text_scope.
+
 Inductive argument := Name (n : string) | Number (z : Z).
 Record step := Step { name : string; operation : string; arguments : list argument }.
 
@@ -108,22 +117,37 @@ Fixpoint look {A} (key : string) (table : list (string * A)) : option A := match
 Definition made (n : string) (operation : option string) (given : option (list argument)) : option step :=
   match operation, given with Some o, Some l => Some (Step n o l) | _, _ => None end.
 
-Definition valued (n : string) (value : list string) : option step := match value with
-  | [c; "?"; l; ":"; r] => made n (Some "select") (every [argument_of c; argument_of l; argument_of r])
-  | [l; o; r] => made n (look o infix) (every [argument_of l; argument_of r])
-  | [o; l] => made n (look o prefix) (every [argument_of l])
-  | ["hc_product"; "("; _; ","; l; ","; r; ")"] => made n (Some "hc_product") (every [argument_of l; argument_of r])
-  | ["hc_multiple"; "("; _; ","; l; ","; r; ")"] => made n (Some "hc_multiple") (every [argument_of l; argument_of r])
-  | ["hc_sum"; "("; _; ","; l; ","; r; ","; "1"; ")"] => made n (Some "add") (every [argument_of l; argument_of r])
-  | ["hc_sum"; "("; _; ","; l; ","; r; ","; "minus"; ")"] => made n (Some "sub") (every [argument_of l; argument_of r])
-  | ["hc_long_sum"; "("; l; ","; r; ","; "0"; ")"] => made n (Some "hc_long_plus") (every [argument_of l; argument_of r])
-  | ["hc_long_sum"; "("; l; ","; r; ","; "1"; ")"] => made n (Some "hc_long_minus") (every [argument_of l; argument_of r])
-  | ["hc_fixed_down"; "("; f; "("; l; ","; r; ")"; ","; "terms"; "->"; "by_t"; ")"] =>
-    made n (if String.eqb f "hc_fixed_product" then Some "hc_fixed_product by_t" else None) (every [argument_of l; argument_of r])
-  | ["hc_fixed_down"; "("; f; "("; l; ","; r; ")"; ","; "terms"; "->"; "by_q"; ")"] =>
-    made n (if String.eqb f "hc_fixed_product" then Some "hc_fixed_product by_q" else None) (every [argument_of l; argument_of r])
-  | f :: "(" :: rest => made n (if is_in f (map fst calls) then Some f else None) (every (call_arguments rest))
-  | _ => None end.
+(** Values of more than a call or an operator: how they are written, and the operation. "" in the place of a word is an argument,
+    and "_" any word. *)
+Definition shapes := [
+  ([""; "?"; ""; ":"; ""], "select");
+  (["hc_product"; "("; "_"; ","; ""; ","; ""; ")"], "hc_product");
+  (["hc_multiple"; "("; "_"; ","; ""; ","; ""; ")"], "hc_multiple");
+  (["hc_sum"; "("; "_"; ","; ""; ","; ""; ","; "1"; ")"], "add");
+  (["hc_sum"; "("; "_"; ","; ""; ","; ""; ","; "minus"; ")"], "sub");
+  (["hc_long_sum"; "("; ""; ","; ""; ","; "0"; ")"], "hc_long_plus");
+  (["hc_long_sum"; "("; ""; ","; ""; ","; "1"; ")"], "hc_long_minus");
+  (["hc_fixed_down"; "("; "hc_fixed_product"; "("; ""; ","; ""; ")"; ","; "terms"; "->"; "by_t"; ")"], "hc_fixed_product by_t");
+  (["hc_fixed_down"; "("; "hc_fixed_product"; "("; ""; ","; ""; ")"; ","; "terms"; "->"; "by_q"; ")"], "hc_fixed_product by_q")].
+
+(** The arguments of words that are written so. *)
+Fixpoint written (shape ws : list string) : option (list string) := match shape, ws with
+  | [], [] => Some []
+  | s :: shape', w :: ws' => match written shape' ws' with
+    | Some l => if String.eqb s "" then Some (w :: l) else if String.eqb s "_" || String.eqb s w then Some l else None
+    | None => None end
+  | _, _ => None end.
+Fixpoint shaped (table : list (list string * string)) (ws : list string) : option (string * list string) := match table with
+  | [] => None
+  | (shape, o) :: rest => match written shape ws with Some l => Some (o, l) | None => shaped rest ws end end.
+
+Definition valued (n : string) (value : list string) : option step := match shaped shapes value, value with
+  | Some (o, l), _ => made n (Some o) (every (map argument_of l))
+  | None, [l; o; r] => made n (look o infix) (every [argument_of l; argument_of r])
+  | None, [o; l] => made n (look o prefix) (every [argument_of l])
+  | None, f :: bracket :: rest =>
+    if String.eqb bracket "(" && is_in f (map fst calls) then made n (Some f) (every (call_arguments rest)) else None
+  | None, _ => None end.
 
 (** A statement of a listing. *)
 Definition listed (s : list string) : option step := match s with n :: "=" :: value => valued n value | _ => None end.

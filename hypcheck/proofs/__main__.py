@@ -49,14 +49,14 @@ def _prove(names: tuple[str, ...], built: Path) -> None:
         file = build.compile_file(name, built)
         done.append(file)
         click.echo(f"{name + '.v':20} {file.statements:3} statements {file.lines:4} lines {file.seconds:6.1f} s")
-    composed = sorted(build.assumptions(("Stages",), built)) if "Stages" in names else []
+    composed = sorted(build.assumptions(build.OF_STAGES, built)) if "Stages" in names else []
     found = build.demand_known_axioms(names, built)
     statements, lines = sum(file.statements for file in done), sum(file.lines for file in done)
     click.echo(f"{statements} statements in {lines} lines are proved. They assume, of the real numbers:")
     for axiom in sorted(found):
         click.echo(f"    {axiom}" + " (Flocq alone)" * (axiom == build.OF_FLOCQ))
     if composed:
-        click.echo(f"Print Assumptions Stages.whatever_stage_answers: {', '.join(composed)}")
+        click.echo(f"Print Assumptions of {', '.join(build.OF_STAGES)}: {', '.join(composed)}")
 
 
 def _refuse(changes: list[Weakened], built: Path) -> None:

@@ -5,7 +5,7 @@ the package.
 
 weakened.toml has constants and comparisons that Coq must refuse: each makes a statement false, or takes a proof's
 reserve. A proof that went through in spite of one would prove less than it says. Every change is made in a copy of the
-compiled proofs, and Coq is asked about the changed file alone.
+file, and Coq is asked about that alone, beside the compiled proofs.
 """
 
 from __future__ import annotations
@@ -53,8 +53,11 @@ HEADER_TEXT = "HeaderText"
 PRINTED = ("Steps", "Programs", HEADER_TEXT, "Printed", "Fixed", "FixedRuns", "Ranges")
 """What the printed C rests on, the words of 128 bits that it computes with, and the range of its floats."""
 
-COMPOSED = ("StageThree", "StageFive", "Stages", "Long", "StageFour")
-"""From the numbers of the last stages to the signs, and all stages in one theorem, Stages.whatever_stage_answers."""
+COMPOSED = ("Stages", "StageTwoAnswers", "StageThree", "StageFive", "Long", "StageFour")
+"""All stages in one theorem, Stages.whatever_stage_answers, and from the numbers of a stage to the position."""
+
+OF_STAGES = ("Stages", "StageTwoAnswers", "StageThree", "StageFive", "StageFour")
+"""The files whose theorems say that what a stage answers is the position."""
 
 FILES = (*SOUNDNESS, "ExtractedChecker", *RULE, *STAGES, *ROUNDING, *PRINTED, *COMPOSED)
 """Every file, in the order in which Coq needs them; the name says what it proves."""
@@ -158,9 +161,10 @@ def _run(command: list[str], folder: Path) -> subprocess.CompletedProcess[str]:
     return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)  # noqa: S603 - fixed names
 
 
-def refusal(folder: Path, name: str) -> str:
-    """What Coq says against a file in a folder, or nothing where it accepts it."""
-    command = ["coqc", "-q", "-R", ".", "Hypcheck", f"{name}.v"]
+def refusal(folder: Path, name: str, compiled: Path = Path()) -> str:
+    """What Coq says against a file in a folder, or nothing where it accepts it; the proofs compiled before lie there too,
+    or in a folder of their own."""
+    command = ["coqc", "-q", "-R", str(compiled), "Hypcheck", f"{name}.v"]
     found = _run(command, folder)
     return (found.stderr.strip() or "coqc failed without a message") if found.returncode else ""
 
@@ -236,11 +240,9 @@ def check_kernel(path: Path, built: Path = BUILT) -> float:
     except (OSError, UnicodeDecodeError) as error:
         raise InputError(f"{path} cannot be read: {error}") from None
     with TemporaryDirectory(prefix="hypcheck-kernel-") as folder:
-        for compiled in built.glob("*.vo"):
-            shutil.copy(compiled, folder)
         (Path(folder) / "Emitted.v").write_text(text, encoding="utf-8")
         start = perf_counter()
-        message = refusal(Path(folder), "Emitted")
+        message = refusal(Path(folder), "Emitted", built.resolve())
     if message:
         raise ProofError(f"Coq refuses {path}:\n{message}")
     return perf_counter() - start
@@ -311,11 +313,8 @@ def accepted(change: Weakened | Made, built: Path = BUILT) -> bool:
     if isinstance(change, Made) and change.until:
         changed = changed.partition(change.until)[0]
     with TemporaryDirectory(prefix="hypcheck-proofs-") as folder:
-        for compiled in built.glob("*.vo"):
-            if compiled.stem != change.file:
-                shutil.copy(compiled, folder)
         (Path(folder) / f"{change.file}.v").write_text(changed, encoding="utf-8")
-        message = refusal(Path(folder), change.file)
+        message = refusal(Path(folder), change.file, built.resolve())
     if "Syntax error" in message:
         raise ValueError(f"the change of {change.file}.v is no Coq: {message}")
     return not message

@@ -62,13 +62,14 @@ def parts(header: str) -> list[tuple[str, str]]:
 
 
 def header_text() -> str:
-    """HeaderText.v: the printed parts as strings of Coq."""
+    """HeaderText.v: the printed parts as texts of Coq."""
     text = HEADER.read_text(encoding="utf-8")
-    rows = ";\n".join(f"  ({_quoted(name)}, {_quoted(part)})" for name, part in parts(text))
+    rows = ";\n".join(f"  ({_quoted(name)}, {_quoted(part)}%text)" for name, part in parts(text))
     bounds = "; ".join(f'("{name.lower()}", {value})' for name, value in _BOUND.findall(text))
     return (
-        f"{_HEAD}Definition fixed_bounds : list (string * Z) := [{bounds}]%Z.\n"
-        f"Definition parts : list (string * string) := [\n{rows}].\n"
+        f"From Hypcheck Require Import Steps.\n{_HEAD}Definition fixed_bounds : list (string * Z) := [{bounds}]%Z.\n"
+        f"Definition texts : list (string * text) := [\n{rows}].\n"
+        "Definition parts := map (fun part => (fst part, string_of (snd part))) texts.\n"
     )
 
 

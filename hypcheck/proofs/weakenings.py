@@ -125,6 +125,7 @@ PLACES = (
     Place("1", "HalfPlanes", r"^Definition (?:beyond|within)_[KM] .*?\.$", (constants,)),
     Place("2", "Kernel", r"^Theorem error_of_\w+ .*?\.$", (constants,)),
     Place("2", "RunningBound", r"4 \* unit \* slack; .*?\] 0\.$", (constants,)),
+    Place("2", "StageTwoAnswers", r"^\| says_\w+ : .*?(?=^\||\.$)", (comparisons, guards)),
     Place("3", "FixedRuns", r"^Theorem header_covers_\w+ .*?\.$", (bounds,)),
     Place("4", "StageFour", r"^Definition (?:lengths|\w+_inputs) .*?\.$", (constants,), "(** ** What the"),
     Place("4", "Tangency", r"^Definition (?:n2_of|n1_of|tangency_equations) .*?\.$", (constants,)),
@@ -179,5 +180,5 @@ def _name_of(text: str) -> str:
 
 def sample(all_made: list[Made], count: int, seed: int) -> list[Made]:
     """So many of them from the files that Coq compiles within two seconds, drawn by the seed."""
-    quick = [each for each in all_made if each.file in {"Stages", "HalfPlanes", "Positions", "EndsChecker"}]
+    quick = [each for each in all_made if each.file in {"Stages", "StageTwoAnswers", "HalfPlanes", "Positions", "EndsChecker"}]
     return random.Random(seed).sample(quick, min(count, len(quick)))  # noqa: S311 - no secret
