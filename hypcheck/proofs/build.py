@@ -162,8 +162,10 @@ def _run(command: list[str], folder: Path) -> subprocess.CompletedProcess[str]:
 
 
 def refusal(folder: Path, name: str, compiled: Path = Path()) -> str:
-    """What Coq says against a file in a folder, or nothing where it accepts it; the proofs compiled before lie there too,
-    or in a folder of their own."""
+    """What Coq says against a file in a folder, or nothing where it accepts it.
+
+    The proofs compiled before lie there too, or in a folder of their own.
+    """
     command = ["coqc", "-q", "-R", str(compiled), "Hypcheck", f"{name}.v"]
     found = _run(command, folder)
     return (found.stderr.strip() or "coqc failed without a message") if found.returncode else ""

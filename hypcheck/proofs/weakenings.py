@@ -180,5 +180,6 @@ def _name_of(text: str) -> str:
 
 def sample(all_made: list[Made], count: int, seed: int) -> list[Made]:
     """So many of them from the files that Coq compiles within two seconds, drawn by the seed."""
-    quick = [each for each in all_made if each.file in {"Stages", "StageTwoAnswers", "HalfPlanes", "Positions", "EndsChecker"}]
+    files = {"Stages", "StageTwoAnswers", "HalfPlanes", "Positions", "EndsChecker"}
+    quick = [each for each in all_made if each.file in files]
     return random.Random(seed).sample(quick, min(count, len(quick)))  # noqa: S311 - no secret
