@@ -12,7 +12,8 @@ u² − U v² is taken. Between two neighbouring roots of them all nothing chang
 
 Roots are enclosed ever more narrowly. What is closer together than that counts as one cluster. A cluster between two
 clear times is clear if a larger spheroid that contains E at all its times is. Where that cannot be shown, E touches for
-an instant, or comes nearer than 2^−_BITS[-1] of its sweep; both count as contact.
+an instant, or comes nearer than 2^−_BITS[-1] of its sweep; both count as contact. Where the discriminant of F is 0 at
+all times there are no roots to enclose: the sweep is halved, and what comes nearer than 2^−_HALVINGS of it counts.
 """
 
 from __future__ import annotations

@@ -5,7 +5,12 @@ from __future__ import annotations
 import math
 from fractions import Fraction
 
+import numpy as np
+import pytest
+
 from hypcheck.geometry.pair import Pair, Position
+from tests.support.corpus import questions
+from tests.support.inside import NearestStage, clearances
 from tests.support.inside import position as exact_position
 from tests.support.inside import truth_nearest as nearest
 from tests.truth.tilted_cases import SYMMETRIC, TANGENT, in_floats
@@ -42,3 +47,31 @@ def test_tilted_nearest_oracle_does_not_claim_tangency_from_a_nearby_rational():
     assert not found.tangent
     assert found.position is exact_position(Pair.from_row(off).lengths)
     assert Fraction(found.clearance) != 0
+
+
+SPECIAL = {
+    "": [
+        [0.084381103515625, 0.30859375, 0.132598876953125, 0.30859375, -0.35595703125, -0.18457031250000003, 2.015625]
+    ],
+    "axis": [[1, 2, 0.5, 0.25, 0.5, 3, 1, 1, 1, 4], [1, 2, 0.5, 0.75, 2, 1, 0, 1, 1, 1]],
+}
+"""A position that is sooner certain than the last digit of its clearance; pairs with b = x or an axis of ones."""
+
+
+@pytest.mark.parametrize("groups", SPECIAL)
+def test_clearances_of_many_rows_are_those_of_each_pair_alone_for_axes_of_any_length(groups):
+    """Few of them ask for more than double-double arithmetic."""
+    rows = np.concatenate([questions(groups).rows[::60], SPECIAL[groups]])
+    found = clearances(rows)
+    assert np.mean(found.stage == NearestStage.DOUBLE_DOUBLE) > 0.55
+    for place, row in enumerate(rows.tolist()):
+        alone = nearest.nearest(Pair.from_row(row))
+        assert (found.clearance[place], found.position[place]) == (alone.clearance, alone.position), row
+    for factor in (2.0**600, -(2.0**-500)) if groups else ():
+        with np.errstate(over="ignore"):
+            axes = rows[:, 7:] * factor
+        exact = np.isfinite(axes).all(axis=1) & (axes / factor == rows[:, 7:]).all(axis=1)
+        again = clearances(np.column_stack([rows[:, :7], axes])[exact])
+        assert exact.sum() > 50
+        assert (again.clearance == found.clearance[exact]).all()
+        assert (again.stage == found.stage[exact]).all()
