@@ -48,14 +48,19 @@ def test_bracket_of_a_tilted_backward_error_holds_the_value_worked_out_by_hand(r
 
 
 @pytest.mark.parametrize(
-    "row", [(1, 4, 0.125, 0.25, 3, 1, 2, 1, 2, 3), (3, 4, 1.25, 1.25, 4.75, 0, 4, 0, 0, 1, -1, 3, 0)]
+    ("row", "answer"),
+    [
+        ((1, 4, 0.125, 0.25, 3, 1, 2, 1, 2, 3), CONTACT),
+        ((3, 4, 1.25, 1.25, 4.75, 0, 4, 0, 0, 1, -1, 3, 0), CONTACT),
+        ((3, 4, 1.25, 1.25, 4.25, 0, 4, 0, 0, 1, -1, 3, 0), EXTERIOR),
+    ],
 )
-def test_change_between_the_ends_of_a_bracket_is_neither_tolerated_nor_refused(row):
-    """A tilted pair, and one beside a rim: no single decision tells of all changes up to one."""
+def test_change_between_the_ends_of_a_bracket_is_neither_tolerated_nor_refused(row, answer):
+    """A tilted pair, and two beside a rim: no single decision tells of all changes up to one."""
     pair, truth = Pair.from_row(row), decided(row)
-    found = bracket(pair, truth, CONTACT)
-    for change, answer in ((found.lower, False), ((found.lower + found.upper) / 2, None), (found.upper, True)):
-        assert tolerated(pair, truth, [CONTACT], Fraction(change)) is answer
+    found = bracket(pair, truth, answer)
+    for change, expected in ((found.lower, False), ((found.lower + found.upper) / 2, None), (found.upper, True)):
+        assert tolerated(pair, truth, [answer], Fraction(change)) is expected
 
 
 def test_bracket_with_a_vertical_axis_holds_the_exact_error_of_the_upright_pair():

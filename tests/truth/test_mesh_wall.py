@@ -41,6 +41,8 @@ def test_mesh_oracle_knows_the_disc_of_a_solid_that_a_spheroid_touches_within_it
     inside = (5.0, 5.0, 0.5, 0.5)
     for solid, position in ((0, Position.INTERIOR), (1, Position.CONTACT)):
         assert asked(0.0, 1.0, -3, 1.2, solid, sizes=inside).position is position
+    for z, position in ((-3, Position.INTERIOR), (1, Position.INTERIOR), (1.1, Position.EXTERIOR)):  # in a mouth
+        assert asked(0.0, z, -3, 1.0, 0, sizes=inside).position is position
     assert asked(0.0, 1.6, -3, 1.0, 1, sizes=inside).position is Position.EXTERIOR
     assert asked(0.0, 1.0, -3, 3.0, 1, sizes=inside).position is Position.INTERIOR
     assert asked(0.0, 1.0, -3, 1.5, 1, sizes=inside).position is None  # it touches the disc

@@ -126,6 +126,13 @@ def test_ball_beside_a_cylinder_of_radius_2_is_clear_only_where_they_do_not_touc
     assert quadrics.position(ball, cylinder) is position
 
 
+@pytest.mark.parametrize(("x", "position"), [(0, Position.INTERIOR), (1, Position.CONTACT), (4, Position.EXTERIOR)])
+def test_unit_ball_is_beside_a_plane_where_its_centre_is_more_than_1_from_it(x, position):
+    ball = [[1, 0, 0, -x], [0, 1, 0, 0], [0, 0, 1, 0], [-x, 0, 0, x * x - 1]]
+    plane = [[0, 0, 0, 1], [0, 0, 0, 0], [0, 0, 0, 0], [1, 0, 0, -4]]  # x = 2
+    assert quadrics.position(ball, plane) is position
+
+
 def test_ball_is_decided_where_the_corner_of_a_tried_matrix_is_0():
     """The ellipsoid 4x² + 2y² + z² = 1 goes through the ball that touches x = 0 at its centre."""
     ball = [[1, 0, 0, -1], [0, 1, 0, 0], [0, 0, 1, 0], [-1, 0, 0, 0]]
