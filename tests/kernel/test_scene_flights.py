@@ -102,6 +102,17 @@ def test_the_least_distance_of_a_ball_from_a_waist_is_where_it_was_worked_out():
     assert found.least.center == pytest.approx((0, 3.5, 0), abs=1e-3)
 
 
+@pytest.mark.parametrize("far", [0.0, 2.0**30, 2.0**36, 2.0**40])
+@pytest.mark.parametrize("share", [0.125, 0.40625, 0.75])
+def test_the_least_distance_is_enclosed_as_well_where_coordinates_are_long(far, share):
+    """Past a waist at a distance of 3.5 − 2 − 1, which the flight is nearest to at a share of its segment."""
+    world = scene(Hyperboloid("tower", 2.0, 2.0**20, (far, 0.0, 0.0)))
+    found = world.first_contact([[far - 16 * share, 3.5, 0], [far + 16 * (1 - share), 3.5, 0]])
+    assert not found.hit
+    assert found.least.distance_lower <= 0.5 <= found.least.distance_upper
+    assert found.least.distance_upper - found.least.distance_lower < 1e-7 + 2.0**-37 * far
+
+
 def test_the_least_distance_over_a_solid_top_is_that_to_its_disc_and_beside_an_open_one_that_to_its_rim():
     """The top is at 4 with radius 3 · √(1 + (4/3)²) = 5. The ball's centre passes 7 high through its axis."""
     solid = Hyperboloid("trunk", 3.0, 3.0, height=Span(-4.0, 4.0), solid=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from dataclasses import replace
 from fractions import Fraction
 from functools import partial
@@ -216,6 +217,24 @@ def test_the_last_stage_for_a_tilted_mover_is_right_within_1_u_on_every_tilted_f
     criterion = judge.Criterion("position", "float64", Fraction(1))
     wrong = wrong_cases(rows, truth, found, criterion)
     assert all(judge.measured(case, "position") <= criterion.unit for case in wrong)
+
+
+@pytest.mark.parametrize(
+    ("sizes", "place", "limits"),
+    [
+        ((1.0, 1.0, 1.0, 1.0), 0, (2.0**-20, 2.0**20)),
+        ((1.0, 1.0, 1.0, 1.0), 1, (2.0**-20, 2.0**20)),
+        ((1.0, 1.0, 1.0, 1.0), 3, (2.0**-12, 2.0**12)),
+        ((2.0**-60, 2.0**-60, None, 2.0**-60), 2, (2.0**-60, 2.0**-48)),
+        ((2.0**60, 2.0**60, None, 2.0**60), 2, (2.0**48, 2.0**60)),
+    ],
+)
+def test_a_last_stage_for_a_tilted_mover_is_made_up_to_its_limits_and_not_beyond(sizes, place, limits):
+    for limit, beyond in zip(limits, (0.0, math.inf), strict=True):
+        kept = tuple(limit if k == place else size for k, size in enumerate(sizes))
+        assert tilted_search(kept, None).free
+        with pytest.raises(OverflowError, match=r"alpha/b and gamma/b must be from 2\^-20 to 2\^20"):
+            tilted_search(tuple(math.nextafter(limit, beyond) if k == place else s for k, s in enumerate(sizes)), None)
 
 
 def test_the_frame_constants_of_a_tilted_kernel_make_both_matrices_diagonal():
