@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
 from fractions import Fraction
@@ -12,8 +13,9 @@ import pytest
 from hypcheck import clearance
 from hypcheck.geometry.pair import Lengths, Pair
 from hypcheck.geometry.rows import CANNOT_SAY
+from hypcheck.truth.ended_error import enclosure
 from hypcheck.vectors.frozen import ENDED_NAMES, load
-from tests.support.inside import position
+from tests.support.inside import decide, position
 from tests.tools import ended_agreement
 from tests.tools.attack.rounding import DIRECTED, TO_NEAREST, rounded
 
@@ -123,6 +125,38 @@ def test_bounds_of_a_clearance_a_hair_from_contact_do_not_cross_and_the_upper_on
         grown = 1 + Fraction(upper) / Fraction(min(row[2:4]))
         sizes = (*row[:2], Fraction(row[2]) * grown, Fraction(row[3]) * grown)
         assert position(Lengths.of((*sizes, *row[4:]))) == 0
+
+
+def test_bounds_of_a_clearance_beside_ends_are_neighbours_of_the_exact_one_and_those_of_a_distance_hold_it():
+    rows = np.concatenate([load(name).rows[:5] for name in ("ended-uniform", "ended-rim", "ended-small-integers")])
+    found = clearance(rows)
+    for place, row in enumerate(rows.tolist()):
+        pair = Pair.from_row(row)
+        low, high = enclosure(pair, decide(pair.lengths))
+        assert math.nextafter(found.lower[place], math.inf) >= low >= found.lower[place]
+        assert math.nextafter(found.upper[place], -math.inf) <= high <= found.upper[place]
+    clear = found.position != 0
+    assert clear.sum() > 3
+    shorter, longer = rows[clear, 2:4].min(axis=1), rows[clear, 2:4].max(axis=1)
+    assert (found.distance_lower[clear] <= found.upper[clear] * longer).all()
+    assert (found.distance_upper[clear] >= found.lower[clear] * shorter).all()
+
+
+@pytest.mark.parametrize(
+    ("row", "distance", "nearest"),
+    [
+        ((3, 4, 1, 1, 3.75, 0, 6, 0, 0, 1, -1, 3, 0), 2, (3.75, 0, 3)),  # over the rim, whose radius is 15/4
+        ((3, 4, 1, 1, 1, 0, 6, 0, 0, 1, -1, 3, 1), 2, (1, 0, 3)),  # over the disc
+        ((3, 4, 0.5, 1, 6.75, 0, 7, 3, 0, 4, -1, 3, 0), 4, (3.75, 0, 3)),  # its axis points at the rim, 5 away
+        ((3, 4, 2, 1, 6.75, 0, 7, 3, 0, 4, -1, 3, 1), 4, (3.75, 0, 3)),
+        ((3, 4, 1, 1, 0, 0, 0, 0, 0, 1, -1, 3, 0), 2, None),  # within the waist
+    ],
+)
+def test_distances_beside_ends_are_those_worked_out_by_hand(row, distance, nearest):
+    found = clearance(np.array([row], float))
+    assert found.distance_lower[0] <= distance <= found.distance_upper[0]
+    assert found.distance_upper[0] - found.distance_lower[0] < 1e-7
+    assert nearest is None or found.nearest[0] == pytest.approx(nearest, abs=1e-3)
 
 
 def test_bounds_of_a_clearance_from_an_end_next_to_0_leave_room_for_the_gap():
