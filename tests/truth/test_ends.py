@@ -16,6 +16,7 @@ from hypcheck.geometry.pair import Pair, Position
 from hypcheck.truth.ended_error import clearance
 from hypcheck.truth.prove import prove
 from hypcheck.truth.sections import has_root
+from tests.support.corpus import questions
 from tests.support.inside import (
     Certificate,
     backward_error,
@@ -78,6 +79,13 @@ def test_positions_beside_ends_are_those_found_by_hand(row, ends, open_position,
         assert hypcheck.position(*row[:7], axis=row[7:] or None, **named) == expected
         if limit is not None and expected is CONTACT:
             assert decision.limit_of is limit
+
+
+@pytest.mark.parametrize("groups", ["", "axis", "axis heights"])
+def test_rule_in_the_height_gives_frozen_labels(groups):
+    some = questions(groups)[::50]
+    for case, row in zip(some.cases, some.rows.tolist(), strict=True):
+        assert heights_position(Pair.from_row(row)) == case["position"], case["id"]
 
 
 STEEP = (189762196.0, 1.0, 2604.0, 1.0, 0.0, 156261249365.0, 0.0, 0.0, 1.0, 3.0, 0.0, 94823.0, 1.0)

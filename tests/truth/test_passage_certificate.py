@@ -41,6 +41,18 @@ def test_proof_found_for_a_way_passes_its_check(row):
         assert found.first[0] <= first[1]
 
 
+def test_points_of_a_proof_of_contact_have_few_digits():
+    lengths = []
+    for row in random_ways(60):
+        _, first, certificate = prove_passage(row)
+        assert check_passage(row, certificate, first)
+        if len(certificate.points) == 2:
+            offsets = [(far - near) / Fraction(row[2]) for near, far in zip(*certificate.points, strict=True)]
+            lengths.append(max(offset.denominator.bit_length() for offset in offsets))
+    assert len(lengths) > 40
+    assert max(lengths) < 128
+
+
 def test_proofs_of_hand_worked_ways_have_the_expected_first_contacts():
     firsts = [prove_passage(row)[1] for row in (THROUGH, OUTSIDE, TUNNEL, GRAZING, STILL, INSIDE)]
     assert [first is not None for first in firsts] == [True, False, True, True, True, False]

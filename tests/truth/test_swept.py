@@ -16,6 +16,8 @@ from hypothesis import strategies as st
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Lengths, Position
+from hypcheck.truth.ended_sweeps import EndedSweep, first_contact
+from hypcheck.truth.swept import sweep_of
 from tests.support.fractions_truth import TRIPLES, exact_position, sign
 from tests.support.inside import passage
 from tests.support.inside import position as decided
@@ -278,6 +280,18 @@ def test_answer_about_a_sweep_beside_ends_agrees_with_exact_positions_on_it(upwa
             assert found.grazes == passage(smaller, start, end, axis, upward, **ends).clear
         seen["clear" if found.clear else "grazes" if found.grazes else "at once" if not before else "later"] += 1
     assert min(seen["clear"], seen["at once"], seen["later"]) > 3, seen
+
+
+def test_parts_are_in_contact_where_one_of_them_is_and_where_they_lie_on_both_sides():
+    def ball(radius, x, end):
+        return sweep_of((1, 4, radius, radius), (x, 0, 0), end, None, None, (-1.0, 1.0, 0.0))
+
+    whole, part = ball(2, 8, (0, 0, 0)), ball(1, 8, (0, 0, 0))
+    assert first_contact(EndedSweep(whole)) == (Fraction(5, 8), Fraction(5, 8))
+    assert first_contact(EndedSweep(whole, (part,))) == (Fraction(3, 4), Fraction(3, 4))
+    large, inside, outside = ball(6, 0, (0, HALF, 0)), ball(0.25, 0, (0, HALF, 0)), ball(0.25, 4, (4, HALF, 0))
+    for parts, first in (((), (0, 0)), ((inside,), None), ((outside,), None), ((inside, outside), (0, 0))):
+        assert first_contact(EndedSweep(large, parts)) == first
 
 
 def test_a_clear_way_has_no_time_of_contact():
