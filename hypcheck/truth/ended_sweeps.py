@@ -2,7 +2,8 @@
 
 Contact begins and ends where the spheroid E touches the wall or a disc without crossing it. The point of touch is
 
-- on the wall between its ends: E is tangent to the whole hyperboloid, and the discriminant of F is 0 (sweep.py);
+- on the wall between its ends: E is tangent to the whole hyperboloid, and the discriminant of F is 0 (sweep.py). Where
+  it is 0 at all times, F has fewer roots still (below);
 - on a rim: the circle just touches the ellipse of its plane, and Δ of the cubic g at that height is 0 (sections.py);
 - within a disc: its plane is tangent to E, and k at that height is 0.
 
@@ -12,8 +13,17 @@ u² − U v² is taken. Between two neighbouring roots of them all nothing chang
 
 Roots are enclosed ever more narrowly. What is closer together than that counts as one cluster. A cluster between two
 clear times is clear if a larger spheroid that contains E at all its times is. Where that cannot be shown, E touches for
-an instant, or comes nearer than 2^−_BITS[-1] of its sweep; both count as contact. Where the discriminant of F is 0 at
-all times there are no roots to enclose: the sweep is halved, and what comes nearer than 2^−_HALVINGS of it counts.
+an instant, or comes nearer than 2^−_BITS[-1] of its sweep; both count as contact.
+
+**Where F has a double root at all times**, the point x(t) that belongs to it, on both surfaces, stays a point of touch
+for all complex t. The derivative of e(x(t), t) = 0 says that the normal there is at right angles to the sweep's
+direction u. So x(t), which moves, runs along the contour of the hyperboloid and that of E in this direction: both
+bodies have one cylinder of tangents in common, and the centre goes along its axis. The planes of the two contours keep
+their directions, and meet the cylinder in two points, x(t) and another, real or not. So S + λH has a kernel of
+dimension two for the double root, which holds the direction n from one to the other, and no more as long as the root
+is double. Two points of touch appear, or vanish, where they coincide: there the root is threefold. Others do where
+another root becomes double. Either way F has fewer different roots than at most times (`root_changes`). As long as it
+has not, the two points move continuously, and pass an end of the wall on its rim.
 """
 
 from __future__ import annotations
@@ -33,9 +43,6 @@ from hypcheck.truth.sweep import StraightSweep
 
 _BITS = (60, 120, 240)
 """How many bits of their times enclosures of roots have, one after the other, where the first do not tell."""
-
-_HALVINGS = 20
-"""So often the sweep is halved where the discriminant is 0 all along."""
 
 START, END = Fraction(0), Fraction(1)
 
@@ -64,14 +71,11 @@ class EndedSweep:
         return bool(self.parts) and _clear_on_one_side(_larger(part, middle, half) for part in self.parts)
 
     @cached_property
-    def critical(self) -> list[Polynomial] | None:
-        """Polynomials in t, one of which is 0 wherever contact begins or ends; None where one would be 0 all along."""
+    def critical(self) -> list[Polynomial]:
+        """Polynomials in t, one of which is 0 wherever contact begins or ends."""
         polynomials: list[Polynomial] = []
         for sweep in (self.whole, *self.parts):
-            tangent = sweep.discriminant()
-            if not tangent:
-                return None
-            polynomials += [tangent, *_at_ends(sweep, sides=bool(self.parts))]
+            polynomials += [sweep.root_changes(), *_at_ends(sweep, sides=bool(self.parts))]
         return polynomials
 
 
@@ -118,8 +122,6 @@ def first_contact(sweep: EndedSweep) -> Interval | None:
         return START, START
     if not sweep.whole.moves or _clear_in_pieces(sweep):
         return None
-    if sweep.critical is None:
-        return _by_halving(sweep, START, END, _HALVINGS)
     first: Interval | None = None
     for bits in _BITS:
         first, certain = _first_of(sweep, _clusters(sweep.critical, bits))
@@ -136,24 +138,12 @@ def meets(sweep: EndedSweep) -> bool:
 def grazes(sweep: StraightSweep) -> bool:
     """Whether all contact on a sweep, which has some, is a touch."""
     critical = EndedSweep(sweep).critical
-    if critical is None:
-        return False
     times = [time for time in _gaps(_clusters(critical, _BITS[0])) if time is not None]
     return all(sweep.position(time) is not Position.CONTACT or sweep.tangent(time) for time in times)
 
 
 def _clear_in_pieces(sweep: EndedSweep, pieces: int = 4) -> bool:
     return all(sweep.clear(Fraction(place, pieces), Fraction(place + 1, pieces)) for place in range(pieces))
-
-
-def _by_halving(sweep: EndedSweep, first: Fraction, last: Fraction, left: int) -> Interval | None:
-    """The first piece that cannot be shown to be clear."""
-    if sweep.clear(first, last):
-        return None
-    if not left:
-        return first, last
-    middle = (first + last) / 2
-    return _by_halving(sweep, first, middle, left - 1) or _by_halving(sweep, middle, last, left - 1)
 
 
 def _clusters(critical: Sequence[Polynomial], bits: int) -> list[Interval]:
@@ -203,7 +193,11 @@ def _at_ends(sweep: StraightSweep, *, sides: bool) -> Iterator[Polynomial]:
 
 
 def _where_touched(c3: _WithRoot, c2: _WithRoot, c1: _WithRoot, c0: _WithRoot) -> Iterator[Polynomial]:
-    """Polynomials that are 0 where the circle just touches the ellipse."""
+    """Polynomials that are 0 where the circle just touches the ellipse.
+
+    Far away the circle misses E, so that Δ > 0 or c0 = c1 = 0 there (sections.py). Where one of them is 0 at all times,
+    what is left therefore is not.
+    """
     if not c0.vanishes:
         yield from exact.cubic_discriminant(c3, c2, c1, c0).norm
         return

@@ -139,6 +139,22 @@ class StraightSweep:
         discriminant = exact.cubic_discriminant if self.is_upright else exact.quartic_discriminant
         return primitive(discriminant(*map(_InTime, self.pencil)).f)
 
+    def root_changes(self) -> Polynomial:
+        """A polynomial in t, not 0, that is 0 wherever F has fewer different roots than at most times, primitive.
+
+        The discriminant; where F always has a multiple root, the next subresultant of F and F′ that is not always 0.
+        """
+        f = self.discriminant()
+        if f or self.is_upright:
+            return f or (1,)
+        a, b, c, d, e = map(_InTime, self.pencil)
+        three = (
+            a * a * (c * e * 16 - d * d * 18)
+            + a * c * (b * d * 14 - c * c * 4)
+            + b * b * (c * c - a * e * 6 - b * d * 3)
+        )
+        return primitive(three.f) or primitive((b * b * 3 - a * c * 8).f) or (1,)
+
     def touches(self, critical: Polynomial, time: Interval, side: Position) -> bool:
         """Whether a root of the critical polynomial is a contact, where both its sides have the same clear position.
 

@@ -144,12 +144,14 @@ def test_a_way_along_which_every_position_has_a_multiple_root_is_decided():
     back = by_roots(sweep_of(way[0], way[2], way[1], way[3]))
     last = Fraction(positions.count(CONTACT) - 1, 16)
     assert 1 - last - Fraction(1, 16) <= back.first[0] <= back.first[1] <= 1 - last
-    # Beside ends such a sweep is halved 20 times, and what comes nearer than 2⁻²⁰ of it counts as contact.
     ended = passage(way[0], way[2], way[1], way[3], z_min=-30)
-    assert ended.first[1] - ended.first[0] == Fraction(1, 2**20)
-    assert back.first[0] - Fraction(1, 2**11) < ended.first[0] < ended.first[1] < back.first[1]
-    assert not ended.grazes
+    assert ended.first[0] <= back.first[1]
+    assert back.first[0] <= ended.first[1] <= ended.first[0] + Fraction(1, 2**60)
+    assert ended.grazes
     assert passage(way[0], way[2], way[1], way[3], z_min=40).clear
+    for short, clear in ((-Fraction(1, 2**55), True), (Fraction(1, 2**55), False)):
+        until = [there + (back.first[0] + short) * (here - there) for here, there in zip(*way[1:3], strict=True)]
+        assert passage(way[0], way[2], until, way[3], z_min=-30).clear is clear
 
 
 @settings(max_examples=15, deadline=None)
