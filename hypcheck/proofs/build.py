@@ -3,9 +3,9 @@
 `make prove` runs it. Nothing is installed here: a missing program is named. Everything is built in build/proofs beside
 the package.
 
-weakened.toml has constants and comparisons that Coq must refuse: each makes a statement false, or takes a proof's
-reserve. A proof that went through in spite of one would prove less than it says. Every change is made in a copy of the
-file, and Coq is asked about that alone, beside the compiled proofs.
+weakened.toml has constants and comparisons that Coq must refuse: with them the proof as written does not go through;
+the statement may be false or not. A proof that went through in spite of one would prove less than it says. Every
+change is made in a copy of the file, and Coq is asked about that alone, beside the compiled proofs.
 """
 
 from __future__ import annotations
