@@ -79,7 +79,7 @@ THOROUGH = {
     "derivation": "repaired_formulas rounding",
     "implementations": "fcl_naive",
     "kernel": "header parallel_lines sanitizers scene_tilted tilted_integers tilted_sanitizers",
-    "kernel/emission": "conformance extremes foreign_text kernels leaning limits prefix scenes text",
+    "kernel/emission": "conformance extremes foreign_text kernels tilted limits prefix scenes text",
     "proofs": "proofs",
     "paper": "erratum flights forest ledger_cli ledger_search motion pitch simulate_cli tower",
     "report": "browser github hostile junit plots reference_bench scene_map simulation_pictures svg",

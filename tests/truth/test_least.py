@@ -196,9 +196,9 @@ def exactly(pair, w, turn):
     return q, up, 2 * r * (M[1] * turn[0] - M[0] * turn[1]), lengths
 
 
-@pytest.mark.parametrize("leaning", [False, True])
-def test_hairs_from_a_rim_a_disc_or_the_wall_are_decided_and_as_the_exact_rule_says(leaning):
-    rows = ended_agreement.hairs(np.random.default_rng(11), 90, leaning=leaning)
+@pytest.mark.parametrize("tilted", [False, True])
+def test_hairs_from_a_rim_a_disc_or_the_wall_are_decided_and_as_the_exact_rule_says(tilted):
+    rows = ended_agreement.hairs(np.random.default_rng(11), 90, tilted=tilted)
     for row in rows.tolist():
         pair = Pair.from_row(row)
         assert least.position(pair) is exact.position(pair.lengths)
