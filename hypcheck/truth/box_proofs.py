@@ -13,7 +13,7 @@ is said of it is then said of each row. NaN compares as no proof.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -103,6 +103,14 @@ class Form:
         adjoint = adjugate(G)
         return M, adjoint, [G[0][0], adjoint[2][2], dot(G[0], adjoint[0])]
 
+    def nearest(self, at: Number, C: Vector, v: Vector) -> tuple[Vector, list[Vector]] | None:
+        """X with (1 + λ Σ D) X = C and the matrix's inverse; None where M + λD is not shown to be positive definite."""
+        M, adjoint, minors = self.pencil(at, v)
+        if not all(part > 0 for part in minors):  # of an interval: each of its numbers
+            return None
+        inverse = [[dot(row, column) / minors[2] for column in M] for row in adjoint]
+        return [dot(row, C) for row in inverse], inverse
+
 
 def squares(p: Vector) -> Number:
     """p·p, not below 0."""
@@ -113,74 +121,6 @@ def across(v: Vector, q: Vector) -> Vector:
     """The part of q across v, (v × q) × v/(v·v)."""
     square = squares(v)
     return [part / square for part in cross(cross(v, q), v)]
-
-
-_SHARES = (1, 1 - 2.0**-20, 0.5)
-"""Shares of the λ hinted at that are tried where M + λD is not seen to be definite there."""
-
-
-class Margin:
-    """The margin on the goal's side and its derivatives at one row, in plain numbers, which prove nothing.
-
-    Where φ is largest on the goal's side, the margin is that maximum. Elsewhere λ is 0 and the margin φ₀ = −1, and the
-    derivatives are those of h at the centre, which has to change its sign first. `hint` is about the λ at which φ is
-    largest.
-    """
-
-    def __init__(self, form: Form, side: Number, hint: Number, C: Vector, v: Vector) -> None:
-        self.form, self.side, self.C, self.v = form, side, C, v
-        self.at, self.X = 0 * hint, C
-        for share in _SHARES:
-            M, adjoint, minors = form.pencil(hint * share, v)
-            definite = (self.at == 0) & (hint * side > 0) & (np.min(minors, axis=0) > 0)
-            if np.any(definite):
-                X = [dot(row, [dot(line, C) for line in M]) / minors[2] for row in adjoint]
-                self.at = np.where(definite, hint * share, self.at)[()]
-                self.X = [np.where(definite, *parts)[()] for parts in zip(X, self.X, strict=True)]
-            if np.all(definite):
-                break
-        self.n = form.gradient(self.X)
-        self.factor = 2 * np.where(self.at == 0, side, self.at)[()]
-
-    def value(self) -> Number:
-        """The margin: λ² nᵀ Σ n − 1 + λ h(X)."""
-        return (self.at * self.form.width(self.v, self.n)) ** 2 - 1 + self.at * self.form.hyperboloid(self.X)
-
-    def derivatives(self) -> Vector:
-        """The margin's derivatives by the centre and the axis."""
-        by_axis = self.form.by_axis(self.v, self.n, self.n)
-        return [*(self.factor * part for part in self.n), *(-(self.at**2) * part for part in by_axis)]
-
-    def size_derivatives(self) -> Vector:
-        """The margin's derivatives by the logarithms of the sizes."""
-        terms = [self.factor * a * b for a, b in zip(self.n, self.X, strict=True)]
-        square = 2 * self.at**2 / dot(self.v, self.v)
-        thick = square * self.form.b2 * squares(cross(self.v, self.n))
-        along = square * self.form.d2 * dot(self.v, self.n) ** 2
-        return [terms[0] + terms[1], terms[2], thick, along]
-
-    def excluded(self, place: Place, *, leave: bool) -> Any:  # noqa: ANN401 - a bool, or one of each row
-        """Whether the certificate of this row, the worst corner of a box, excludes the goal in the whole box."""
-        if leave:
-            return stays_clear(place, self.at)
-        direction = [-self.side * part for part in self.n]
-        return stays_off(place, self.side, direction, self._shares_of_radius(direction))
-
-    def _shares_of_radius(self, q: Vector) -> Iterator[Number]:
-        """How far to go along Σq: to the end, half way there from the hyperboloid, or to where h turns before it."""
-        form, width = self.form, self.form.width(self.v, q)
-        if not np.any(width):  # at the hyperboloid's centre h falls or rises in no direction
-            return
-        yield 1
-        yield (1 + np.minimum(abs(self.at * width), 1)) / 2
-        way = [part / _or_one(width) for part in form.sigma_times(self.v, q)]
-        bend = form.gradient(way)
-        yield np.clip(-dot(bend, self.C) / _or_one(dot(bend, way)), 0, 1)
-
-
-def _or_one(number: Number) -> Number:
-    """The number, or 1 for 0."""
-    return np.where(number == 0, 1, number)[()]
 
 
 @dataclass(frozen=True, slots=True)

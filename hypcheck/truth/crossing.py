@@ -1,19 +1,18 @@
 """Points that prove a crossing: the centre, and a point of the spheroid on the hyperboloid's other side.
 
-Candidates go along φ(λ) (exact.py): where its maximum is < 0, X(λ) = (M + λD)⁻¹ M C tends to a point of the hyperboloid
-within the spheroid, and a little beyond it the sides have changed. Of an upright spheroid a few simple points come
-first, since most crossings have one with few digits.
+Upright, all candidates lie in the plane through the axis: the simple ones first, then ever nearer to the best one.
+Tilted, they go along φ(λ) (exact.py): where its maximum is < 0, X(λ) = (M + λD)⁻¹ M C tends to a point of the
+hyperboloid within the spheroid, and a little beyond it the sides have changed.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
-from itertools import chain
 
 from hypcheck.geometry.pair import Lengths, over_one_denominator
 from hypcheck.truth.certificate import Point, Query
-from hypcheck.truth.pencil import Quartic, around_maximum, inside, quartic
+from hypcheck.truth.pencil import Quartic, inside, quartic, toward_maximum
 from hypcheck.truth.rationals import adjugate, dot, floor_root, precisions, root_of, times
 
 Vector = list[int]
@@ -22,22 +21,38 @@ Homogeneous = tuple[Vector, int]
 
 
 def points(pair: Query, lengths: Lengths) -> tuple[Point, ...]:
-    """The centre and a point of the spheroid strictly on the hyperboloid's other side (or the centre alone, on it).
+    """The centre and a point of the spheroid on the other side of the hyperboloid (or the centre alone, on it).
 
-    Such points rule tangency out, too. There always are some: X(λ) tends to a point within the spheroid or beyond.
+    Of a tilted pair the other point is strictly on the other side, which rules tangency out, too.
     """
-    forms, F = _Forms(pair), quartic(lengths)
-    if F.side == 0:
-        return (forms.fraction((forms.center, 1)),)
-    simple = _simple_candidates(pair, outward=F.side < 0) if lengths.is_upright else ()
-    for candidate in chain(map(forms.point, simple), _candidates(forms, F)):
-        if forms.hyperboloid(candidate) * F.side < 0 and forms.in_spheroid(candidate):
-            return (forms.fraction((forms.center, 1)), forms.fraction(candidate))
+    return _upright_points(pair, lengths) if lengths.is_upright else _tilted_points(pair, quartic(lengths))
+
+
+def _upright_points(pair: Query, lengths: Lengths) -> tuple[Point, ...]:
+    """The centre and a point of the spheroid on the other side of the hyperboloid (or the centre alone, on it)."""
+    alpha, gamma, b, d, x, y, z = (Fraction(number) for number in pair.row[:7])
+
+    def side(point: Point) -> int:
+        u, v, w = point
+        height = (u * u + v * v) / (alpha * alpha) - w * w / (gamma * gamma) - 1
+        return (height > 0) - (height < 0)
+
+    def in_spheroid(point: Point) -> bool:
+        u, v, w = point
+        return ((u - x) ** 2 + (v - y) ** 2) / (b * b) + (w - z) ** 2 / (d * d) <= 1
+
+    center = (x, y, z)
+    start = side(center)
+    if start == 0:
+        return (center,)
+    for point in _upright_candidates(pair, lengths, outward=start < 0):
+        if side(point) in (0, -start) and in_spheroid(point):
+            return (center, point)
     raise AssertionError("unreachable: the candidates do not end")
 
 
-def _simple_candidates(pair: Query, outward: bool) -> Iterator[Point]:
-    """Points of an upright spheroid's plane through the axis that have few digits."""
+def _upright_candidates(pair: Query, lengths: Lengths, outward: bool) -> Iterator[Point]:
+    """Points of the spheroid's plane through the axis, first the simple ones, then ever nearer to the best one."""
     _, _, b, d, x, y, z = (Fraction(number) for number in pair.row[:7])
     radius = root_of(x * x + y * y, 30, upward=True)
 
@@ -54,6 +69,100 @@ def _simple_candidates(pair: Query, outward: bool) -> Iterator[Point]:
         yield moved(Fraction(fifths[0], 5), Fraction(fifths[1], 5))
     if outward and abs(z) < d:  # right out from the waist, where a spheroid a little too wide for the throat sticks out
         yield moved(1 - (z / d) ** 2, Fraction(1))
+    for bits in precisions(start=8):
+        near = _near_surface(lengths, bits)
+        if near is None:
+            continue
+        stretch, height = near
+        # From the centre through the nearest point, and on by ever smaller shares of the way.
+        for beyond in (Fraction(1, 1 << bits // 2), Fraction(1, 1 << bits)):
+            along = 1 + beyond
+            w = z + d * (height - z / d) * along
+            widened = 1 + (stretch - 1) * along
+            yield (x * widened, y * widened, w) if radius else (b * stretch * along, Fraction(0), w)
+
+
+def _near_surface(lengths: Lengths, bits: int) -> tuple[Fraction, Fraction] | None:
+    """About the hyperboloid's nearest point to the centre, in spheroid radii: its radius and its height.
+
+    The radius is given as a multiple of the centre's, except on the axis. None where `bits` is too few to tell.
+    """
+    p, q, s, t = lengths.alpha**2, lengths.b**2, lengths.gamma**2, lengths.d**2
+    A, B, z = Fraction(p, q), Fraction(s, t), Fraction(lengths.z, lengths.d)
+    P = Fraction(lengths.x**2 + lengths.y**2, q)
+    if P == 0:  # a circle of nearest points
+        height = B * z / (A + B)
+        return root_of(A * (1 + height * height / B), bits), height
+    if z == 0 and A * P >= (A + B) ** 2:  # two nearest points, one above and one below
+        return A / (A + B), root_of(B * (A * P / (A + B) ** 2 - 1), bits)
+    at = _multiplier_of_nearest(lengths, bits)
+    return (A / (A + at), z * B / (B - at)) if at is not None else None
+
+
+def _multiplier_of_nearest(lengths: Lengths, bits: int) -> Fraction | None:
+    """The root of F(t) = A P/(A+t)² − B Q/(B−t)² − 1 to `bits` bits of its distance to 0 and to the pole it nears.
+
+    With t = −A m/n or t = B m/n, 0 ≤ m < n, the sign of F is that of a difference of integers.
+    """
+    p, q, s, t = lengths.alpha**2, lengths.b**2, lengths.gamma**2, lengths.d**2
+    R, S = lengths.x**2 + lengths.y**2, lengths.z**2
+
+    def falls_toward_A(m: int, n: int) -> bool:
+        other = s * q * n + p * t * m
+        return R * (n * other) ** 2 <= p * (n - m) ** 2 * (other * other + s * S * (q * n) ** 2)
+
+    def falls_toward_B(m: int, n: int) -> bool:
+        other = p * t * n + s * q * m
+        return p * R * s * (t * n * (n - m)) ** 2 <= other * other * (s * (n - m) ** 2 + S * n * n)
+
+    inside = falls_toward_A(0, 1)
+
+    def too_far(share: Fraction) -> bool:
+        m, n = share.numerator, share.denominator
+        return not falls_toward_A(m, n) if inside else falls_toward_B(m, n)
+
+    # The share's odds, 2^j : 1, first; then the share itself between two of them.
+    step, low = 1, 0
+    direction = -1 if too_far(_odds(0)) else 1
+    while too_far(_odds(low + direction * step)) is (direction < 0):
+        low += direction * step
+        step *= 2
+        if step > 64 * bits:
+            return None
+    low, high = sorted((low, low + direction * step))
+    while high - low > 1:
+        middle = (low + high) // 2
+        low, high = (low, middle) if too_far(_odds(middle)) else (middle, high)
+    share = _bisect(too_far, _odds(low), _odds(high), bits)
+    return share * (Fraction(-p, q) if inside else Fraction(s, t))
+
+
+def _odds(exponent: int) -> Fraction:
+    """The share whose odds are 2^exponent to 1."""
+    odds = Fraction(2) ** exponent
+    return odds / (odds + 1)
+
+
+def _bisect(too_far: Callable[[Fraction], bool], low: Fraction, high: Fraction, steps: int) -> Fraction:
+    for _ in range(steps):
+        middle = (low + high) / 2
+        low, high = (low, middle) if too_far(middle) else (middle, high)
+    return (low + high) / 2
+
+
+def _tilted_points(pair: Query, F: Quartic) -> tuple[Point, ...]:
+    """The centre and a point of the spheroid strictly on the hyperboloid's other side (or the centre alone, on it).
+
+    Such points rule tangency out, too. There always are some: X(λ) tends to a point within the spheroid or beyond.
+    """
+    forms = _Forms(pair)
+    center = forms.fraction((forms.center, 1))
+    if F.side == 0:
+        return (center,)
+    for candidate in _tilted_candidates(forms, F):
+        if forms.hyperboloid(candidate) * F.side < 0 and forms.in_spheroid(candidate):
+            return (center, forms.fraction(candidate))
+    raise AssertionError("unreachable: the candidates do not end")
 
 
 class _Forms:
@@ -75,11 +184,6 @@ class _Forms:
         self.inverse = [[(i == j) * q * self.V + (t - q) * v[i] * v[j] for j in range(3)] for i in range(3)]
         self.D = [s, s, -p]
         self.under_M, self.under_D = q * t * self.V, p * s
-
-    def point(self, point: Point) -> Homogeneous:
-        """A point in the caller's coordinates."""
-        whole, under = over_one_denominator([self.unit * part for part in point])
-        return whole, under
 
     def in_spheroid(self, point: Homogeneous) -> bool:
         """Whether (X − C)ᵀ M (X − C) ≤ 1."""
@@ -110,25 +214,24 @@ class _Forms:
         return (Fraction(x, under), Fraction(y, under), Fraction(z, under))
 
 
-def _candidates(forms: _Forms, F: Quartic) -> Iterator[Homogeneous]:
+def _tilted_candidates(forms: _Forms, F: Quartic) -> Iterator[Homogeneous]:
     """Points ever nearer to the best one: first along the steepest way from the centre, then X(λ), then X at a pole."""
     gradient = forms.gradient(forms.center)
     steepest, under = times(forms.inverse, gradient), forms.V * forms.under_D
     square = Fraction(dot(steepest, gradient), under * forms.under_D)
     for bits in (4, 60) if square else ():
         yield _plus((forms.center, 1), (steepest, under), -F.side * floor_root(1 / square, bits))
-    for bits, (low, high) in zip(precisions(), around_maximum(F), strict=False):
-        beyond = inside(F, high)
-        matrix, scale = forms.pencil((high if beyond else low) * F.side)
+    for steps, at in enumerate(toward_maximum(F)):
+        if not inside(F, at):
+            continue
+        matrix, scale = forms.pencil(at * F.side)
         # At a pole the adjugate has rank one, and any column spans the kernel.
         adjoint = adjugate(matrix)
         scaled = times(adjoint, times(forms.M, forms.center))
         whole = scale // forms.under_M
         point = ([part * whole for part in scaled], dot(matrix[0], adjoint[0]))
-        if beyond:
-            yield point
-        else:
-            yield from _across_the_pole(forms, F, (adjoint, scale), point, 40 + bits)
+        yield point
+        yield from _across_the_pole(forms, F, (adjoint, scale), point, 40 + steps)
 
 
 def _across_the_pole(

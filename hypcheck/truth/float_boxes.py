@@ -12,14 +12,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import ClassVar, TypeAlias
+from typing import Any, ClassVar, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import COLUMNS, SIZES
 from hypcheck.geometry.rows import Floats, Mask, Rows
-from hypcheck.truth.box_proofs import BoxKind, Form, Goal, Margin, Place
+from hypcheck.truth.box_proofs import BoxKind, Form, Goal, Place, stays_clear, stays_off
+from hypcheck.truth.rationals import dot
 
 LEAST = -46
 """Changes below 2^LEAST are not tried: there float64 intervals tell nothing."""
@@ -99,6 +100,9 @@ def _down(values: Floats) -> Floats:
 def _up(values: Floats) -> Floats:
     return np.asarray(np.nextafter(values, np.inf))
 
+
+Vectors = list[Any]
+"""Three numbers of n rows each, floats or enclosures."""
 
 KIND = BoxKind(
     between=Enclosures,
@@ -229,29 +233,37 @@ def _halves(boxes: Boxes, pull: Floats) -> Boxes:
 
 def _held(boxes: Boxes) -> tuple[Mask, Floats]:
     """Which goals one certificate excludes in each box, (n,); and how the margin changes with each number, (6, n)."""
-    held, pull = np.zeros(len(boxes.side), dtype=np.bool_), np.zeros(boxes.low.shape)
-    for leave in (True, False):
-        chosen = np.flatnonzero(boxes.leave == leave)
+    sign = np.where(boxes.leave, -1.0, 1.0)
+    pull = sign * np.stack(_Margin(boxes.sizes, boxes.middle, boxes.side).derivatives())
+    worst = _Margin(boxes.sizes, np.where(pull > 0, boxes.high, boxes.low), boxes.side)
+    held = np.zeros(len(sign), dtype=np.bool_)
+    for chosen in (np.flatnonzero(boxes.leave), np.flatnonzero(~boxes.leave)):
         if len(chosen):
-            held[chosen], pull[:, chosen] = _proved(boxes[chosen], leave=leave)
+            held[chosen] = _proved(boxes[chosen], worst.at[chosen], worst.X[:, chosen], worst.C[:, chosen])
     return held, pull
 
 
-def _proved(boxes: Boxes, *, leave: bool) -> tuple[Mask, Floats]:
-    """The same of goals that all are to leave a side, or all to come to one."""
-    pull = (-1 if leave else 1) * np.stack(_margin(boxes, boxes.middle).derivatives())
-    worst = _margin(boxes, np.where(pull > 0, boxes.high, boxes.low))
-    points = [_enclosed(part) for part in boxes.middle]
-    whole = [Enclosures(low, high) for low, high in zip(boxes.low, boxes.high, strict=True)]
-    form = Form([_enclosed(size) for size in boxes.sizes], KIND.root)
-    place = Place(KIND, form, (points[:3], points[3:]), (whole[:3], whole[3:]), list(boxes.radii))
-    return np.asarray(worst.excluded(place, leave=leave)), pull
+_SHARES = (1.0, 1 - 2.0**-20, 0.5)
 
 
-def _margin(boxes: Boxes, rest: Floats) -> Margin:
-    """The margins in plain floats at these centres and axes, (6, n)."""
-    hint = _multiplier(boxes.sizes, rest)
-    return Margin(Form(list(boxes.sizes), np.sqrt), boxes.side, hint, list(rest[:3]), list(rest[3:]))
+class _Margin:
+    """box_certificate.State of n rows in plain floats: where to look for a proof, itself none."""
+
+    def __init__(self, sizes: Floats, rest: Floats, side: Floats) -> None:
+        self.form, self.side = Form(list(sizes), np.sqrt), side
+        self.C, self.v = rest[:3], list(rest[3:])
+        hint, self.at, self.X = _multiplier(sizes, rest), np.zeros(len(side)), self.C
+        for share in _SHARES:
+            M, adjugate, minors = self.form.pencil(hint * share, self.v)
+            definite = (self.at == 0) & (hint * side > 0) & (np.min(minors, axis=0) > 0)
+            X = [dot(row, [dot(line, list(self.C)) for line in M]) / minors[2] for row in adjugate]
+            self.at, self.X = np.where(definite, hint * share, self.at), np.where(definite, np.stack(X), self.X)
+
+    def derivatives(self) -> Vectors:
+        """The margin's derivatives by the centre and the axis."""
+        n, factor = self.form.gradient(list(self.X)), 2 * np.where(self.at == 0, self.side, self.at)
+        by_axis = self.form.by_axis(self.v, n, n)
+        return [*(factor * part for part in n), *(-(self.at**2) * part for part in by_axis)]
 
 
 def _multiplier(sizes: Floats, rest: Floats) -> Floats:
@@ -299,3 +311,21 @@ def _root(A1: Floats, A2: Floats, B: Floats, P1: Floats, P2: Floats, Q: Floats) 
         low, high = np.where(reached, low, middle), np.where(reached, middle, high)
     odds = np.exp2(low)
     return np.asarray(np.where(outside, B, -least) * odds / (1 + odds))
+
+
+def _proved(boxes: Boxes, at: Floats, X: Floats, C: Floats) -> Mask:
+    """Which goals, all to leave a side or all to come to one, the certificates of the worst corners exclude."""
+    points = [_enclosed(part) for part in boxes.middle]
+    whole = [Enclosures(low, high) for low, high in zip(boxes.low, boxes.high, strict=True)]
+    form = Form([_enclosed(size) for size in boxes.sizes], KIND.root)
+    place = Place(KIND, form, (points[:3], points[3:]), (whole[:3], whole[3:]), list(boxes.radii))
+    if boxes.leave[0]:
+        return np.asarray(stays_clear(place, at))
+    plain, axis = Form(list(boxes.sizes), np.sqrt), list(boxes.middle[3:])
+    q = [-boxes.side * part for part in plain.gradient(list(X))]
+    width = plain.width(axis, q)
+    way = [part / width for part in plain.sigma_times(axis, q)]
+    bend = plain.gradient(way)
+    turn = -dot(bend, list(C)) / dot(bend, way)
+    shares = np.ones(len(turn)), (1 + np.minimum(np.abs(at * width), 1)) / 2, np.clip(turn, 0, 1)
+    return np.asarray(stays_off(place, boxes.side, q, shares))

@@ -32,7 +32,7 @@ from typing import Any, TypeAlias
 
 from hypcheck.geometry.pair import Lengths
 from hypcheck.truth.polynomials import derivative, difference, polynomial_product
-from hypcheck.truth.rationals import power_near, shortened, sign_with_root
+from hypcheck.truth.rationals import power_near, sign_with_root
 
 Number: TypeAlias = Any
 """An integer, or a polynomial in time (sweep.py): whatever has +, −, · among its kind and with integers."""
@@ -216,51 +216,18 @@ def slope_of_quotient(F: Quartic) -> tuple[int, ...]:
     return difference(polynomial_product(derivative(f), K), polynomial_product(f, derivative(K)))
 
 
-def around_maximum(F: Quartic, bits: int = 1) -> Iterator[tuple[Fraction, Fraction]]:
-    """Bounds of the μ > 0 where φ has its maximum on (0, ℓ], of `bits` bits and of twice as many each time.
-
-    By bisection. The lower one is < ℓ, the upper one need not be.
-    """
+def toward_maximum(F: Quartic) -> Iterator[Fraction]:
+    """Numbers μ > 0 that tend to where φ has its maximum on (0, ℓ], by bisection; not all of them are < ℓ."""
     slope = slope_of_quotient(F)
     largest = max(abs(coefficient) for coefficient in (*F.coefficients, *slope)).bit_length()
     low, high = Fraction(1, 2 << largest), Fraction(2 << largest)
-    left = bits
     while True:
-        far = high > 4 * low
-        middle = power_near(low, high) if far else (low + high) / 2
+        middle = power_near(low, high) if high > 4 * low else (low + high) / 2
+        yield middle
         if inside(F, middle) and sign_at(slope, middle) > 0:
             low = middle
         else:
             high = middle
-        left -= not far
-        if not left:
-            yield low, high
-            left = bits = 2 * bits
-
-
-def multipliers(lengths: Lengths, bits: int = 1) -> Iterator[Fraction]:
-    """λ that tend to where φ has its maximum, of `bits` bits and of twice as many each time; M + λD is definite.
-
-    Those of an upright pair are local maxima of its cubic, and end where it has none. Of a clear pair all prove its
-    position from one of them on.
-    """
-    return _of_cubic(cubic(lengths), bits) if lengths.is_upright else _of_quartic(quartic(lengths), bits)
-
-
-def _of_cubic(g: Cubic, bits: int) -> Iterator[Fraction]:
-    while g.n2 * g.n2 > 3 * g.n3 * g.n1:
-        at = shortened(*local_maximum(g, bits), bits - 1)  # which leaves `bits` bits at most
-        u, v = at.numerator, at.denominator
-        if u * g.t < v * g.s and -u * g.q < v * g.p:
-            yield at
-        bits *= 2
-
-
-def _of_quartic(F: Quartic, bits: int) -> Iterator[Fraction]:
-    if F.side == 0:
-        return
-    for low, _ in around_maximum(F, bits):
-        yield low * F.side
 
 
 def inside(F: Quartic, at: Fraction) -> bool:

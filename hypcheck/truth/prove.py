@@ -21,9 +21,9 @@ from hypcheck.geometry.pair import SWEEP_COLUMNS, Lengths, Pair, Position
 from hypcheck.truth import crossing, exact
 from hypcheck.truth.certificate import Certificate, PairAtTime, PassageCertificate, Point, place
 from hypcheck.truth.exact import Decision
-from hypcheck.truth.pencil import cubic, cubic_coefficients, multipliers, quartic, quartic_coefficients, sign_at
+from hypcheck.truth.pencil import Cubic, Quartic, cubic, inside, local_maximum, quartic, sign_at, toward_maximum
 from hypcheck.truth.polynomials import value
-from hypcheck.truth.rationals import rounded_toward, shortened
+from hypcheck.truth.rationals import precisions, rounded, rounded_toward, shortened
 from hypcheck.truth.sweep import StraightSweep, piece
 from hypcheck.truth.swept import Passage, by_roots, by_steps, reach, sweep_of
 
@@ -41,7 +41,8 @@ def prove(pair: Pair, decision: Decision | None = None) -> Certificate:
         return Certificate(decision.position, double_root=double_root(lengths))
     if decision.position is Position.CONTACT:
         return Certificate(decision.position, points=crossing.points(pair, lengths))
-    return Certificate(decision.position, multiplier=_clear_multiplier(lengths))
+    at = _cubic_multiplier(cubic(lengths)) if lengths.is_upright else _quartic_multiplier(quartic(lengths))
+    return Certificate(decision.position, multiplier=at)
 
 
 def double_root(lengths: Lengths) -> Fraction:
@@ -54,11 +55,25 @@ def double_root(lengths: Lengths) -> Fraction:
     return Fraction(9 * g.n3 * g.n0 - g.n1 * g.n2, 2 * h) if h else Fraction(-g.n2, 3 * g.n3)
 
 
-def _clear_multiplier(lengths: Lengths) -> Fraction:
-    """A λ that proves a clear pair, of the fewest bits (a power of two of them) that will do."""
-    coefficients = cubic_coefficients if lengths.is_upright else quartic_coefficients
-    f = coefficients(lengths, lengths.x, lengths.y, lengths.z)
-    return next(at for at in multipliers(lengths) if sign_at(f, at) > 0)
+def _cubic_multiplier(g: Cubic) -> Fraction:
+    """The local maximum of g, rounded to the fewest bits (a power of two of them) at which g is still positive."""
+    for bits in precisions():
+        at = rounded(Fraction(*local_maximum(g, bits)), bits)
+        u, v = at.numerator, at.denominator
+        inside = u < 0 or u * g.t < v * g.s  # below 0, g > 0 means λ > −A: g(−A) ≤ 0, and g rises up to there
+        if inside and ((g.n3 * u + g.n2 * v) * u + g.n1 * v * v) * u + g.n0 * v**3 > 0:
+            return at
+    raise AssertionError("unreachable: the precisions do not end")
+
+
+def _quartic_multiplier(F: Quartic) -> Fraction:
+    """A λ at which F is positive between 0 and ℓ, rounded to the fewest bits (a power of two of them) that will do."""
+    multiplier = next(at for at in toward_maximum(F) if inside(F, at) and sign_at(F.coefficients, at) > 0)
+    for bits in precisions():
+        at = rounded(multiplier, bits)
+        if inside(F, at) and sign_at(F.coefficients, at) > 0:
+            return at * F.side
+    raise AssertionError("unreachable: the precisions do not end")
 
 
 Bounds = tuple[float, float]

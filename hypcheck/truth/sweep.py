@@ -25,17 +25,20 @@ from functools import cached_property
 from hypcheck.geometry.pair import Lengths, Position, Vector
 from hypcheck.truth import exact
 from hypcheck.truth.pencil import (
+    Quartic,
+    cubic,
     cubic_coefficients,
-    multipliers,
+    inside,
+    local_maximum,
+    quartic,
     quartic_coefficients,
     second_factor,
+    sign_at,
+    slope_of_quotient,
 )
 from hypcheck.truth.polynomial_roots import Interval
 from hypcheck.truth.polynomials import Polynomial, polynomial_product, polynomial_sum, primitive, value
-from hypcheck.truth.rationals import dot, sign_with_root
-
-_FIRST_BITS = 12
-"""Of the first multiplier that is tried: fewer seldom prove a time, and never far."""
+from hypcheck.truth.rationals import dot, shortened, sign_with_root
 
 
 def piece(pencil: Sequence[Polynomial], multiplier: Fraction) -> Polynomial:
@@ -124,7 +127,7 @@ class StraightSweep:
 
     def multipliers(self, time: Fraction) -> Iterator[Fraction]:
         """Ever better λ for a time at which the spheroid is clear; sooner or later all prove it."""
-        return multipliers(self.at(time), _FIRST_BITS)
+        return _at_local_maximum(self.at(time)) if self.is_upright else _at_maximum(quartic(self.at(time)))
 
     def critical(self) -> Polynomial:
         """A polynomial in t, not 0, with a root wherever the position beside the whole hyperboloid changes, primitive.
@@ -211,6 +214,43 @@ class StraightSweep:
                         total[-place] = total[-place] + factor * number
             derivatives.append(total)
         return derivatives[0], derivatives[1], derivatives[2]
+
+
+def _at_local_maximum(lengths: Lengths) -> Iterator[Fraction]:
+    """The local maximum of g, rounded to ever more bits, where that is admissible."""
+    g = cubic(lengths)
+    bits = 12
+    while g.n2 * g.n2 > 3 * g.n3 * g.n1:
+        at = shortened(*local_maximum(g, bits), bits)
+        u, v = at.numerator, at.denominator
+        if u * g.t < v * g.s and -u * g.q < v * g.p:
+            yield at
+        bits *= 2
+
+
+def _at_maximum(F: Quartic) -> Iterator[Fraction]:
+    """Numbers that tend to where φ has its maximum, by bisection with exact signs."""
+    if F.side == 0:
+        return
+    slope = slope_of_quotient(F)
+    largest = max(map(abs, (*F.coefficients, *slope))).bit_length()
+    low, high = -largest - 1, largest + 1  # exponents first
+    while high - low > 1:
+        middle = (low + high) // 2
+        low, high = (middle, high) if _rises(F, slope, Fraction(2) ** middle) else (low, middle)
+    low_end, width, bits = Fraction(2) ** low, Fraction(2) ** low, 8
+    while True:
+        for _ in range(bits):
+            width /= 2
+            if _rises(F, slope, low_end + width):
+                low_end += width
+        yield low_end * F.side
+        bits *= 2
+
+
+def _rises(F: Quartic, slope: tuple[int, ...], at: Fraction) -> bool:
+    """Whether `at` lies in (0, ℓ) before the maximum of φ."""
+    return inside(F, at) and sign_at(slope, at) > 0
 
 
 def _ring_between(at_pole: Quadratic, slope: Quadratic, curvature: Quadratic, low: Fraction, high: Fraction) -> bool:
