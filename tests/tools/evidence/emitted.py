@@ -123,9 +123,9 @@ def section(figures: Figures) -> str:
     )
     return f"""\
 {len(figures["texts"])} texts: kernels of scenes and of whole scenes, in both precisions, for movers that stand and
-that lean; every method; the adapters in C and C++ with each of their stubs. Kernels are asked frozen and drawn rows,
-the families of their sizes, other sizes and axes, and rows at, beside and beyond the limits of each stage; answers are
-judged as those of any implementation, one in seven of those at the limits. Adapters are
+that are tilted; every method; the adapters in C and C++ with each of their stubs. Kernels are asked frozen and drawn
+rows, the families of their sizes, other sizes and axes, and rows at, beside and beyond the limits of each stage;
+answers are judged as those of any implementation, one in seven of those at the limits. Adapters are
 told questions, and lines and ends of input that are none (`tests/tools/evidence/emitted*.py`).
 
 | | count | reached | share |

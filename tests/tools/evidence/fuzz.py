@@ -127,16 +127,16 @@ def section(figures: Figures) -> str:
         ran += f" By hand it ran for {hours:.1f} hours on one header: {long['executions']:,} inputs, {_found(long)}."
     return f"""\
 libFuzzer (clang) makes inputs from the frozen vectors and from a kept corpus (`fuzzing/corpus.txt`):
-rows of 7 and of 10, scenes, ways and clearances, for every instruction set, rounding mode and question. The header is
+rows of 7 and of 10, scenes, sweeps and clearances, for every instruction set, rounding mode and question. The header is
 compiled with address and undefined-behaviour sanitizers. Its answers are compared with an oracle that is in the fuzzer
 and shares nothing with the kernel: det(S + λH) from the two matrices in GMP's whole numbers, its roots separated by
-Sturm's sequence, and Sylvester's criterion between them. Of a way seven places are decided so, and the place of the
+Sturm's sequence, and Sylvester's criterion between them. Of a sweep seven places are decided so, and the place of the
 hit; of a clearance both bounds are, on a spheroid grown by them.
 
 {ran}
 
-Scenes, ways and clearances whose exponents lie over 400 apart are left to the frozen vectors: the integers of one such
-row take milliseconds.
+Scenes, sweeps and clearances whose exponents lie over 400 apart are left to the frozen vectors: the integers of one
+such row take milliseconds.
 """
 
 
