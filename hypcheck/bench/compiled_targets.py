@@ -132,8 +132,8 @@ def threads_in_cache(folder: Path, rounds: int) -> Iterator[KernelLine]:
     columns, out = uniform_columns(2 * CACHED), np.zeros(2 * CACHED, dtype=np.int8)
     library = c_baselines(folder)[0]
     works: dict[str, Part] = {
-        "ask": lambda part, samples: library.of_scene(part, samples)(AGAIN),
-        "read": lambda part, _found: library.reading(part)(AGAIN),
+        "ask": lambda part, out: library.of_scene(part, out)(AGAIN),
+        "read": lambda part, _out: library.reading(part)(AGAIN),
     }
     entries = [
         TimingEntry(

@@ -174,7 +174,7 @@ def explorer_sections(record: Record) -> Iterator[Section]:
     shown = list(shown_case(record))
     rows = [failure.row for failure in failures(record) if can_be_drawn(failure.row)]
     if shown or rows:
-        row = shown[0][0] if shown else rows[0]
+        row = shown[0][0] if shown else min(rows, key=_spread)
         yield Section("Look closer", (*(Paragraph(text) for _, text in shown), Explorer(row)), page=True)
 
 
@@ -194,7 +194,7 @@ def shown_case(record: Record) -> Iterator[tuple[tuple[float, ...], Text]]:
         for case in group.worst
         if total.gated and case.status in (group.failing or ())
     ]
-    drawable = [(case, row, total) for case, row, total in failing if can_be_drawn(row) and _fits(row)]
+    drawable = [(case, row, total) for case, row, total in failing if can_be_drawn(row) and _spread(row) <= _ALIKE]
     for case, row, total in sorted(drawable, key=lambda drawn: (_flat(drawn[1]), -drawn[0].backward_error))[:1]:
         answers = f" is {truth_in_words(case.truth, total.question)}; ", Code(total.name), " answered "
         yield row, (Code(case.case), *answers, Strong(in_words(case.answer, total.question)), ".")
@@ -204,12 +204,11 @@ _ALIKE = 20.0
 """Lengths of a picture differ by at most this factor if all of them are to be seen."""
 
 
-def _fits(row: Sequence[float]) -> bool:
-    """Whether the waist and the spheroid have sizes that fit into one picture, and the wall is near the spheroid."""
+def _spread(row: Sequence[float]) -> float:
+    """How much the sizes of waist and spheroid differ, or four times the radii to the wall, if that is more."""
     alpha, gamma, b, d, x, y, z = row
     gap = abs(math.hypot(x, y) - alpha * math.hypot(1, z / gamma))
-    sizes = (alpha, b, d)
-    return max(sizes) <= _ALIKE * min(sizes) and gap <= _ALIKE / 4 * b
+    return max(max(alpha, b, d) / min(alpha, b, d), 4 * gap / b)
 
 
 def _flat(row: Sequence[float]) -> bool:
