@@ -65,9 +65,8 @@ def passage(
     at the start and 1 at the end, NaN where there is none, and `.first`, the same as exact fractions or None; for many
     sweeps these are arrays. One sweep may have fractions for numbers, and an `upward`, any vector along the
     hyperboloid's axis; its answer has `.start`, `.end`, `.grazes` besides. Exact for every valid value; where the
-    hyperboloid ends, a miss by less than 2^−240 of the sizes counts as contact, and one by less than 2^−20 of the sweep
-    where the determinant of the pencil has a multiple root at all times. Raises InputError where a size is not finite
-    and > 0, a coordinate not finite, an axis without direction, or z_min not less than z_max.
+    hyperboloid ends, a miss by less than 2^−240 of the spheroid's size counts as contact. Raises InputError where a
+    size is not finite and > 0, a coordinate not finite, an axis without direction, or z_min not less than z_max.
 
     >>> passage((1, 2, 1, 1), (4, 0, 0), (0, 0, 0)).hit  # half of the way to the axis
     True

@@ -13,7 +13,7 @@ u² − U v² is taken. Between two neighbouring roots of them all nothing chang
 
 Roots are enclosed ever more narrowly. What is closer together than that counts as one cluster. A cluster between two
 clear times is clear if a larger spheroid that contains E at all its times is. Where that cannot be shown, E touches for
-an instant, or comes nearer than 2^−_BITS[-1] of its sweep; both count as contact.
+an instant, or one larger by 2^−_BITS[-1] of itself does; both count as contact.
 
 **Where F has a double root at all times**, the point x(t) that belongs to it, on both surfaces, stays a point of touch
 for all complex t. The derivative of e(x(t), t) = 0 says that the normal there is at right angles to the sweep's
@@ -28,6 +28,7 @@ has not, the two points move continuously, and pass an end of the wall on its ri
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -42,7 +43,10 @@ from hypcheck.truth.sections import Sections
 from hypcheck.truth.sweep import StraightSweep
 
 _BITS = (60, 120, 240)
-"""How many bits of their times enclosures of roots have, one after the other, where the first do not tell."""
+"""How narrow enclosures of roots are, one after the other, where the first do not tell: 2^−bits of the sweep at most,
+
+and so narrow that the spheroid moves within them by 2^−bits of its size at most, however long the sweep is.
+"""
 
 START, END = Fraction(0), Fraction(1)
 
@@ -78,6 +82,11 @@ class EndedSweep:
             polynomials += [sweep.root_changes(), *_at_ends(sweep, sides=bool(self.parts))]
         return polynomials
 
+    def clusters(self, bits: int) -> list[Interval]:
+        """Disjoint intervals that hold all times at which contact begins or ends, in order, so narrow as _BITS says."""
+        longest = max(_radii(sweep) for sweep in (self.whole, *self.parts))
+        return _clusters(self.critical, bits + math.ceil(longest).bit_length())
+
 
 def _clear_on_one_side(positions: Iterator[Position]) -> bool:
     sides = set(positions)
@@ -89,17 +98,20 @@ def _larger(sweep: StraightSweep, middle: Fraction, half: Fraction) -> Position:
 
     Moved by a vector, a spheroid is contained in one that is larger by the vector's length in radii.
     """
-    lengths, step = sweep.at(middle), sweep.step
-    u, v, w = (abs(part) * half * middle.denominator for part in step)
-    if sweep.is_upright and lengths.upward == (0, 0, 1):
-        radii = (u + v) / lengths.b + w / lengths.d
-    else:
-        radii = (u + v + w) / min(lengths.b, lengths.d)
+    lengths, radii = sweep.at(middle), _radii(sweep) * half
     if not radii:
         return exact.position(lengths)
     bits = radii.denominator.bit_length() - radii.numerator.bit_length() - 1  # 2^−bits ≥ radii
     unit, more = (1 << bits, 1) if bits > 0 else (1, 1 << -bits)
     return exact.position(_scaled(lengths, unit, unit + more))
+
+
+def _radii(sweep: StraightSweep) -> Fraction:
+    """At least how many radii of the spheroid, in the direction of the sweep, a sweep is long."""
+    start, (u, v, w) = sweep.start, map(abs, sweep.step)
+    if sweep.is_upright and start.upward == (0, 0, 1):
+        return Fraction(u + v, start.b) + Fraction(w, start.d)
+    return Fraction(u + v + w, min(start.b, start.d))
 
 
 def _scaled(lengths: Lengths, unit: int, radius: int) -> Lengths:
@@ -124,7 +136,7 @@ def first_contact(sweep: EndedSweep) -> Interval | None:
         return None
     first: Interval | None = None
     for bits in _BITS:
-        first, certain = _first_of(sweep, _clusters(sweep.critical, bits))
+        first, certain = _first_of(sweep, sweep.clusters(bits))
         if certain:
             break
     return first
@@ -137,8 +149,7 @@ def meets(sweep: EndedSweep) -> bool:
 
 def grazes(sweep: StraightSweep) -> bool:
     """Whether all contact on a sweep, which has some, is a touch."""
-    critical = EndedSweep(sweep).critical
-    times = [time for time in _gaps(_clusters(critical, _BITS[0])) if time is not None]
+    times = [time for time in _gaps(EndedSweep(sweep).clusters(_BITS[0])) if time is not None]
     return all(sweep.position(time) is not Position.CONTACT or sweep.tangent(time) for time in times)
 
 

@@ -195,9 +195,9 @@ def passage(
     `axis` is any vector along the spheroid's axis of revolution, which keeps its direction on the sweep, and `upward`
     any along the hyperboloid's; they are vertical where they are None. The hyperboloid ends at the heights `z_min` and
     `z_max` along its axis; with `solid`, flat ends belong to it. Exact for every valid value, in every regime; where
-    the hyperboloid ends, a miss by less than 2^−240 of the sizes counts as contact. Raises InputError where a size is
-    not finite and > 0, a coordinate not finite, an axis without direction, z_min not less than z_max, or their number
-    not 4, 3, 3, 3 and 3.
+    the hyperboloid ends, a miss by less than 2^−240 of the spheroid's size counts as contact. Raises InputError where a
+    size is not finite and > 0, a coordinate not finite, an axis without direction, z_min not less than z_max, or their
+    number not 4, 3, 3, 3 and 3.
     """
     sweep = sweep_of(sizes, start, end, axis, upward, (z_min, z_max, solid))
     if sweep.start.has_ends:

@@ -282,6 +282,13 @@ def test_answer_about_a_sweep_beside_ends_agrees_with_exact_positions_on_it(upwa
     assert min(seen["clear"], seen["at once"], seen["later"]) > 3, seen
 
 
+@pytest.mark.parametrize("axis", [(0, 0, 1), (0.3, 0.1, 1)])
+def test_a_sweep_of_any_length_beside_an_end_is_clear_where_it_passes_at_a_distance(axis):
+    for length in (1e80, 1e160):
+        ways = [((-length, y, 0.25), (1.37 * length, y, 0.25)) for y in (3, 1.2)]
+        assert [passage((1, 2, 0.5, 0.4), *way, axis, z_max=5.0).hit for way in ways] == [False, True]
+
+
 def test_parts_are_in_contact_where_one_of_them_is_and_where_they_lie_on_both_sides():
     def ball(radius, x, end):
         return sweep_of((1, 4, radius, radius), (x, 0, 0), end, None, None, (-1.0, 1.0, 0.0))
