@@ -18,16 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck.bench.c_source import (
-    FAST,
-    WORDS,
-    CMethod,
-    baselines_source,
-    dual,
-    of_formula,
-    source,
-    trigonometric,
-)
+from hypcheck.bench import c_source
 from hypcheck.bench.contender import EmptyCall, LoadedMethod, PreparedWork
 from hypcheck.bench.workloads import scene_of
 from hypcheck.derivation.formulas import FORMULAS, REPAIRED
@@ -60,14 +51,14 @@ allow FMA."""
 
 
 @cache
-def bodies() -> tuple[CMethod, ...]:
+def bodies() -> tuple[c_source.CMethod, ...]:
     """Every method in C; its place in the driver's table is its place here plus one."""
-    listed = [of_formula(FORMULAS[name], format_name) for name in LISTED for format_name in FORMATS]
-    roots = [trigonometric(format_name) for format_name in FORMATS]
-    others = [of_formula(FORMULAS["table-2"], "longdouble"), of_formula(RECIPROCAL, "float64")]
-    others.append(of_formula(REPAIRED["procedure-1-repaired"], "float64"))
-    duals = [dual(format_name) for format_name in FORMATS]
-    return (FAST, *listed, *others, *roots, *duals)
+    listed = [c_source.of_formula(FORMULAS[name], format_name) for name in LISTED for format_name in FORMATS]
+    roots = [c_source.trigonometric(format_name) for format_name in FORMATS]
+    others = [c_source.of_formula(FORMULAS["table-2"], "longdouble"), c_source.of_formula(RECIPROCAL, "float64")]
+    others.append(c_source.of_formula(REPAIRED["procedure-1-repaired"], "float64"))
+    duals = [c_source.dual(format_name) for format_name in FORMATS]
+    return (c_source.FAST, *listed, *others, *roots, *duals)
 
 
 def place_of(name: str) -> int:
@@ -78,7 +69,7 @@ def place_of(name: str) -> int:
 def compiled(folder: Path) -> tuple[Path, CompilerLine]:
     """The library of the methods, made in a folder. Raises UnavailableError if no compiler can make it."""
     code, methods, library = folder / "methods.c", folder / "methods.o", folder / "methods.so"
-    code.write_text(source(bodies()), encoding="ascii")
+    code.write_text(c_source.source(bodies()), encoding="ascii")
     with ThreadPoolExecutor(1) as beside:
         kernel = beside.submit(_kernel, folder)
         compiler = compile_c(code, methods, "-c")
@@ -274,7 +265,9 @@ class CBaseline:
 
     def product(self) -> Clocked:
         """Multiply two long integers, half of the product: what exact decisions are made of."""
-        numbers = np.random.Generator(np.random.PCG64(1)).integers(1 << 31, 1 << 32, (2, WORDS), dtype=np.uint32)
+        numbers = np.random.Generator(np.random.PCG64(1)).integers(
+            1 << 31, 1 << 32, (2, c_source.WORDS), dtype=np.uint32
+        )
         no_answers = np.zeros(0, dtype=np.int8)
         return clocked_in_c(lambda times: self.library.products(times, *_pointers(numbers)), no_answers, thread_time_ns)
 
@@ -312,7 +305,7 @@ def c_baselines(folder: Path, level: str | None = None) -> list[CBaseline]:
     Raises UnavailableError if there is no compiler.
     """
     program, code = compiler_here(), folder / "baselines.c"
-    code.write_text(baselines_source(), encoding="ascii")
+    code.write_text(c_source.baselines_source(), encoding="ascii")
     baselines = []
     for number, flags in enumerate(LEVEL_FLAGS[level or str(choice().level)]):
         library = folder / f"baselines-{number}.so"

@@ -23,15 +23,7 @@ from hypcheck.bench.plan import PASSAGE, TILTED_REFERENCE, BenchPlan, chosen_nam
 from hypcheck.derivation.formulas import FORMULAS
 from hypcheck.geometry.pair import Pair
 from hypcheck.geometry.rows import SWEEPS, Rows
-from hypcheck.implementations import alternatives
-from hypcheck.implementations.builtin import (
-    SAMPLES,
-    builtin_methods,
-    fast_positions,
-    fast_scene,
-    passage_mesh_methods,
-    passage_methods,
-)
+from hypcheck.implementations import alternatives, builtin
 from hypcheck.implementations.domain import EVERYWHERE, Domain
 from hypcheck.implementations.meshes import COAL, FCL, PAIRINGS, MeshLibrary, scene_mesh
 from hypcheck.implementations.method import Answers, ByScene, Method, by_scene, on_scene
@@ -56,7 +48,7 @@ Methods = dict[str, Method]
 
 def numpy_contenders() -> Iterable[Contender]:
     """All of them, including the reference."""
-    methods = builtin_methods()
+    methods = builtin.builtin_methods()
     yield from _formulas(methods)
     yield from _fast(methods)
     yield from _roots(methods)
@@ -91,7 +83,7 @@ def _fast(methods: Methods) -> Iterable[Contender]:
     yield of_method(methods["fast-numpy"], "numpy", "certified", load=load, timed=8192, note=CERTIFIED)
     if choice().kernel == "compiled":
         # Only a batch: one call at a time is position-python from Python, and fast-c from C.
-        yield of_method(methods["fast"], "C", "certified", scene=fast_scene, note=_as_installed(), singles=0)
+        yield of_method(methods["fast"], "C", "certified", scene=builtin.fast_scene, note=_as_installed(), singles=0)
     yield of_method(
         methods["fast"], "python", "certified", name="position-python", title="hypcheck.position, one call a row",
         load=_position, timed=1024, singles=1024, note=CERTIFIED,
@@ -152,7 +144,7 @@ SINGLES = 4096
 
 def c_contenders(library: Path | None) -> Iterable[Contender]:
     """Each method of the library, which may not be compiled yet, named as in numpy with -c appended."""
-    methods = builtin_methods()
+    methods = builtin.builtin_methods()
     for place, body in enumerate(bodies(), start=1):
         if body.name in methods:  # a long double that is no more than float64 is left out
             kind, note = _KINDS.get(body.name.rpartition("-")[0] or body.name, ("algebraic", ""))
@@ -188,7 +180,7 @@ def mesh_contenders() -> Iterable[Contender]:
     for pairing in PAIRINGS:
         for triangles in COAL_TRIANGLES:
             yield built_once(COAL, pairing, triangles)
-    methods = builtin_methods()
+    methods = builtin.builtin_methods()
     for pairing in PAIRINGS:
         if f"fcl-{pairing}-mesh" in methods:
             yield of_method(
@@ -234,7 +226,7 @@ def tilted_contenders() -> Iterable[Contender]:
     """All of them, including the reference."""
     if choice().kernel == "compiled":
         title, note = "the fast path, as installed", _as_installed()
-        yield _ours("fast", "C", "certified", title, fast_positions, fast_scene, note=note)
+        yield _ours("fast", "C", "certified", title, builtin.fast_positions, builtin.fast_scene, note=note)
     yield _ours(
         "fast-numpy", "numpy", "certified", "the fast path in numpy",
         numpy_kernel.positions, numpy_kernel.positions_of_scene, note=CERTIFIED, timed=8192,
@@ -300,12 +292,12 @@ WAYS_TIMED, SLOW_FOR_WAYS, FEW_WAYS = 8, ("passage-fcl-advancement", "passage-fc
 
 def sweep_contenders(*, tilted: bool) -> Iterable[Contender]:
     """All of them, including the reference; engines are asked about upright spheroids alone."""
-    methods = passage_methods()
+    methods = builtin.passage_methods()
     yield of_method(methods["passage-exact"], "python", "exact", timed=16, singles=8)
     compiled = choice().kernel == "compiled"
     tier, timed, singles = ("C", 2048, 32) if compiled else ("numpy", 16, 1)
     yield of_method(methods["passage-certified"], tier, "certified", timed=timed, singles=singles, note=CERTIFIED)
-    for count in SAMPLES:
+    for count in builtin.SAMPLES:
         yield of_method(methods[f"passage-sampled-{count}"], tier, "sampling", timed=32_768 // count, note=_JUMPS)
     for name, kind in (("passage-advancement", "advancement"), ("passage-capsule", "bounding")):
         yield of_method(
@@ -319,7 +311,7 @@ def _in_engines() -> Iterable[Contender]:
     """Each solver with a mesh of the whole surface for each scene, which is built before its time is taken."""
     for name, solver in SWEEP_SOLVERS.items():
         yield of_method(
-            passage_mesh_methods()[name],
+            builtin.passage_mesh_methods()[name],
             "FCL",
             "mesh",
             load=partial(InEngine, partial(sweep_mesh, solver), height_of_sweeps, SWEEPS),

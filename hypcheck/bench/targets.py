@@ -36,17 +36,7 @@ from hypcheck.kernel.choice import choice
 from hypcheck.kernel.compiled_kernel import answer_ended, answer_rows, answer_sweeps
 from hypcheck.record import Recorder
 from hypcheck.record.measurements import AbsentLine, KernelLine
-from hypcheck.runs.timing import (
-    Clocked,
-    Samples,
-    TimingEntry,
-    clocked_calls,
-    measured_samples,
-    rate_text,
-    thread_clocked,
-    times_as_fast,
-    times_as_long,
-)
+from hypcheck.runs import timing
 from hypcheck.vectors.families import ENDED_FAMILIES, ENDED_SWEEP_FAMILIES
 
 SEED = 1
@@ -73,14 +63,14 @@ def paces(rounds: int) -> Iterator[KernelLine]:
         whole = np.ascontiguousarray(_rows(around, axes, FAR_AWAY)[:, :width])
         far, near = _rows(around, axes, FAR_AWAY), _rows(rim, axes, END)
         entries = [
-            TimingEntry("whole", PACED, thread_clocked(partial(_answered, whole))),
-            TimingEntry("far", PACED, thread_clocked(partial(answer_ended, far, 1))),
-            TimingEntry("near", PACED, thread_clocked(partial(answer_ended, near, 1))),
+            timing.TimingEntry("whole", PACED, timing.thread_clocked(partial(_answered, whole))),
+            timing.TimingEntry("far", PACED, timing.thread_clocked(partial(answer_ended, far, 1))),
+            timing.TimingEntry("near", PACED, timing.thread_clocked(partial(answer_ended, near, 1))),
         ]
-        samples = measured_samples(entries, rounds)
+        samples = timing.measured_samples(entries, rounds)
         for name, text in (("far", "ends far away"), ("near", "ends near the rim")):
-            says = f"{rate_text(samples[name])}; without ends {rate_text(samples['whole'])}"
-            yield target(f"{text}, {kind}").line(times_as_long(samples[name], samples["whole"]), says)
+            says = f"{timing.rate_text(samples[name])}; without ends {timing.rate_text(samples['whole'])}"
+            yield target(f"{text}, {kind}").line(timing.times_as_long(samples[name], samples["whole"]), says)
 
 
 def _answered(rows: Rows) -> Positions:
@@ -160,15 +150,15 @@ class TimesAsFast:
     ceiling: str
     share: float
 
-    def line(self, expression: str, samples: Mapping[str, Samples], says: str) -> KernelLine:
+    def line(self, expression: str, samples: Mapping[str, timing.Samples], says: str) -> KernelLine:
         """The record's line about the expression of that name."""
         own, other, least = (samples[name] for name in (self.mine, expression, self.ceiling))
-        gains, most = times_as_fast(own, other), times_as_fast(least, other)
+        gains, most = timing.times_as_fast(own, other), timing.times_as_fast(least, other)
         reached = [gain / min(self.times, self.share * limit) for gain, limit in zip(gains, most, strict=True)]
         limit = f"or {self.share} of what {self.ceiling} allows, if that is less"
         text = f"{self.subject}, of {self.times:g} times the speed of {EXPRESSIONS[expression]}, {limit}; 1e7 rows"
-        words = f"{rate_text(own)}; the expression: {rate_text(other)}, {median(gains):.3g} times as long"
-        words += f"; {self.ceiling} the rows: {rate_text(least)}{says}"
+        words = f"{timing.rate_text(own)}; the expression: {timing.rate_text(other)}, {median(gains):.3g} times as long"
+        words += f"; {self.ceiling} the rows: {timing.rate_text(least)}{says}"
         return KernelTarget(f"{self.name}, {expression}", text, 1.0).line(reached, words)
 
 
@@ -187,13 +177,13 @@ def against_numpy(folder: Path, rounds: int) -> Iterator[KernelLine]:
         "powers": partial(with_powers, TOWER_SIZES, *columns),
         "products": partial(with_products, TOWER_SIZES, *columns),
     }
-    entries = [TimingEntry("copying", MANY, thread_clocked(partial(_copied, columns)), loops=1)]
+    entries = [timing.TimingEntry("copying", MANY, timing.thread_clocked(partial(_copied, columns)), loops=1)]
     if choice().kernel == "numpy":
         del work["kernel"]
     else:
-        entries.append(TimingEntry("reading", MANY, c_baselines(folder)[0].read(columns), loops=1))
-    entries += [TimingEntry(name, MANY, thread_clocked(call), loops=1) for name, call in work.items()]
-    samples = measured_samples(entries, rounds)
+        entries.append(timing.TimingEntry("reading", MANY, c_baselines(folder)[0].read(columns), loops=1))
+    entries += [timing.TimingEntry(name, MANY, timing.thread_clocked(call), loops=1) for name, call in work.items()]
+    samples = timing.measured_samples(entries, rounds)
     for times in TARGETS:
         for expression in EXPRESSIONS:
             if times.mine in samples:
@@ -229,29 +219,29 @@ def against_others(rounds: int) -> Iterator[KernelLine]:
     columns = uniform_columns(100_000)
     rows = tower_rows(columns)[:FEW]
     entries = [
-        TimingEntry(
-            "kernel", 100_000, thread_clocked(partial(hypcheck.classify_scene, TOWER_SIZES, *columns, threads=1))
+        timing.TimingEntry(
+            "kernel", 100_000, timing.thread_clocked(partial(hypcheck.classify_scene, TOWER_SIZES, *columns, threads=1))
         ),
-        TimingEntry("numpy.roots", FEW, thread_clocked(partial(numpy_roots, rows))),
+        timing.TimingEntry("numpy.roots", FEW, timing.thread_clocked(partial(numpy_roots, rows))),
     ]
     trouble = FCL.trouble()
     if trouble is None:
         mesh = scene_mesh(FCL, "point", TOWER_SIZES, height_of(TOWER_SIZES, rows), TRIANGLES)
-        entries.append(TimingEntry("FCL", FEW, _queries(mesh, rows)))
-    samples = measured_samples(entries, rounds)
+        entries.append(timing.TimingEntry("FCL", FEW, _queries(mesh, rows)))
+    samples = timing.measured_samples(entries, rounds)
     for name in ("numpy.roots", "FCL"):
         if (other := samples.get(name)) is not None:
-            says = f"{rate_text(samples['kernel'])} on {choice().kernel}; {name}: {rate_text(other)}"
-            yield target(name).line(times_as_fast(samples["kernel"], other), says)
+            says = f"{timing.rate_text(samples['kernel'])} on {choice().kernel}; {name}: {timing.rate_text(other)}"
+            yield target(name).line(timing.times_as_fast(samples["kernel"], other), says)
 
 
-def _queries(mesh: SceneMesh, rows: Rows) -> Clocked:
+def _queries(mesh: SceneMesh, rows: Rows) -> timing.Clocked:
     """The engine's queries only, in the units of its mesh."""
     touches, centres = mesh.touches, (rows[:, 4:] / np.array(mesh.unit)).tolist()
     if touches is None:
         raise AssertionError("FCL refused the mesh")
 
-    return clocked_calls(touches, centres, thread_time_ns)
+    return timing.clocked_calls(touches, centres, thread_time_ns)
 
 
 ROUNDS, QUICK_ROUNDS, AGAIN = 15, 7, 2

@@ -21,42 +21,13 @@ from typing import Annotated, Any
 
 from msgspec import UNSET, Meta, UnsetType
 
-from hypcheck.record.fields import (
-    Amount,
-    AnswerKey,
-    Axis,
-    Bin,
-    Centre,
-    Count,
-    Counts,
-    Heights,
-    Interval,
-    InvalidAxis,
-    InvalidCentre,
-    InvalidRow,
-    Limits,
-    LinePart,
-    Mistake,
-    Precision,
-    Question,
-    RecordLine,
-    Row,
-    Share,
-    Sizes,
-    Span,
-    Truth,
-    TruthKey,
-    Unsigned,
-    one_of,
-    require_octaves,
-    require_possible,
-)
+from hypcheck.record import fields
 
 SCHEMA = "1.10.0"
 """The version of the records that are written."""
 
 
-class Machine(LinePart, frozen=True, kw_only=True):
+class Machine(fields.LinePart, frozen=True, kw_only=True):
     """The machine of a run."""
 
     system: str
@@ -65,7 +36,7 @@ class Machine(LinePart, frozen=True, kw_only=True):
     cores: int | None
 
 
-class WeakenedPart(LinePart, frozen=True, kw_only=True):
+class WeakenedPart(fields.LinePart, frozen=True, kw_only=True):
     """An option with which a run fails less or asks less than by default; `source`: settings file or command line."""
 
     option: str
@@ -74,14 +45,14 @@ class WeakenedPart(LinePart, frozen=True, kw_only=True):
     source: str
 
 
-class SettingsPart(LinePart, frozen=True, kw_only=True):
+class SettingsPart(fields.LinePart, frozen=True, kw_only=True):
     """The settings file of a run (None: none was used), and the options that weaken its gate."""
 
     file: str | None
     weakened: list[WeakenedPart]
 
 
-class IsolationPart(LinePart, frozen=True, kw_only=True):
+class IsolationPart(fields.LinePart, frozen=True, kw_only=True):
     """How implementations were isolated: the mode (auto, on or off), the means, and why others are missing."""
 
     mode: str
@@ -89,7 +60,7 @@ class IsolationPart(LinePart, frozen=True, kw_only=True):
     missing: list[str]
 
 
-class HeaderLine(RecordLine, frozen=True, kw_only=True):
+class HeaderLine(fields.RecordLine, frozen=True, kw_only=True):
     """The first line: versions, machine and options of a run.
 
     Some runs add `files`, the sha256 of the files under test by path, since 1.3.0; `program`, that of the program's own
@@ -111,33 +82,33 @@ class HeaderLine(RecordLine, frozen=True, kw_only=True):
     not_hashed: list[str] | UnsetType = UNSET
 
 
-class FooterLine(RecordLine, frozen=True, kw_only=True):
+class FooterLine(fields.RecordLine, frozen=True, kw_only=True):
     """The last line, without which a record is truncated; `lines` counts the lines of the file."""
 
-    lines: Count
+    lines: fields.Count
     exit_code: int
     seconds: float
 
 
-class UnavailableLine(RecordLine, frozen=True, kw_only=True):
+class UnavailableLine(fields.RecordLine, frozen=True, kw_only=True):
     """An oracle that could not be asked, and why."""
 
     oracle: str
     reason: str
 
 
-class EquationLine(RecordLine, frozen=True, kw_only=True):
+class EquationLine(fields.RecordLine, frozen=True, kw_only=True):
     """A displayed formula of the paper, and the verdict on it."""
 
     number: str
     holds: bool
-    verdict: Annotated[str, one_of("holds", "misprint", "false")]
+    verdict: Annotated[str, fields.one_of("holds", "misprint", "false")]
     statement: str
     finding: str
     correction: str
 
 
-class ProofLine(RecordLine, frozen=True, kw_only=True):
+class ProofLine(fields.RecordLine, frozen=True, kw_only=True):
     """A quantity of a formula, and whether it is proved to be right."""
 
     formula: str
@@ -146,53 +117,53 @@ class ProofLine(RecordLine, frozen=True, kw_only=True):
     statement: str
 
 
-class DisagreementPart(LinePart, frozen=True, kw_only=True):
+class DisagreementPart(fields.LinePart, frozen=True, kw_only=True):
     """A case where an oracle and the exact decision disagree."""
 
     oracle: str
     case: str
-    row: Row
-    end: Centre | UnsetType = UNSET
-    axis: Axis | UnsetType = UNSET
-    heights: Heights | UnsetType = UNSET
+    row: fields.Row
+    end: fields.Centre | UnsetType = UNSET
+    axis: fields.Axis | UnsetType = UNSET
+    heights: fields.Heights | UnsetType = UNSET
     exact: str
     opinion: str
 
 
-class OracleLine(RecordLine, frozen=True, kw_only=True):
+class OracleLine(fields.RecordLine, frozen=True, kw_only=True):
     """What one oracle answered about one family."""
 
     oracle: str
     family: str
-    asked: Count
-    undecided: Count
-    stages: Counts
-    seconds: Amount
-    disagreeing: Count
+    asked: fields.Count
+    undecided: fields.Count
+    stages: fields.Counts
+    seconds: fields.Amount
+    disagreeing: fields.Count
     disagreements: Annotated[list[DisagreementPart], Meta(max_length=20)]
 
 
-class FindingLine(RecordLine, frozen=True, kw_only=True):
+class FindingLine(fields.RecordLine, frozen=True, kw_only=True):
     """A formula that is wrong in exact arithmetic on a family, inside or outside its stated regimes."""
 
     formula: str
     family: str
     inside: bool
     cause: str
-    asked: Count
-    wrong: Count
+    asked: fields.Count
+    wrong: fields.Count
     first_case: str
-    first_row: Row
+    first_row: fields.Row
     reason: str | None
 
 
-class DriftLine(RecordLine, frozen=True, kw_only=True):
+class DriftLine(fields.RecordLine, frozen=True, kw_only=True):
     """A difference between the findings and the known findings."""
 
     sentence: str
 
 
-class WrongAnswer(LinePart, frozen=True, kw_only=True):
+class WrongAnswer(fields.LinePart, frozen=True, kw_only=True):
     """A wrong or tolerated answer that is kept.
 
     Of a way, since 1.6.0, the row begins with its start and `end` is the other; `time` is a wrong time, `first` are
@@ -200,33 +171,33 @@ class WrongAnswer(LinePart, frozen=True, kw_only=True):
     """
 
     case: str
-    row: Row
-    end: Centre | UnsetType = UNSET
-    axis: Axis | UnsetType = UNSET
-    heights: Heights | UnsetType = UNSET
-    truth: Truth
+    row: fields.Row
+    end: fields.Centre | UnsetType = UNSET
+    axis: fields.Axis | UnsetType = UNSET
+    heights: fields.Heights | UnsetType = UNSET
+    truth: fields.Truth
     answer: int
-    mistake: Mistake
+    mistake: fields.Mistake
     status: str
-    backward_error: Unsigned
-    backward_error_u: Unsigned
+    backward_error: fields.Unsigned
+    backward_error_u: fields.Unsigned
     time: float | UnsetType = UNSET
-    first: Interval | UnsetType = UNSET
+    first: fields.Interval | UnsetType = UNSET
 
 
-class FaultPart(LinePart, frozen=True, kw_only=True):
+class FaultPart(fields.LinePart, frozen=True, kw_only=True):
     """A case that ended without an answer that counts, and why."""
 
     case: str
-    row: InvalidRow
-    end: InvalidCentre | UnsetType = UNSET
-    axis: InvalidAxis | UnsetType = UNSET
-    heights: Heights | UnsetType = UNSET
+    row: fields.InvalidRow
+    end: fields.InvalidCentre | UnsetType = UNSET
+    axis: fields.InvalidAxis | UnsetType = UNSET
+    heights: fields.Heights | UnsetType = UNSET
     status: str
     reason: str
 
 
-class GroupLine(RecordLine, frozen=True, kw_only=True):
+class GroupLine(fields.RecordLine, frozen=True, kw_only=True):
     """A method and a family; only implementations under test have `spec`, `faults` and `failing`.
 
     `octaves` are counts by the floor of log2 of the cases' distances to the other answer, `failing` the statuses that
@@ -239,26 +210,26 @@ class GroupLine(RecordLine, frozen=True, kw_only=True):
     spec: str | UnsetType = UNSET
     title: str
     exact: bool
-    question: Question
-    precision: Precision
+    question: fields.Question
+    precision: fields.Precision
     family: str
-    asked: Count
-    fresh: Count | UnsetType = UNSET
-    not_asked: Counts | UnsetType = UNSET
-    counts: Counts
-    mistakes: Counts
-    answers: dict[TruthKey, dict[AnswerKey, Count]] | UnsetType = UNSET
-    octaves: dict[str, Counts]
-    size_bins: list[Bin]
-    place_bins: list[Bin]
+    asked: fields.Count
+    fresh: fields.Count | UnsetType = UNSET
+    not_asked: fields.Counts | UnsetType = UNSET
+    counts: fields.Counts
+    mistakes: fields.Counts
+    answers: dict[fields.TruthKey, dict[fields.AnswerKey, fields.Count]] | UnsetType = UNSET
+    octaves: dict[str, fields.Counts]
+    size_bins: list[fields.Bin]
+    place_bins: list[fields.Bin]
     worst: Annotated[list[WrongAnswer], Meta(max_length=3)]
     faults: Annotated[list[FaultPart], Meta(max_length=6)] | UnsetType = UNSET
     failing: list[str] | UnsetType = UNSET
 
     def __post_init__(self) -> None:
-        require_octaves(self.octaves)
-        require_possible("size_bins", self.size_bins)
-        require_possible("place_bins", self.place_bins)
+        fields.require_octaves(self.octaves)
+        fields.require_possible("size_bins", self.size_bins)
+        fields.require_possible("place_bins", self.place_bins)
 
     @property
     def judged(self) -> int:
@@ -276,29 +247,29 @@ class GroupLine(RecordLine, frozen=True, kw_only=True):
         return self.failing is not UNSET
 
 
-class FixedSizesPart(LinePart, frozen=True, kw_only=True):
+class FixedSizesPart(fields.LinePart, frozen=True, kw_only=True):
     """The only sizes that an implementation supports, and the spans of the centre (None: any).
 
     `axis`, since 1.6.0, is that of a spheroid that leans, "free" where it may be any.
     """
 
-    sizes: Sizes
-    x: Span
-    y: Span
-    z: Span
-    axis: tuple[float, float, float] | Annotated[str, one_of("free")] | UnsetType = UNSET
+    sizes: fields.Sizes
+    x: fields.Span
+    y: fields.Span
+    z: fields.Span
+    axis: tuple[float, float, float] | Annotated[str, fields.one_of("free")] | UnsetType = UNSET
 
 
-class DomainPart(LinePart, frozen=True, kw_only=True):
+class DomainPart(fields.LinePart, frozen=True, kw_only=True):
     """Where an implementation claims to be right."""
 
-    regimes: list[Annotated[str, one_of("a>=1", "c2>=a")]]
-    ratio: Limits
-    magnitude: Limits
+    regimes: list[Annotated[str, fields.one_of("a>=1", "c2>=a")]]
+    ratio: fields.Limits
+    magnitude: fields.Limits
     settings: list[FixedSizesPart] | UnsetType = UNSET
 
 
-class DescriptionPart(LinePart, frozen=True, kw_only=True):
+class DescriptionPart(fields.LinePart, frozen=True, kw_only=True):
     """What an implementation says of itself, or is taken for.
 
     `tilt`, since 1.5.0, where rows have an axis; `times`, since 1.6.0, where it gives times of first contact;
@@ -308,8 +279,8 @@ class DescriptionPart(LinePart, frozen=True, kw_only=True):
     name: str
     version: str
     language: str
-    precision: Precision
-    question: Question
+    precision: fields.Precision
+    question: fields.Question
     domain: DomainPart
     refuses: bool
     binary: bool
@@ -319,15 +290,15 @@ class DescriptionPart(LinePart, frozen=True, kw_only=True):
     heights: bool | UnsetType = UNSET
 
 
-class Retest(LinePart, frozen=True, kw_only=True):
+class Retest(fields.LinePart, frozen=True, kw_only=True):
     """How many cases were asked again, and how many answers changed within the tolerance and beyond it."""
 
-    asked: Count
-    within: Count
-    beyond: Count
+    asked: fields.Count
+    within: fields.Count
+    beyond: fields.Count
 
 
-class SlicesPart(LinePart, frozen=True, kw_only=True):
+class SlicesPart(fields.LinePart, frozen=True, kw_only=True):
     """How evenly rows near contact were asked, since 1.9.0, as shares of the range of each coordinate.
 
     In each slice of one coordinate that is `one` wide, three rows or more were asked; in each slice of any two of them
@@ -335,12 +306,12 @@ class SlicesPart(LinePart, frozen=True, kw_only=True):
     """
 
     coordinates: list[str]
-    rows: Count
-    one: Share
-    two: Share
+    rows: fields.Count
+    one: fields.Share
+    two: fields.Share
 
 
-class ImplementationLine(RecordLine, frozen=True, kw_only=True):
+class ImplementationLine(fields.RecordLine, frozen=True, kw_only=True):
     """An implementation under test as a whole; `finished`, since 1.3.0, is false if its run was interrupted.
 
     `not_asked`, since 1.8.0, are the families of which no row was asked, by reason, with their numbers of rows. Since
@@ -353,17 +324,17 @@ class ImplementationLine(RecordLine, frozen=True, kw_only=True):
     started: bool = True
     declared: DescriptionPart
     used: DescriptionPart
-    restarts: Count
+    restarts: fields.Count
     again: Retest
     broke_protocol_throughout: bool
     troubles: list[str]
-    not_asked: dict[str, Counts] | UnsetType = UNSET
+    not_asked: dict[str, fields.Counts] | UnsetType = UNSET
     slices: dict[str, SlicesPart] | UnsetType = UNSET
-    crossed: dict[str, tuple[Count, Count]] | UnsetType = UNSET
+    crossed: dict[str, tuple[fields.Count, fields.Count]] | UnsetType = UNSET
     finished: bool | UnsetType = UNSET
 
 
-class NotStartedLine(RecordLine, frozen=True, kw_only=True, tag="implementation"):
+class NotStartedLine(fields.RecordLine, frozen=True, kw_only=True, tag="implementation"):
     """An implementation under test that could not be started."""
 
     spec: str
@@ -376,7 +347,7 @@ UNEXPLAINED = "unexplained"
 """The cause of wrong answers that no known cause gives."""
 
 
-class CauseLine(RecordLine, frozen=True, kw_only=True):
+class CauseLine(fields.RecordLine, frozen=True, kw_only=True):
     """A cause of wrong answers of an implementation under test, since 1.7.0; `cause` "unexplained" if none is known.
 
     `claim` is the paper's statement that is the reason, `families` counts the answers, `worst` is the worst of them.
@@ -388,32 +359,32 @@ class CauseLine(RecordLine, frozen=True, kw_only=True):
     sentence: str
     remedy: str
     claim: str
-    cases: Count
-    families: Counts
+    cases: fields.Count
+    families: fields.Counts
     worst: WrongAnswer
 
 
-class MapLine(RecordLine, frozen=True, kw_only=True):
+class MapLine(fields.RecordLine, frozen=True, kw_only=True):
     """A method over the half plane of a scene: a text for each z, a letter for each r, upper case where it is wrong."""
 
     name: str
     method: str
-    sizes: Sizes
-    r: Interval
-    z: Interval
-    wrong: Count
-    points: Count
+    sizes: fields.Sizes
+    r: fields.Interval
+    z: fields.Interval
+    wrong: fields.Count
+    points: fields.Count
     lines: list[Annotated[str, Meta(pattern="^[eciECI]+$")]]
 
 
-class TimingLine(RecordLine, frozen=True, kw_only=True):
+class TimingLine(fields.RecordLine, frozen=True, kw_only=True):
     """A contender on a workload: nanoseconds a row, one value for each round."""
 
     workload: str
-    median_ns: Amount
+    median_ns: fields.Amount
     name: str
     title: str
-    rows: Count
-    loops: Count
-    samples_ns: Annotated[list[Amount], Meta(min_length=1)]
+    rows: fields.Count
+    loops: fields.Count
+    samples_ns: Annotated[list[fields.Amount], Meta(min_length=1)]
     checksum: int

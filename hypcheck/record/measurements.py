@@ -9,50 +9,30 @@ from typing import Annotated
 
 from msgspec import UNSET, Meta, UnsetType
 
-from hypcheck.record.fields import (
-    Amount,
-    Axis,
-    Bin,
-    Centre,
-    Count,
-    Counts,
-    Heights,
-    Interval,
-    LinePart,
-    Question,
-    RecordLine,
-    Row,
-    Sizes,
-    Truth,
-    Unsigned,
-    one_of,
-    require_counts,
-    require_places,
-    require_possible,
-)
+from hypcheck.record import fields
 
-Mode = Annotated[str, one_of("batch", "single", "build")]
+Mode = Annotated[str, fields.one_of("batch", "single", "build")]
 """Many rows a call, one row a call, or the building of a mesh."""
 
-Octave = tuple[int | Annotated[str, Meta(pattern="^-inf$")], Count, Count]
+Octave = tuple[int | Annotated[str, Meta(pattern="^-inf$")], fields.Count, fields.Count]
 """The floor of log2 of a distance to the other answer ("-inf": an exact tangency), cases asked, and wrong."""
 
-Grid = tuple[float, float, Count]
+Grid = tuple[float, float, fields.Count]
 """The first, the last, and how many."""
 
-Load = tuple[Amount, Amount, Amount] | None
+Load = tuple[fields.Amount, fields.Amount, fields.Amount] | None
 """How many processes wanted a processor, averaged over 1, 5 and 15 minutes."""
 
 
-class MethodLine(RecordLine, frozen=True, kw_only=True):
+class MethodLine(fields.RecordLine, frozen=True, kw_only=True):
     """A method that was measured."""
 
     method: str
     title: str
-    tier: Annotated[str, one_of("C", "numpy", "python", "FCL", "foreign")]
+    tier: Annotated[str, fields.one_of("C", "numpy", "python", "FCL", "foreign")]
     kind: Annotated[
         str,
-        one_of(
+        fields.one_of(
             "paper",
             "algebraic",
             "certified",
@@ -66,33 +46,33 @@ class MethodLine(RecordLine, frozen=True, kw_only=True):
         ),
     ]
     precision: str
-    question: Question
+    question: fields.Question
     exact: bool
-    amortised: Annotated[str, one_of("build once", "build each")] | None
+    amortised: Annotated[str, fields.one_of("build once", "build each")] | None
     accuracy_only: bool
     note: str
 
 
-class WorkloadLine(RecordLine, frozen=True, kw_only=True):
+class WorkloadLine(fields.RecordLine, frozen=True, kw_only=True):
     """Rows that methods are asked; `scene`: α, γ, b, d if all rows share them."""
 
     workload: str
     title: str
     text: str
-    rows: Count
+    rows: fields.Count
     seed: int
     timed: bool | UnsetType = UNSET
-    scene: Sizes | UnsetType | None = UNSET
+    scene: fields.Sizes | UnsetType | None = UNSET
 
 
-class AbsentLine(RecordLine, frozen=True, kw_only=True):
+class AbsentLine(fields.RecordLine, frozen=True, kw_only=True):
     """Something that is not installed, so that the methods that need it are left out; since 1.2.0."""
 
     what: str
     reason: str
 
 
-class CompilerLine(RecordLine, frozen=True, kw_only=True):
+class CompilerLine(fields.RecordLine, frozen=True, kw_only=True):
     """The compiler of the methods in C; since 1.2.0."""
 
     program: str
@@ -100,16 +80,16 @@ class CompilerLine(RecordLine, frozen=True, kw_only=True):
     flags: list[str]
 
 
-class ConditionsLine(RecordLine, frozen=True, kw_only=True):
+class ConditionsLine(fields.RecordLine, frozen=True, kw_only=True):
     """The conditions of the measurement, since 1.2.0; None if the system does not report them."""
 
     governor: str | None
-    processors: Count
+    processors: fields.Count
     load_before: Load
     load_after: Load
 
 
-class UnmeasuredLine(RecordLine, frozen=True, kw_only=True):
+class UnmeasuredLine(fields.RecordLine, frozen=True, kw_only=True):
     """A method that could not be timed here, which does not fail the run; since 1.4.0."""
 
     method: str
@@ -118,7 +98,7 @@ class UnmeasuredLine(RecordLine, frozen=True, kw_only=True):
     reason: str
 
 
-class RefusedLine(RecordLine, frozen=True, kw_only=True):
+class RefusedLine(fields.RecordLine, frozen=True, kw_only=True):
     """A method that is not timed because its answers were wrong, which fails the run; since 1.2.0."""
 
     method: str
@@ -127,44 +107,44 @@ class RefusedLine(RecordLine, frozen=True, kw_only=True):
     reason: str
 
 
-class Mistaken(LinePart, frozen=True, kw_only=True):
+class Mistaken(fields.LinePart, frozen=True, kw_only=True):
     """A wrong answer that is kept; since 1.6.0, `axis` is that of a tilted spheroid, and `end` that of a way.
 
     Of a way the row's centre is its start, and the flip distance is the change of the spheroid's size.
     """
 
     case: str
-    row: Row
-    end: Centre | UnsetType = UNSET
-    axis: Axis | UnsetType = UNSET
-    heights: Heights | UnsetType = UNSET
-    truth: Truth
+    row: fields.Row
+    end: fields.Centre | UnsetType = UNSET
+    axis: fields.Axis | UnsetType = UNSET
+    heights: fields.Heights | UnsetType = UNSET
+    truth: fields.Truth
     answer: int
-    flip_distance: Unsigned
+    flip_distance: fields.Unsigned
 
 
-class AccuracyLine(RecordLine, frozen=True, kw_only=True):
+class AccuracyLine(fields.RecordLine, frozen=True, kw_only=True):
     """A method's answers on a workload; at distances above `reliable_above`, at most 1 in 1000 is wrong."""
 
     method: str
     workload: str
-    asked: Count
-    wrong: Count
-    false_clear: Count
-    false_contact: Count
-    wrong_side: Count
-    abstained: Count
+    asked: fields.Count
+    wrong: fields.Count
+    false_clear: fields.Count
+    false_contact: fields.Count
+    wrong_side: fields.Count
+    abstained: fields.Count
     octaves: list[Octave]
-    reliable_above: Unsigned
+    reliable_above: fields.Unsigned
     worst: Annotated[list[Mistaken], Meta(max_length=3)]
 
     def __post_init__(self) -> None:
         for number, (octave, asked, wrong) in enumerate(self.octaves):
-            require_places(() if isinstance(octave, str) else (octave,), f"octaves[{number}]")
-            require_counts(asked, wrong, f"octaves[{number}]")
+            fields.require_places(() if isinstance(octave, str) else (octave,), f"octaves[{number}]")
+            fields.require_counts(asked, wrong, f"octaves[{number}]")
 
 
-class SpeedLine(RecordLine, frozen=True, kw_only=True):
+class SpeedLine(fields.RecordLine, frozen=True, kw_only=True):
     """A method's time on a workload: nanoseconds a row, a call or a mesh; the rounds of each process.
 
     `dropped`, since 1.4.0: samples left out because the empty call, which is subtracted, took as long.
@@ -173,49 +153,49 @@ class SpeedLine(RecordLine, frozen=True, kw_only=True):
     method: str
     workload: str
     mode: Mode
-    rows: Count
-    loops: Count
+    rows: fields.Count
+    loops: fields.Count
     samples_ns: Annotated[list[Annotated[list[float], Meta(min_length=1)]], Meta(min_length=1)]
-    dropped: Count | UnsetType = UNSET
+    dropped: fields.Count | UnsetType = UNSET
     median_ns: float
-    ci95_ns: Interval
-    ratio: Amount | None
-    ratio_ci95: Interval | None
+    ci95_ns: fields.Interval
+    ratio: fields.Amount | None
+    ratio_ci95: fields.Interval | None
     checksum: int | None
     empty_ns: float | None
     timed_by: str
 
 
-class NoiseLine(RecordLine, frozen=True, kw_only=True):
+class NoiseLine(fields.RecordLine, frozen=True, kw_only=True):
     """One method compared with itself; a difference below `floor` means nothing in this run."""
 
     workload: str
     mode: Mode
-    ratio: Amount | None
-    ratio_ci95: Interval | None
-    floor: Amount
+    ratio: fields.Amount | None
+    ratio_ci95: fields.Interval | None
+    floor: fields.Amount
 
 
-class MemoryLine(RecordLine, frozen=True, kw_only=True):
+class MemoryLine(fields.RecordLine, frozen=True, kw_only=True):
     """The bytes by which a fresh process grows while it answers `rows`."""
 
     method: str
-    rows: Count
-    peak_bytes: Count
+    rows: fields.Count
+    peak_bytes: fields.Count
 
 
-class StabilityLine(RecordLine, frozen=True, kw_only=True):
+class StabilityLine(fields.RecordLine, frozen=True, kw_only=True):
     """Wrong answers over sizes: bins [floor of 2 log10(α/b), floor of 2 log10(γ/d), asked, wrong]."""
 
     method: str
     precision: str
-    bins: list[Bin]
+    bins: list[fields.Bin]
 
     def __post_init__(self) -> None:
-        require_possible("bins", self.bins)
+        fields.require_possible("bins", self.bins)
 
 
-class Scenery(LinePart, frozen=True, kw_only=True):
+class Scenery(fields.LinePart, frozen=True, kw_only=True):
     """The sizes of a scene."""
 
     alpha: float
@@ -224,7 +204,7 @@ class Scenery(LinePart, frozen=True, kw_only=True):
     d: float
 
 
-class PlacesLine(RecordLine, frozen=True, kw_only=True):
+class PlacesLine(fields.RecordLine, frozen=True, kw_only=True):
     """Where a method is wrong in a half plane: a text for each z; "." right, c false clear, w false contact, s side."""
 
     method: str
@@ -232,86 +212,86 @@ class PlacesLine(RecordLine, frozen=True, kw_only=True):
     r: Grid
     z: Grid
     wrong: list[Annotated[str, Meta(pattern="^[.cws]+$")]]
-    region: Annotated[str, one_of("whole", "ring")]
+    region: Annotated[str, fields.one_of("whole", "ring")]
 
 
-class ConvergenceLine(RecordLine, frozen=True, kw_only=True):
+class ConvergenceLine(fields.RecordLine, frozen=True, kw_only=True):
     """A mesh of so many triangles: its times, its deviation in spheroid radii, and its wrong answers."""
 
     method: str
-    triangles: Count
-    build_ns: Amount
-    query_ns: Amount
-    deviation: Amount
-    asked: Count
-    wrong: Count
+    triangles: fields.Count
+    build_ns: fields.Amount
+    query_ns: fields.Amount
+    deviation: fields.Amount
+    asked: fields.Count
+    wrong: fields.Count
 
 
-class BoundingLine(RecordLine, frozen=True, kw_only=True):
+class BoundingLine(fields.RecordLine, frozen=True, kw_only=True):
     """A shape around the spheroid; `overlap`: d/b, asked, false contacts, median excess clearance in radii."""
 
-    shape: Annotated[str, one_of("sphere", "cylinder")]
+    shape: Annotated[str, fields.one_of("sphere", "cylinder")]
     workload: str
-    asked: Count
-    false_contact: Count
-    false_clear: Count
-    overlap: list[tuple[float, Count, Count, float | None]]
+    asked: fields.Count
+    false_contact: fields.Count
+    false_clear: fields.Count
+    overlap: list[tuple[float, fields.Count, fields.Count, float | None]]
 
     def __post_init__(self) -> None:
         for number, (_, asked, wrong, _) in enumerate(self.overlap):
-            require_counts(asked, wrong, f"overlap[{number}]")
+            fields.require_counts(asked, wrong, f"overlap[{number}]")
 
 
-class Compared(LinePart, frozen=True, kw_only=True):
+class Compared(fields.LinePart, frozen=True, kw_only=True):
     """One side of a claim about cost: operations counted, times measured."""
 
     name: str
-    operations: Counts | None
-    median_ns: Amount | None
-    ratio: Amount | None
-    ratio_ci95: Interval | None
+    operations: fields.Counts | None
+    median_ns: fields.Amount | None
+    ratio: fields.Amount | None
+    ratio_ci95: fields.Interval | None
 
 
-class CostLine(RecordLine, frozen=True, kw_only=True):
+class CostLine(fields.RecordLine, frozen=True, kw_only=True):
     """A claim of the paper about cost, and the verdict on it."""
 
     claim: str
     scene: str
     compared: list[Compared]
-    verdict: Annotated[str, one_of("holds", "does not hold", "inconclusive")]
+    verdict: Annotated[str, fields.one_of("holds", "does not hold", "inconclusive")]
     says: str
 
 
-class KernelLine(RecordLine, frozen=True, kw_only=True):
+class KernelLine(fields.RecordLine, frozen=True, kw_only=True):
     """A target of a kernel's speed, and whether it is met."""
 
     name: str
     target: str
     wanted: float
     measured: float
-    ci95: Interval | None
+    ci95: fields.Interval | None
     met: bool
     says: str
 
 
-class ForestLine(RecordLine, frozen=True, kw_only=True):
+class ForestLine(fields.RecordLine, frozen=True, kw_only=True):
     """The cost of a walker's step among so many trees; since 1.3.0."""
 
     method: str
     title: str
     exact: bool
-    trees: Count
-    triangles: Count | None
-    asked: Count
-    wrong: Count
-    build_s: Amount
-    step_ns: Amount
-    ci95_ns: Interval | None
-    ratio: Amount | None
-    ratio_ci95: Interval | None
+    trees: fields.Count
+    triangles: fields.Count | None
+    asked: fields.Count
+    wrong: fields.Count
+    build_s: fields.Amount
+    step_ns: fields.Amount
+    ci95_ns: fields.Interval | None
+    ratio: fields.Amount | None
+    ratio_ci95: fields.Interval | None
 
 
-class Shares(LinePart, frozen=True, kw_only=True):
+class Shares(fields.LinePart, frozen=True, kw_only=True):
     """The share of a scene's centres that each stage of its kernel decides."""
 
     always: Annotated[float, Meta(ge=0, le=1)]
@@ -321,33 +301,33 @@ class Shares(LinePart, frozen=True, kw_only=True):
     search: Annotated[float, Meta(ge=0, le=1)]
 
 
-class SceneTimes(LinePart, frozen=True, kw_only=True):
+class SceneTimes(fields.LinePart, frozen=True, kw_only=True):
     """Nanoseconds a row of three kernels, and the ratio of the scene's kernel to each of the others."""
 
-    kernel_ns: Amount
-    printed_ns: Amount
-    certified_ns: Amount
-    by_printed: Amount | None
-    by_printed_ci95: Interval | None
-    by_certified: Amount | None
-    by_certified_ci95: Interval | None
+    kernel_ns: fields.Amount
+    printed_ns: fields.Amount
+    certified_ns: fields.Amount
+    by_printed: fields.Amount | None
+    by_printed_ci95: fields.Interval | None
+    by_certified: fields.Amount | None
+    by_certified_ci95: fields.Interval | None
 
 
-class SceneLine(RecordLine, frozen=True, kw_only=True):
+class SceneLine(fields.RecordLine, frozen=True, kw_only=True):
     """The kernel of a scene: what each stage decides, and what it saves; since 1.3.0."""
 
     scene: str
     question: str
     precision: str
-    settings: Count
-    rows: Count
-    wrong: Count
+    settings: fields.Count
+    rows: fields.Count
+    wrong: fields.Count
     shares: Shares
     batch: SceneTimes
     single: SceneTimes
 
 
-class ComparisonLine(RecordLine, frozen=True, kw_only=True):
+class ComparisonLine(fields.RecordLine, frozen=True, kw_only=True):
     """Ratios to the reference method in this run and in the baseline; `gates`: whether they decide the exit code."""
 
     method: str
@@ -356,7 +336,7 @@ class ComparisonLine(RecordLine, frozen=True, kw_only=True):
     before: float
     after: float
     change: float
-    ci95: Interval | None
-    verdict: Annotated[str, one_of("same", "faster", "slower", "inconclusive")]
+    ci95: fields.Interval | None
+    verdict: Annotated[str, fields.one_of("same", "faster", "slower", "inconclusive")]
     allowed: float
     gates: bool = True

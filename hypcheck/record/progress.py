@@ -6,39 +6,19 @@ from typing import Annotated
 
 from msgspec import UNSET, Meta, UnsetType, field
 
-from hypcheck.record.fields import (
-    AnswerKey,
-    Axis,
-    Centre,
-    Count,
-    Extended,
-    Heights,
-    Histogram,
-    InvalidAxis,
-    InvalidCentre,
-    InvalidRow,
-    LinePart,
-    Mistake,
-    RecordLine,
-    Row,
-    Truth,
-    TruthKey,
-    Unsigned,
-    one_of,
-    require_octaves,
-)
+from hypcheck.record import fields
 from hypcheck.record.lines import DescriptionPart, Retest
 
 Total = Annotated[int, Meta(ge=0, le=1 << 60)]
 """A count that fits into int64, as do sums of a few; no run has more cases."""
 
 Totals = dict[str, Total]
-Label = Annotated[str, one_of("answered", "error", "crash", "timeout", "protocol", "not-run")]
+Label = Annotated[str, fields.one_of("answered", "error", "crash", "timeout", "protocol", "not-run")]
 Place = tuple[Annotated[int, Meta(ge=0, le=2)], Total]
 """0 and the number of a frozen vector in its family, or 1 and that of a generated row; 2 of one of a large seed."""
 
 
-class SavedAllowance(LinePart, frozen=True, kw_only=True):
+class SavedAllowance(fields.LinePart, frozen=True, kw_only=True):
     """Restarts, faults and hangs that an implementation may still have; `over`: why it is not asked any more."""
 
     restarts: Total
@@ -47,7 +27,7 @@ class SavedAllowance(LinePart, frozen=True, kw_only=True):
     hangs: Total | None = None
 
 
-class PendingCases(LinePart, frozen=True, kw_only=True):
+class PendingCases(fields.LinePart, frozen=True, kw_only=True):
     """Cases that were answered and wait for their retest.
 
     `chunk`: the family, the seed (None: frozen vectors), the first case, the one after the last, and how many are
@@ -61,37 +41,37 @@ class PendingCases(LinePart, frozen=True, kw_only=True):
     times: Annotated[str, Meta(pattern="^([0-9a-f]{16})*$")] | UnsetType = UNSET
 
 
-class WorstCase(LinePart, frozen=True, kw_only=True):
+class WorstCase(fields.LinePart, frozen=True, kw_only=True):
     """A wrong or tolerated answer that is kept; `error` is its backward error."""
 
     place: Place
     case: str
-    row: Row
-    end: Centre | UnsetType = UNSET
-    axis: Axis | UnsetType = UNSET
-    heights: Heights | UnsetType = UNSET
-    truth: Truth
+    row: fields.Row
+    end: fields.Centre | UnsetType = UNSET
+    axis: fields.Axis | UnsetType = UNSET
+    heights: fields.Heights | UnsetType = UNSET
+    truth: fields.Truth
     answer: Annotated[int, Meta(ge=-128, le=127)]
-    mistake: Mistake
+    mistake: fields.Mistake
     status: str
-    error: Unsigned
+    error: fields.Unsigned
     time: float | None = None
 
 
-class UnansweredCase(LinePart, frozen=True, kw_only=True):
+class UnansweredCase(fields.LinePart, frozen=True, kw_only=True):
     """A case that ended without an answer that counts."""
 
     place: Place
     case: str
-    row: InvalidRow
-    end: InvalidCentre | UnsetType = UNSET
-    axis: InvalidAxis | UnsetType = UNSET
-    heights: Heights | UnsetType = UNSET
+    row: fields.InvalidRow
+    end: fields.InvalidCentre | UnsetType = UNSET
+    axis: fields.InvalidAxis | UnsetType = UNSET
+    heights: fields.Heights | UnsetType = UNSET
     status: str
     reason: str
 
 
-class Explained(LinePart, frozen=True, kw_only=True):
+class Explained(fields.LinePart, frozen=True, kw_only=True):
     """Wrong answers that the same causes explain, these as a number with a bit for each, and the worst of them.
 
     Of that, `error` is a lower end that is proved, 0 where there is none, and `exponent` floor(log2) of the error.
@@ -100,10 +80,10 @@ class Explained(LinePart, frozen=True, kw_only=True):
     causes: Annotated[str, Meta(pattern="^[0-9a-f]+$", max_length=256)]
     cases: Annotated[int, Meta(ge=1, le=1 << 60)]
     worst: WorstCase
-    exponent: Extended
+    exponent: fields.Extended
 
 
-class Tally(LinePart, frozen=True, kw_only=True):
+class Tally(fields.LinePart, frozen=True, kw_only=True):
     """The tally of a family so far, as in a group line; `dangerous`: false clears beyond the tolerance."""
 
     asked: Total
@@ -111,21 +91,21 @@ class Tally(LinePart, frozen=True, kw_only=True):
     mistakes: Totals
     dangerous: Total
     octaves: dict[str, Totals]
-    size_bins: Histogram
-    place_bins: Histogram
+    size_bins: fields.Histogram
+    place_bins: fields.Histogram
     worst: list[WorstCase]
     faults: list[UnansweredCase]
     explained: list[Explained] = field(default_factory=list)
     denied: Totals = field(default_factory=dict)
     fresh: Total = 0
     not_asked: Totals = field(default_factory=dict)
-    answers: dict[TruthKey, dict[AnswerKey, Total]] = field(default_factory=dict)
+    answers: dict[fields.TruthKey, dict[fields.AnswerKey, Total]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        require_octaves(self.octaves)
+        fields.require_octaves(self.octaves)
 
 
-class SavedResult(LinePart, frozen=True, kw_only=True):
+class SavedResult(fields.LinePart, frozen=True, kw_only=True):
     """The result so far: a tally for each family, and `open` cases that no tally counts yet.
 
     `outcomes`: all ways in which questions ended; `excusing`: the numbers of known failures that excused something;
@@ -140,7 +120,7 @@ class SavedResult(LinePart, frozen=True, kw_only=True):
     named: list[str]
 
 
-class SavedState(LinePart, frozen=True, kw_only=True):
+class SavedState(fields.LinePart, frozen=True, kw_only=True):
     """The steps that are done, the allowance that is left, and the result so far."""
 
     done: Total
@@ -148,7 +128,7 @@ class SavedState(LinePart, frozen=True, kw_only=True):
     total: SavedResult
 
 
-class ProgressLine(RecordLine, frozen=True, kw_only=True):
+class ProgressLine(fields.RecordLine, frozen=True, kw_only=True):
     """The state of a run with SPEC that did not finish, from which --resume continues.
 
     `number`: the place, from 0, of the implementation among those of the run; `declared`: its description; `cases`: how
@@ -156,8 +136,8 @@ class ProgressLine(RecordLine, frozen=True, kw_only=True):
     version.
     """
 
-    number: Count
+    number: fields.Count
     declared: DescriptionPart
-    cases: Count
+    cases: fields.Count
     state: SavedState
     program: str | None = None

@@ -14,20 +14,8 @@ from hypcheck.messages import counted
 from hypcheck.record import Record
 from hypcheck.record.lines import GroupLine
 from hypcheck.record.measurements import AccuracyLine, SpeedLine
-from hypcheck.report.document import (
-    MISSING,
-    Block,
-    Code,
-    Paragraph,
-    Row,
-    Section,
-    TableBlock,
-    TableCell,
-    bullets,
-    measured,
-    prose,
-    table,
-)
+from hypcheck.report import document
+from hypcheck.report.document import measured
 from hypcheck.report.messages import figure, listed
 from hypcheck.report.model import implementations, timing_totals, worst_u
 from hypcheck.report.verdict import verdict
@@ -219,82 +207,87 @@ def change_facts(record: Record, against: Record) -> Iterator[str]:
         yield f"  and {counted(len(others) - MOST_CONDITIONS, 'more difference')} between the runs themselves"
 
 
-_RATIOS = prose(
+_RATIOS = document.prose(
     "A ratio is a method's time by that of its run's reference; over 1 is slower. In brackets its interval, at 95 %, or"
     " the least and the greatest of a verification's rounds. Two ratios differ where their intervals are apart. Times"
     " themselves are not compared."
 )
 
 
-def change_section(record: Record, against: Record) -> Section:
+def change_section(record: Record, against: Record) -> document.Section:
     """The changes; if nothing changed, it says so."""
     statuses, accuracies = status_changes(against, record), accuracy_changes(against, record)
     ratios = ratio_changes(against, record)
     began = against.header.started
-    blocks: list[Block] = [
-        Paragraph(f"Against the run of {began}, which ended: {verdict(against).sentence}"),
-        bullets([f"{difference}." for difference in (*conditions(against, record), *only_in_one(against, record))]),
+    blocks: list[document.Block] = [
+        document.Paragraph(f"Against the run of {began}, which ended: {verdict(against).sentence}"),
+        document.bullets(
+            [f"{difference}." for difference in (*conditions(against, record), *only_in_one(against, record))]
+        ),
     ]
     if statuses:
         blocks.append(_status_table(statuses))
     if accuracies:
         blocks.append(_accuracy_table(accuracies))
     if not statuses and not accuracies:
-        blocks.append(Paragraph("No case ended otherwise."))
+        blocks.append(document.Paragraph("No case ended otherwise."))
     if ratios:
-        blocks += [Paragraph(_RATIOS), _ratio_table(ratios)]
-    return Section("What changed", tuple(blocks))
+        blocks += [document.Paragraph(_RATIOS), _ratio_table(ratios)]
+    return document.Section("What changed", tuple(blocks))
 
 
-def _status_table(changes: list[StatusChange]) -> TableBlock:
+def _status_table(changes: list[StatusChange]) -> document.TableBlock:
     rows = [
         (
-            Code(change.implementation),
-            Code(change.family),
+            document.Code(change.implementation),
+            document.Code(change.family),
             _counts(change.before),
-            TableCell(_counts(change.after), tone="bad" if change.worse else ""),
+            document.TableCell(_counts(change.after), tone="bad" if change.worse else ""),
             measured(worst_u(change.before)),
             measured(worst_u(change.after)),
         )
         for change in changes
     ]
     columns = "implementation | family | before | after | # worst before, u | # worst after, u"
-    return table("changed statuses", columns, rows)
+    return document.table("changed statuses", columns, rows)
 
 
 def _counts(group: GroupLine) -> str:
     return listed([f"{cases:,} {status}" for status, cases in group.counts.items()]) or "nothing"
 
 
-def _accuracy_table(changes: list[AccuracyChange]) -> TableBlock:
-    rows: list[Row] = [
+def _accuracy_table(changes: list[AccuracyChange]) -> document.TableBlock:
+    rows: list[document.Row] = [
         (
-            Code(change.after.method),
+            document.Code(change.after.method),
             change.after.workload,
-            *(TableCell(f"{line.wrong:,} of {line.asked:,}", line.wrong / max(1, line.asked)) for line in both),
+            *(
+                document.TableCell(f"{line.wrong:,} of {line.asked:,}", line.wrong / max(1, line.asked))
+                for line in both
+            ),
             *(measured(line.reliable_above) for line in both),
         )
         for change in changes
         for both in [(change.before, change.after)]
     ]
     columns = "method | workload | # wrong before | # wrong after | # reliable above, before | # reliable above, after"
-    return table("changed errors", columns, rows)
+    return document.table("changed errors", columns, rows)
 
 
-def _ratio_table(changes: list[RatioChange]) -> TableBlock:
+def _ratio_table(changes: list[RatioChange]) -> document.TableBlock:
     columns = "method | workload | mode | # ratio before | # ratio after | # change | verdict"
-    return table("ratios of times", columns, [_ratio_row(change) for change in changes])
+    return document.table("ratios of times", columns, [_ratio_row(change) for change in changes])
 
 
-def _ratio_row(change: RatioChange) -> Row:
+def _ratio_row(change: RatioChange) -> document.Row:
     before, after = change.before[0], change.after[0]
     factor = after / before if before else 0.0
     return (
-        Code(change.method),
+        document.Code(change.method),
         change.workload,
         change.mode,
         measured(*change.before),
         measured(*change.after),
-        TableCell(f"× {figure(factor)}" if factor else MISSING, factor),
-        TableCell(change.verdict, tone={SLOWER: "bad", FASTER: "good"}.get(change.verdict, "")),
+        document.TableCell(f"× {figure(factor)}" if factor else document.MISSING, factor),
+        document.TableCell(change.verdict, tone={SLOWER: "bad", FASTER: "good"}.get(change.verdict, "")),
     )

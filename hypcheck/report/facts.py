@@ -15,34 +15,10 @@ from typing import Any, Generic, TypeVar
 from msgspec import UNSET
 
 from hypcheck.messages import counted
-from hypcheck.record import Record, RecordLine
+from hypcheck.record import Record, RecordLine, lines
 from hypcheck.record.fields import numbers_of
-from hypcheck.record.lines import (
-    UNEXPLAINED,
-    CauseLine,
-    DisagreementPart,
-    DriftLine,
-    EquationLine,
-    FindingLine,
-    GroupLine,
-    ImplementationLine,
-    MapLine,
-    NotStartedLine,
-    OracleLine,
-    ProofLine,
-    TimingLine,
-)
+from hypcheck.report import messages
 from hypcheck.report.measured import MeasuredMethod, measured_methods
-from hypcheck.report.messages import (
-    Replays,
-    classify_command,
-    error_text,
-    figure,
-    from_hex,
-    implementation_claims,
-    listed,
-    rows_not_asked,
-)
 from hypcheck.report.model import SubjectKey, explanation, in_order, names_in, subject_of, worst_case
 from hypcheck.runs.judge import UNANSWERED, in_words, truth_in_words
 
@@ -98,9 +74,9 @@ class RecordContext:
     record: Record
 
     @cached_property
-    def replays(self) -> Replays:
+    def replays(self) -> messages.Replays:
         """The commands that show its cases."""
-        return Replays.of(self.record)
+        return messages.Replays.of(self.record)
 
     @cached_property
     def names(self) -> dict[SubjectKey, str]:
@@ -156,7 +132,7 @@ class LineFacts(Generic[Line]):
             yield method, workload, detail, name, getattr(self.line if part is None else part, name)
 
 
-class ProofFacts(LineFacts[ProofLine]):
+class ProofFacts(LineFacts[lines.ProofLine]):
     """A quantity of a formula: it holds, or the run fails."""
 
     @property
@@ -176,7 +152,7 @@ class ProofFacts(LineFacts[ProofLine]):
             yield self.line.statement
 
 
-class EquationFacts(LineFacts[EquationLine]):
+class EquationFacts(LineFacts[lines.EquationLine]):
     """A displayed formula of the paper; one that does not hold is a finding and no failure."""
 
     @property
@@ -190,7 +166,7 @@ class EquationFacts(LineFacts[EquationLine]):
             yield f"derived: {self.line.correction}"
 
 
-class OracleFacts(LineFacts[OracleLine]):
+class OracleFacts(LineFacts[lines.OracleLine]):
     """An oracle on a family: each case on which it and the exact decision disagree fails the run."""
 
     @property
@@ -208,11 +184,13 @@ class OracleFacts(LineFacts[OracleLine]):
             message = f"{line.oracle} on {line.family}: {counted(rest, 'further case')}, not kept in the record"
             yield Failure("oracle", line.oracle, line.family, "disagreement", message, count=rest)
 
-    def _disagreement(self, case: DisagreementPart) -> Failure:
+    def _disagreement(self, case: lines.DisagreementPart) -> Failure:
         message = f"{case.oracle}: {case.opinion}; exact decision: {case.exact}"
-        row = from_hex(numbers_of(case))
+        row = messages.from_hex(numbers_of(case))
         where = self.line.oracle, self.line.family
-        return Failure("oracle", *where, "disagreement", message, case.case, replay=classify_command(row), row=row)
+        return Failure(
+            "oracle", *where, "disagreement", message, case.case, replay=messages.classify_command(row), row=row
+        )
 
     def headline(self) -> str:
         first = next(self.failures())
@@ -231,7 +209,7 @@ class OracleFacts(LineFacts[OracleLine]):
         return self.line.seconds
 
 
-class FindingFacts(LineFacts[FindingLine]):
+class FindingFacts(LineFacts[lines.FindingLine]):
     """A formula that errs in exact arithmetic, which is a finding and no failure."""
 
     @property
@@ -246,10 +224,10 @@ class FindingFacts(LineFacts[FindingLine]):
         yield f"wrong in exact arithmetic, {where} its stated regimes: {line.wrong:,} of {line.asked:,}"
         yield explanation(line)
         yield f"first case: {line.first_case}"
-        yield f"replay: {classify_command(from_hex(line.first_row))}"
+        yield f"replay: {messages.classify_command(messages.from_hex(line.first_row))}"
 
 
-class DriftFacts(LineFacts[DriftLine]):
+class DriftFacts(LineFacts[lines.DriftLine]):
     """A difference from the known findings, which fails the run."""
 
     @property
@@ -260,7 +238,7 @@ class DriftFacts(LineFacts[DriftLine]):
         yield Failure("findings", self.name, "drift", "drift", self.line.sentence)
 
 
-class GroupFacts(LineFacts[GroupLine]):
+class GroupFacts(LineFacts[lines.GroupLine]):
     """A method on a family: the statuses of its cases, the worst of them, and those that fail the run."""
 
     @property
@@ -300,11 +278,11 @@ class GroupFacts(LineFacts[GroupLine]):
         elif first is not None:
             truth, answer = truth_in_words(first.truth, line.question), in_words(first.answer, line.question)
             message += f"; {first.case} is {truth}; answered: {answer}"
-            message += f" ({first.mistake}, {error_text(first)})"
+            message += f" ({first.mistake}, {messages.error_text(first)})"
         case = first if fault is None else fault
         if case is None:
             return Failure("implementation", name, line.family, status, message)
-        place, replay, row = replays.place(case), replays.command(line, case), from_hex(numbers_of(case))
+        place, replay, row = replays.place(case), replays.command(line, case), messages.from_hex(numbers_of(case))
         return Failure("implementation", name, line.family, status, message, case.case, place, replay, row)
 
     def not_judged(self) -> NotJudged | None:
@@ -312,7 +290,7 @@ class GroupFacts(LineFacts[GroupLine]):
         if set(counts) != {"skipped"}:
             return None
         outside = "they lie outside the method's domain or its format's range"
-        why = rows_not_asked(self.line.not_asked or {}) or outside
+        why = messages.rows_not_asked(self.line.not_asked or {}) or outside
         return NotJudged("skipped", f"all {counted(sum(counts.values()), 'case')} were not asked: {why}")
 
     def sentences(self) -> Iterator[str]:
@@ -321,18 +299,18 @@ class GroupFacts(LineFacts[GroupLine]):
         if self.not_judged():
             return
         for status, number in counts.items():
-            why = rows_not_asked(line.not_asked or {}) if status == "skipped" else ""
+            why = messages.rows_not_asked(line.not_asked or {}) if status == "skipped" else ""
             yield f"{status}: {number:,} of {counted(sum(counts.values()), 'case')}{why and f': {why}'}"
             worst = worst_case([case for case in line.worst if case.status == status])
             if worst is not None:
                 numbered = f" ({replays.place(worst)})" if line.tested else ""
-                yield f"worst backward error: {figure(worst.backward_error_u)} u, case {worst.case}{numbered}"
+                yield f"worst backward error: {messages.figure(worst.backward_error_u)} u, case {worst.case}{numbered}"
                 yield f"replay: {replays.command(line, worst)}"
         if line.fresh:
             yield f"fresh rows: {line.fresh:,}"
 
 
-class CauseFacts(LineFacts[CauseLine]):
+class CauseFacts(LineFacts[lines.CauseLine]):
     """A cause of wrong answers of an implementation under test."""
 
     @property
@@ -342,7 +320,7 @@ class CauseFacts(LineFacts[CauseLine]):
     @property
     def command(self) -> str:
         """The command that explains the cause; "" where no known cause gives the answers."""
-        return "" if self.line.cause == UNEXPLAINED else f"hypcheck explain {self.line.cause}"
+        return "" if self.line.cause == lines.UNEXPLAINED else f"hypcheck explain {self.line.cause}"
 
     @property
     def replay(self) -> str:
@@ -353,7 +331,7 @@ class CauseFacts(LineFacts[CauseLine]):
     def share(self) -> str:
         """The share of the implementation's wrong answers that have this cause: "12 %", "under 1 %"."""
         line = self.line
-        alike = [other for other in self.context.record.of(CauseLine) if other.spec == line.spec]
+        alike = [other for other in self.context.record.of(lines.CauseLine) if other.spec == line.spec]
         total = sum(other.cases for other in alike if other.method == line.method)
         percent = 100 * line.cases / total if total else 0.0
         return "under 1 %" if percent < 1 else f"{min(percent, 99 if line.cases < total else 100):.0f} %"
@@ -363,7 +341,7 @@ class CauseFacts(LineFacts[CauseLine]):
         ranked = sorted(self.line.families.items(), key=lambda counts: (-counts[1], counts[0]))
         shown = [f"{family} {number:,}" for family, number in ranked[:most]]
         rest = len(ranked) - most
-        return listed([*shown, *([counted(rest, "more family", "more families")] if rest > 0 else [])])
+        return messages.listed([*shown, *([counted(rest, "more family", "more families")] if rest > 0 else [])])
 
     def headline(self) -> str:
         return f"{self.line.cases:,} wrong: {self.line.sentence}"
@@ -375,10 +353,10 @@ class CauseFacts(LineFacts[CauseLine]):
 def cause_facts(record: Record) -> list[CauseFacts]:
     """The facts of all causes of wrong answers, in the order of the record."""
     context = RecordContext(record)
-    return [CauseFacts(line, context) for line in record.of(CauseLine)]
+    return [CauseFacts(line, context) for line in record.of(lines.CauseLine)]
 
 
-class ImplementationFacts(LineFacts[ImplementationLine]):
+class ImplementationFacts(LineFacts[lines.ImplementationLine]):
     """An implementation under test as a whole: what it declares, and what of its behaviour fails the run."""
 
     @property
@@ -393,10 +371,10 @@ class ImplementationFacts(LineFacts[ImplementationLine]):
             yield Failure("implementation", self.name, "all families", "behaviour", trouble)
 
     def sentences(self) -> Iterator[str]:
-        return implementation_claims(self.line)
+        return messages.implementation_claims(self.line)
 
 
-class NotStartedFacts(LineFacts[NotStartedLine]):
+class NotStartedFacts(LineFacts[lines.NotStartedLine]):
     """An implementation that could not be started, which fails the run."""
 
     @property
@@ -407,14 +385,14 @@ class NotStartedFacts(LineFacts[NotStartedLine]):
         yield Failure("implementation", self.name, "start", "not-started", self.line.trouble)
 
 
-class MapFacts(LineFacts[MapLine]):
+class MapFacts(LineFacts[lines.MapLine]):
     """A method over the half plane of a scene."""
 
     def measurements(self) -> Iterator[Measurement]:
         return self.fields(self.line.method, self.line.name, "", "points", "wrong")
 
 
-class TimingFacts(LineFacts[TimingLine]):
+class TimingFacts(LineFacts[lines.TimingLine]):
     """A contender on a workload."""
 
     def measurements(self) -> Iterator[Measurement]:

@@ -26,50 +26,39 @@ from hypcheck.derivation.program import needed
 from hypcheck.errors import UnavailableError
 from hypcheck.messages import escaped
 from hypcheck.record import Record
+from hypcheck.report import document
 from hypcheck.report.contents import ON_THE_RING, can_be_drawn, content
-from hypcheck.report.document import (
-    Block,
-    Bullets,
-    Code,
-    Details,
-    Either,
-    Emphasis,
-    Explorer,
-    Figures,
-    Paragraph,
-    Section,
-    Strong,
-    TableBlock,
-    Text,
-    bounded,
-    plain,
-)
 from hypcheck.report.drawings import ALONE, Drawings, ReportContext, drawn_plots
 from hypcheck.report.messages import short_row
 from hypcheck.report.plots.colours import colour_rules
 from hypcheck.version import VERSION
 
-_TAGS = {Strong: "strong", Emphasis: "em"}
+_TAGS = {document.Strong: "strong", document.Emphasis: "em"}
 
 
-def html_text(words: Text) -> markupsafe.Markup:
+def html_text(words: document.Text) -> markupsafe.Markup:
     """Running text as the content of an element: foreign text is escaped, and cut if it is very long."""
     if isinstance(words, str):
         edges = (" " * words[:1].isspace(), " " * words[-1:].isspace())
-        return markupsafe.escape(edges[0] + escaped(bounded(words)) + edges[1])
-    if isinstance(words, Code):
-        shown = escaped(bounded(words.text))
+        return markupsafe.escape(edges[0] + escaped(document.bounded(words)) + edges[1])
+    if isinstance(words, document.Code):
+        shown = escaped(document.bounded(words.text))
         if can_be_drawn(words.row):
             drawn, numbers = small_picture(words.row), row_as_text(words.row)
             return markupsafe.Markup('<code data-row="{}">{}</code> {}').format(numbers, shown, _trusted(drawn))
         return markupsafe.Markup("<code>{}</code>").format(shown) if words.text else markupsafe.Markup()
-    if isinstance(words, (Strong, Emphasis)):
+    if isinstance(words, (document.Strong, document.Emphasis)):
         tag = _TAGS[type(words)]
         return markupsafe.Markup(f"<{tag}>") + html_text(words.text) + markupsafe.Markup(f"</{tag}>")  # noqa: S704
     return markupsafe.Markup().join(map(html_text, words))
 
 
-_KINDS: dict[type, str] = {Paragraph: "paragraph", Bullets: "bullets", TableBlock: "table", Explorer: "explorer"}
+_KINDS: dict[type, str] = {
+    document.Paragraph: "paragraph",
+    document.Bullets: "bullets",
+    document.TableBlock: "table",
+    document.Explorer: "explorer",
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,7 +81,7 @@ def render(record: Record, context: ReportContext = ALONE) -> bytes:
 
 def explorer_page() -> bytes:
     """The explorer as a page of its own, in UTF-8; it begins on the ring."""
-    block = _TemplateBlock("explorer", Explorer(ON_THE_RING))
+    block = _TemplateBlock("explorer", document.Explorer(ON_THE_RING))
     section = {"title": "Move the bodies", "level": 2, "anchor": "explorer", "blocks": [block]}
     return _page(title="Spheroid and hyperboloid", verdict=None, sections=[section], source="")
 
@@ -128,32 +117,32 @@ def _environment() -> jinja2.Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters |= {"text": html_text, "plain": plain, "numbers": row_as_text}
+    environment.filters |= {"text": html_text, "plain": document.plain, "numbers": row_as_text}
     environment.globals["formulas"] = formulas_as_json
     return environment
 
 
-def _sections(sections: tuple[Section, ...], record: Record, drawings: Drawings) -> Iterator[dict[str, Any]]:
+def _sections(sections: tuple[document.Section, ...], record: Record, drawings: Drawings) -> Iterator[dict[str, Any]]:
     for number, section in enumerate(sections):
-        words = re.sub(r"[^a-z0-9]+", "-", plain(section.title).lower())[:40].strip("-")
+        words = re.sub(r"[^a-z0-9]+", "-", document.plain(section.title).lower())[:40].strip("-")
         blocks = [_template_block(block, record, drawings) for block in section.blocks]
         anchor = f"s{number}-{words}"
         yield {"title": section.title, "level": section.level, "anchor": anchor, "blocks": blocks}
 
 
-def _template_block(block: Block, record: Record, drawings: Drawings) -> _TemplateBlock:
-    if isinstance(block, Either):
+def _template_block(block: document.Block, record: Record, drawings: Drawings) -> _TemplateBlock:
+    if isinstance(block, document.Either):
         return _template_block(block.page, record, drawings)
-    if isinstance(block, Details):
+    if isinstance(block, document.Details):
         return _TemplateBlock(
             "details", block, tuple(_template_block(inner, record, drawings) for inner in block.blocks)
         )
-    if isinstance(block, Figures):
+    if isinstance(block, document.Figures):
         return _figures(block, record, drawings)
     return _TemplateBlock(_KINDS[type(block)], block)
 
 
-def _figures(block: Figures, record: Record, drawings: Drawings) -> _TemplateBlock:
+def _figures(block: document.Figures, record: Record, drawings: Drawings) -> _TemplateBlock:
     try:
         drawn = drawn_plots(block.name, record, drawings)
     except UnavailableError as error:

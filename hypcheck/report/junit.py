@@ -14,16 +14,7 @@ from typing import Any
 from xml.etree import ElementTree as Xml
 
 from hypcheck.messages import escaped
-from hypcheck.record import Record, RecordLine
-from hypcheck.record.lines import (
-    EquationLine,
-    FindingLine,
-    GroupLine,
-    ImplementationLine,
-    NotStartedLine,
-    OracleLine,
-    ProofLine,
-)
+from hypcheck.record import Record, RecordLine, lines
 from hypcheck.record.measurements import (
     ComparisonLine,
     ForestLine,
@@ -139,9 +130,9 @@ def junit_suites(record: Record) -> Iterator[JunitSuite]:
 
 def _others(record: Record, failed: list[Failure]) -> Iterator[JunitSuite]:
     """The suites after that of the run itself."""
-    yield JunitSuite("proofs", _cases(facts_of(record, ProofLine)))
-    yield JunitSuite("equations", _cases(facts_of(record, EquationLine)))
-    answers = facts_of(record, OracleLine)
+    yield JunitSuite("proofs", _cases(facts_of(record, lines.ProofLine)))
+    yield JunitSuite("equations", _cases(facts_of(record, lines.EquationLine)))
+    answers = facts_of(record, lines.OracleLine)
     for oracle in oracle_totals(record):
         if oracle.unavailable is not None:
             trouble = JunitTrouble("skipped", "unavailable", f"not available: {oracle.unavailable}")
@@ -151,11 +142,11 @@ def _others(record: Record, failed: list[Failure]) -> Iterator[JunitSuite]:
                 f"oracles.{oracle.name}", _cases(facts for facts in answers if facts.line.oracle == oracle.name)
             )
     yield JunitSuite("findings", tuple(_findings(record, failed)))
-    groups = {id(facts.line): facts for facts in facts_of(record, GroupLine)}
+    groups = {id(facts.line): facts for facts in facts_of(record, lines.GroupLine)}
     for implementation in implementations(record):
         mine = _cases(groups[id(group)] for group in implementation.groups)
         yield JunitSuite(f"implementations.{implementation.name}", mine)
-    yield JunitSuite("implementations", _cases(facts_of(record, ImplementationLine, NotStartedLine)))
+    yield JunitSuite("implementations", _cases(facts_of(record, lines.ImplementationLine, lines.NotStartedLine)))
     yield JunitSuite("bench.answers", _cases(accuracy_facts(record)))
     yield JunitSuite("bench.times", _cases(_by_type(record, SpeedLine, UnmeasuredLine, RefusedLine)))
     yield JunitSuite("bench.baseline", _cases(facts_of(record, ComparisonLine)))
@@ -169,7 +160,7 @@ def _by_type(record: Record, *kinds: type[RecordLine]) -> Iterator[LineFacts[Any
 
 def _findings(record: Record, failed: list[Failure]) -> Iterator[JunitCase]:
     """A case for each mathematical finding, and one about whether they are the known ones."""
-    cases = _cases(facts_of(record, FindingLine))
+    cases = _cases(facts_of(record, lines.FindingLine))
     yield from cases
     drifted = [failure for failure in failed if failure.subject == "findings"]
     if drifted:

@@ -11,21 +11,8 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 
 from hypcheck.messages import escaped
 from hypcheck.record import Record
+from hypcheck.report import document
 from hypcheck.report.contents import ReportContent, content, overview
-from hypcheck.report.document import (
-    Block,
-    Bullets,
-    Code,
-    Either,
-    Emphasis,
-    Figures,
-    Paragraph,
-    Section,
-    Strong,
-    TableBlock,
-    Text,
-    bounded,
-)
 from hypcheck.report.drawings import ALONE, ReportContext
 
 _SPECIAL = re.compile(r"[\\`*_\[\]~$|<>&]")
@@ -78,44 +65,44 @@ def _page(whole: ReportContent, beside: Collection[str]) -> bytes:
     return ("\n".join(lines).rstrip() + "\n").encode("utf-8", "replace")
 
 
-def running_text(words: Text) -> str:
+def running_text(words: document.Text) -> str:
     """Running text as Markdown; foreign text is escaped, and cut if it is very long."""
     return _inline(words).strip()
 
 
-def _inline(words: Text) -> str:
+def _inline(words: document.Text) -> str:
     if isinstance(words, str):
-        return f"{' ' * words[:1].isspace()}{escape_text(bounded(words))}{' ' * words[-1:].isspace()}"
-    if isinstance(words, Code):
-        return code_span(bounded(words.text))
-    if isinstance(words, Strong):
+        return f"{' ' * words[:1].isspace()}{escape_text(document.bounded(words))}{' ' * words[-1:].isspace()}"
+    if isinstance(words, document.Code):
+        return code_span(document.bounded(words.text))
+    if isinstance(words, document.Strong):
         return f"**{running_text(words.text)}**"
-    if isinstance(words, Emphasis):
+    if isinstance(words, document.Emphasis):
         return f"*{running_text(words.text)}*"
     return "".join(map(_inline, words))
 
 
-def _section(section: Section, beside: Collection[str]) -> Iterator[str]:
+def _section(section: document.Section, beside: Collection[str]) -> Iterator[str]:
     yield from (f"{'#' * section.level} {running_text(section.title)}", "")
     for block in section.blocks:
         yield from _block(block, beside)
 
 
-def _block(block: Block, beside: Collection[str]) -> Iterator[str]:
+def _block(block: document.Block, beside: Collection[str]) -> Iterator[str]:
     """The lines of a block; only the page has folded blocks and the explorer."""
     match block:
-        case Paragraph(text):
+        case document.Paragraph(text):
             yield from (running_text(text), "")
-        case Bullets(items) if items:
+        case document.Bullets(items) if items:
             for item in items:
                 yield f"- {running_text(item.text)}"
                 yield from (f"  - {running_text(text_below)}" for text_below in item.below)
             yield ""
-        case TableBlock(_, columns, rows):
+        case document.TableBlock(_, columns, rows):
             numbers = [place for place, column in enumerate(columns) if column.number]
             cells = [[running_text(cell.text) for cell in row] for row in rows]
             yield from table_lines([running_text(column.title) for column in columns], cells, numbers)
-        case Figures(alt=alt, file=file) if file in beside:
+        case document.Figures(alt=alt, file=file) if file in beside:
             yield from (f"![{alt}]({file})", "")
-        case Either(text=text):
+        case document.Either(text=text):
             yield from _block(text, beside)

@@ -7,18 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from hypcheck.messages import escaped
-from hypcheck.record import Record
-from hypcheck.record.measurements import (
-    AccuracyLine,
-    MemoryLine,
-    MethodLine,
-    NoiseLine,
-    Octave,
-    PlacesLine,
-    SpeedLine,
-    StabilityLine,
-    WorkloadLine,
-)
+from hypcheck.record import Record, measurements
 from hypcheck.report.model import PASSAGE
 
 BATCH, SINGLE = "batch", "single"
@@ -41,10 +30,10 @@ class MeasuredMethod:
     """A method and its lines: errors by workload, times by workload and mode, memory."""
 
     name: str
-    line: MethodLine
-    accuracy: Mapping[str, AccuracyLine]
-    speed: Mapping[tuple[str, str], SpeedLine]
-    memory: MemoryLine | None
+    line: measurements.MethodLine
+    accuracy: Mapping[str, measurements.AccuracyLine]
+    speed: Mapping[tuple[str, str], measurements.SpeedLine]
+    memory: measurements.MemoryLine | None
 
     @property
     def tier(self) -> str:
@@ -98,23 +87,23 @@ class MeasuredMethod:
         return line.ratio_ci95 or (ratio, ratio)
 
 
-def lost(line: SpeedLine) -> bool:
+def lost(line: measurements.SpeedLine) -> bool:
     """Whether a speed line has no time, because a call took no longer than an empty one."""
     return line.median_ns <= LEAST_NS
 
 
 def measured_methods(record: Record) -> list[MeasuredMethod]:
     """Every method of a benchmark in the order of the record."""
-    accuracy: dict[str, dict[str, AccuracyLine]] = {}
-    speed: dict[str, dict[tuple[str, str], SpeedLine]] = {}
-    for line in record.of(AccuracyLine):
+    accuracy: dict[str, dict[str, measurements.AccuracyLine]] = {}
+    speed: dict[str, dict[tuple[str, str], measurements.SpeedLine]] = {}
+    for line in record.of(measurements.AccuracyLine):
         accuracy.setdefault(line.method, {})[line.workload] = line
-    for time in record.of(SpeedLine):
+    for time in record.of(measurements.SpeedLine):
         speed.setdefault(time.method, {})[time.workload, time.mode] = time
-    memory = {line.method: line for line in record.of(MemoryLine)}
+    memory = {line.method: line for line in record.of(measurements.MemoryLine)}
     return [
         MeasuredMethod(name, line, accuracy.get(name, {}), speed.get(name, {}), memory.get(name))
-        for line in record.of(MethodLine)
+        for line in record.of(measurements.MethodLine)
         for name in (line.method,)
     ]
 
@@ -155,7 +144,7 @@ def way_totals(record: Record) -> list[WayTotal]:
     ]
 
 
-def _way_total(method: MeasuredMethod, speed: SpeedLine | None) -> WayTotal:
+def _way_total(method: MeasuredMethod, speed: measurements.SpeedLine | None) -> WayTotal:
     lines = method.accuracy.values()
     timed = speed if speed is not None and not lost(speed) else None
     return WayTotal(
@@ -174,7 +163,7 @@ def _way_total(method: MeasuredMethod, speed: SpeedLine | None) -> WayTotal:
     )
 
 
-def _median_size(octaves: Sequence[Octave]) -> float:
+def _median_size(octaves: Sequence[measurements.Octave]) -> float:
     """The lower end of the octave in which the median of the wrong answers lies; 0 without any, or of tangencies."""
     wrong = sorted((float(exponent), number) for exponent, _, number in octaves if number)
     left = sum(number for _, number in wrong) / 2
@@ -185,18 +174,18 @@ def _median_size(octaves: Sequence[Octave]) -> float:
     return 0.0
 
 
-def workloads(record: Record) -> dict[str, WorkloadLine]:
+def workloads(record: Record) -> dict[str, measurements.WorkloadLine]:
     """The workloads by name, in the order of the record, also those that are measured but not described."""
-    known = {line.workload: line for line in record.of(WorkloadLine)}
-    judged, timed = record.of(AccuracyLine), record.of(SpeedLine)
+    known = {line.workload: line for line in record.of(measurements.WorkloadLine)}
+    judged, timed = record.of(measurements.AccuracyLine), record.of(measurements.SpeedLine)
     for name in [*(line.workload for line in judged), *(line.workload for line in timed)]:
-        known.setdefault(name, WorkloadLine(workload=name, title=name, text="", rows=0, seed=0))
+        known.setdefault(name, measurements.WorkloadLine(workload=name, title=name, text="", rows=0, seed=0))
     return known
 
 
 def timed_workloads(record: Record) -> list[str]:
     """The names of the workloads that have times, in the order of the record."""
-    timed = {line.workload for line in record.of(SpeedLine)}
+    timed = {line.workload for line in record.of(measurements.SpeedLine)}
     return [name for name in workloads(record) if name in timed]
 
 
@@ -220,20 +209,22 @@ def by_ratio(methods: Iterable[MeasuredMethod], workload: str, mode: str = BATCH
 
 def noise_floor(record: Record, workload: str, mode: str) -> float | None:
     """The relative difference below which two times of this run count as equal."""
-    floors = [line.floor for line in record.of(NoiseLine) if (line.workload, line.mode) == (workload, mode)]
+    floors = [
+        line.floor for line in record.of(measurements.NoiseLine) if (line.workload, line.mode) == (workload, mode)
+    ]
     return float(floors[0]) if floors else None
 
 
-def stability_title(line: StabilityLine) -> str:
+def stability_title(line: measurements.StabilityLine) -> str:
     """The name of a method with the precision that it was measured in."""
     return line.method if line.method.endswith(line.precision) else f"{line.method}, {line.precision}"
 
 
-def is_unstable(line: StabilityLine) -> bool:
+def is_unstable(line: measurements.StabilityLine) -> bool:
     """Whether a method was wrong at any of the sizes of a stability line."""
     return any(wrong for *_, wrong in line.bins)
 
 
-def is_wrong_somewhere(line: PlacesLine) -> bool:
+def is_wrong_somewhere(line: measurements.PlacesLine) -> bool:
     """Whether a method was wrong at any grid point of a places line, in which "." is right."""
     return any(set(text) - {"."} for text in line.wrong)

@@ -16,19 +16,8 @@ from hypcheck.geometry.pair import SIZES
 from hypcheck.implementations import domain
 from hypcheck.implementations.session import Limits
 from hypcheck.messages import counted
-from hypcheck.record import Record
+from hypcheck.record import Record, lines
 from hypcheck.record.fields import numbers_of
-from hypcheck.record.lines import (
-    DescriptionPart,
-    DomainPart,
-    FaultPart,
-    GroupLine,
-    ImplementationLine,
-    NotStartedLine,
-    SettingsPart,
-    SlicesPart,
-    WrongAnswer,
-)
 from hypcheck.record.reader import recorded_cases
 from hypcheck.runs.judge import DEFAULT_TOLERANCE
 from hypcheck.vectors.border_lines import NEAREST_OCTAVE, SEARCHED
@@ -100,7 +89,7 @@ def classify_command(row: Sequence[float]) -> str:
     return f"hypcheck classify {sizes} --center {' '.join(map(repr, row[4:7]))}{axis}"
 
 
-def error_text(case: WrongAnswer) -> str:
+def error_text(case: lines.WrongAnswer) -> str:
     """How wrong an answer is, in the unit of the tolerance: "wrong by 12 u", "wrong at any distance".
 
     Of a time, the first contact and the sweep to it.
@@ -113,7 +102,7 @@ def error_text(case: WrongAnswer) -> str:
     return f"at {case.time!r}, but the first contact is at {case.first[0]!r}, {radii} radii of the sweep from there"
 
 
-def settings_facts(settings: SettingsPart | UnsetType | None) -> Iterator[str]:
+def settings_facts(settings: lines.SettingsPart | UnsetType | None) -> Iterator[str]:
     """A sentence without a full stop about the settings of a run: their file, and each option that weakens the gate.
 
     Nothing if there is no settings file, and every option that decides is as strict as its default.
@@ -129,13 +118,13 @@ def settings_facts(settings: SettingsPart | UnsetType | None) -> Iterator[str]:
 
 
 def implementation_claims(
-    line: ImplementationLine | NotStartedLine, rows: Mapping[str, int] = MappingProxyType({})
+    line: lines.ImplementationLine | lines.NotStartedLine, rows: Mapping[str, int] = MappingProxyType({})
 ) -> Iterator[str]:
     """Sentences without a full stop about an implementation; none about one that did not start.
 
     `rows` counts rows that were not asked, by reason.
     """
-    if isinstance(line, NotStartedLine):
+    if isinstance(line, lines.NotStartedLine):
         return
     declared, used = line.declared, line.used
     changed = [name for name in ("question", "precision", "domain") if getattr(declared, name) != getattr(used, name)]
@@ -154,7 +143,7 @@ def implementation_claims(
     yield f"{repeated}; {counted(restarts, 'restart')}"
 
 
-def spread(line: ImplementationLine) -> Iterator[str]:
+def spread(line: lines.ImplementationLine) -> Iterator[str]:
     """Sentences without a full stop: how narrow a fault could have escaped the run, and which coincidences met."""
     for family, slices in (line.slices or {}).items():
         if family in SEARCHED:
@@ -171,7 +160,7 @@ def spread(line: ImplementationLine) -> Iterator[str]:
         yield f"coincidences, three together: {met:,} of {all_:,} that are possible were asked"
 
 
-def _searched(slices: SlicesPart, *, tilted: bool) -> Iterator[str]:
+def _searched(slices: lines.SlicesPart, *, tilted: bool) -> Iterator[str]:
     """How evenly a directed search asked at all distances from contact."""
     yield (
         f"a directed search followed {'tilted' if tilted else 'upright'} spheroids from clear to contact, to where its "
@@ -193,7 +182,7 @@ def rows_not_asked(counts: Mapping[str, int]) -> str:
     )
 
 
-def families_not_asked(line: ImplementationLine, reasons: Collection[str] = domain.FAMILIES) -> str:
+def families_not_asked(line: lines.ImplementationLine, reasons: Collection[str] = domain.FAMILIES) -> str:
     """Families that were not asked, by reason: "5 families left out by --families"; "" without any."""
     left_out = {reason: (line.not_asked or {}).get(reason) for reason in reasons}
     return listed(
@@ -205,7 +194,7 @@ def families_not_asked(line: ImplementationLine, reasons: Collection[str] = doma
     )
 
 
-def description_text(description: DescriptionPart) -> str:
+def description_text(description: lines.DescriptionPart) -> str:
     """A description in words: question, precision, domain and the rest."""
     parts = [_declared_value(description, name) for name in ("question", "precision", "domain")]
     parts += [text for text in (description.language, description.version) if text]
@@ -220,14 +209,14 @@ def description_text(description: DescriptionPart) -> str:
     return ", ".join(parts)
 
 
-def _declared_value(description: DescriptionPart, name: str) -> str:
+def _declared_value(description: lines.DescriptionPart, name: str) -> str:
     return domain_text(description.domain) if name == "domain" else str(getattr(description, name))
 
 
 _SIZES_NAMED = 4
 
 
-def domain_text(value: DomainPart) -> str:
+def domain_text(value: lines.DomainPart) -> str:
     """A domain: "every regime, ratios 0.001 to 1,000, magnitudes not declared"."""
     regimes = listed(value.regimes) if value.regimes else "every regime"
     ranges = [f"ratios {_range(value.ratio)}", f"magnitudes {_range(value.magnitude)}"]
@@ -263,11 +252,11 @@ class Replays:
         numbers = {id(numbered.case): numbered.number for numbered in recorded_cases(record)}
         return cls(numbers, tuple(_options(record.header.options)))
 
-    def place(self, case: WrongAnswer | FaultPart) -> str:
+    def place(self, case: lines.WrongAnswer | lines.FaultPart) -> str:
         """The case as `hypcheck replay` reads it beside the record: record.jsonl:7."""
         return f"record.jsonl:{self.numbers[id(case)]}"
 
-    def command(self, group: GroupLine, case: WrongAnswer | FaultPart) -> str:
+    def command(self, group: lines.GroupLine, case: lines.WrongAnswer | lines.FaultPart) -> str:
         """The command that replays a case of a gated implementation, or decides and proves one of a built-in method."""
         if not group.tested:
             return classify_command(from_hex(numbers_of(case)))

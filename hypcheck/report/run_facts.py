@@ -14,23 +14,16 @@ from hypcheck.messages import counted
 from hypcheck.record import Record
 from hypcheck.record.lines import EquationLine, FindingLine, ProofLine
 from hypcheck.record.measurements import BoundingLine, KernelLine, SpeedLine, UnmeasuredLine
+from hypcheck.report import model
 from hypcheck.report.advice import IN_FLOATS
 from hypcheck.report.benchmark_facts import facts_of, sentences_of
 from hypcheck.report.measured import NEAREST, MeasuredMethod, WayTotal, measured_methods, way_totals, workloads
 from hypcheck.report.messages import figure, implementation_claims, listed, pace, tolerance_of
-from hypcheck.report.model import (
-    ImplementationTotal,
-    implementations,
-    oracle_totals,
-    timing_totals,
-    under_test,
-    worst_error_u,
-)
 
 
 def oracle_facts(record: Record) -> Iterator[str]:
     """One sentence about the oracles that were asked, one about those that could not be asked."""
-    totals = oracle_totals(record)
+    totals = model.oracle_totals(record)
     agreements = [f"{total.name} {total.agreed:,} of {total.asked:,}" for total in totals if total.unavailable is None]
     if agreements:
         yield f"oracles in agreement: {', '.join(agreements)}"
@@ -64,7 +57,7 @@ def method_facts(record: Record) -> Iterator[str]:
     """A sentence for each precision: how many methods err beyond the tolerance, and the greatest backward error."""
     tolerance = tolerance_of(record.header.options)
     beyond = "the tolerance" if tolerance is None else f"the tolerance of {figure(tolerance)} u"
-    totals = [total for total in implementations(record) if total.asked and not total.gated]
+    totals = [total for total in model.implementations(record) if total.asked and not total.gated]
     for precision in dict.fromkeys(total.precision for total in totals if not total.exact):
         methods = [total for total in totals if total.precision == precision and not total.exact]
         wrong = sum(total.statuses.get("wrong", 0) > 0 for total in methods)
@@ -75,13 +68,13 @@ _REMARKS = {"wrong": "", "tolerated": " (tolerated)", "excused": " (excused as a
 """Remarks about the worst answer by its status: why it may not count as beyond the tolerance."""
 
 
-def _farthest(methods: Sequence[ImplementationTotal]) -> str:
+def _farthest(methods: Sequence[model.ImplementationTotal]) -> str:
     """The answer with the greatest backward error, or that no answer is wrong, if one was judged."""
-    method = max(methods, key=lambda total: worst_error_u(total.worst))
+    method = max(methods, key=lambda total: model.worst_error_u(total.worst))
     worst = method.worst
     if worst is not None:
         also = _REMARKS.get(worst.status, f" ({worst.status})")
-        return f"farthest off: {method.name}, {figure(worst_error_u(worst))} u at {worst.case}{also}"
+        return f"farthest off: {method.name}, {figure(model.worst_error_u(worst))} u at {worst.case}{also}"
     judged = any(total.statuses.get(status) for total in methods for status in ("right", *_REMARKS))
     return "no answer is wrong" if judged else "no answer was judged"
 
@@ -144,7 +137,7 @@ def _end(distance: float) -> str:
 
 def tested_facts(record: Record) -> Iterator[str]:
     """What gated implementations declare, what they were judged as, and what a verdict that is no pass leaves out."""
-    for tested in under_test(record):
+    for tested in model.under_test(record):
         counts: Counter[str] = sum((Counter(group.not_asked or {}) for group in tested.groups), Counter())
         yield from (f"{tested.name}: {claim}" for claim in implementation_claims(tested.line, counts))
         fresh = sum(group.fresh or 0 for group in tested.groups)
@@ -154,7 +147,7 @@ def tested_facts(record: Record) -> Iterator[str]:
 
 def timing_facts(record: Record) -> Iterator[str]:
     """The median time of each contender."""
-    totals = [f"{total.name} {figure(total.median_ns)}" for total in timing_totals(record)]
+    totals = [f"{total.name} {figure(total.median_ns)}" for total in model.timing_totals(record)]
     if totals:
         yield f"ns a row: {', '.join(totals)}"
 

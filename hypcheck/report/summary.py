@@ -8,20 +8,7 @@ from typing import Annotated, Any
 from msgspec import UNSET, Meta, UnsetType
 from msgspec.structs import replace
 
-from hypcheck.record import Record
-from hypcheck.record.fields import (
-    Amount,
-    Count,
-    Counts,
-    Interval,
-    LinePart,
-    Precision,
-    Question,
-    Unsigned,
-    as_json,
-    decoded,
-    one_of,
-)
+from hypcheck.record import Record, fields
 from hypcheck.record.lines import (
     CauseLine,
     DomainPart,
@@ -35,18 +22,9 @@ from hypcheck.record.lines import (
     WrongAnswer,
 )
 from hypcheck.record.lines import ImplementationLine as Tested
+from hypcheck.report import model
 from hypcheck.report.measured import MeasuredMethod, measured_methods
-from hypcheck.report.model import (
-    ImplementationTotal,
-    OracleTotal,
-    implementations,
-    oracle_totals,
-    timing_totals,
-    under_test,
-    unlisted,
-    worst_case,
-    worst_error_u,
-)
+from hypcheck.report.model import implementations, unlisted, worst_case
 from hypcheck.report.verdict import failures, verdict
 
 SCHEMA = "1.5.0"
@@ -54,32 +32,32 @@ SCHEMA = "1.5.0"
 Fields = dict[str, Any]
 
 Distance = Annotated[
-    Unsigned,
+    fields.Unsigned,
     Meta(description="The distance to the other answer above which at most 1 answer in 1000 is wrong; 0: none is."),
 ]
-Units = Annotated[Unsigned, Meta(description="A backward error in units u of the declared precision.")]
+Units = Annotated[fields.Unsigned, Meta(description="A backward error in units u of the declared precision.")]
 CaseId = Annotated[str | None, Meta(description="Its case id; null: no answer was wrong.")]
 Exact = Annotated[bool, Meta(description="It promises never to be wrong; the run fails where it is.")]
 TimeMistakes = Annotated[int, Meta(ge=0, description="Of times of first contact, since 1.3.0; present if not 0.")]
 Fresh = Annotated[int, Meta(ge=0, description="Cases asked that nobody knew before the run; since 1.5.0.")]
-NotAsked = Annotated[Counts, Meta(description="Cases that were skipped, by reason; since 1.5.0.")]
+NotAsked = Annotated[fields.Counts, Meta(description="Cases that were skipped, by reason; since 1.5.0.")]
 Nanoseconds = Annotated[float, Meta(ge=0, description="Nanoseconds a row.")]
 """Types with the descriptions that the schema gives."""
 
 
-class OracleSummary(LinePart, frozen=True, kw_only=True):
+class OracleSummary(fields.LinePart, frozen=True, kw_only=True):
     """asked = agreed + undecided + disagreements."""
 
-    asked: Count
-    agreed: Count
-    undecided: Count
-    disagreements: Count
+    asked: fields.Count
+    agreed: fields.Count
+    undecided: fields.Count
+    disagreements: fields.Count
     seconds: Annotated[float, Meta(ge=0, description="Summed over the processes.")]
-    stages: Counts
+    stages: fields.Counts
     unavailable: Annotated[str, Meta(description="Why it was not asked; present only then.")] | UnsetType = UNSET
 
 
-class Equations(LinePart, frozen=True, kw_only=True):
+class Equations(fields.LinePart, frozen=True, kw_only=True):
     """The numbers of the paper's displayed formulas, by the verdict of the derivation."""
 
     holds: list[str]
@@ -87,41 +65,41 @@ class Equations(LinePart, frozen=True, kw_only=True):
     false: list[str]
 
 
-class Proofs(LinePart, frozen=True, kw_only=True):
+class Proofs(fields.LinePart, frozen=True, kw_only=True):
     """How many quantities of formulas must be proved, and how many are."""
 
-    asked: Count
-    hold: Count
-    fail: Count
+    asked: fields.Count
+    hold: fields.Count
+    fail: fields.Count
 
 
-class Findings(LinePart, frozen=True, kw_only=True):
+class Findings(fields.LinePart, frozen=True, kw_only=True):
     """Errors of formulas in exact arithmetic, one for each formula, family, side of its regimes and cause."""
 
-    inside_stated_regimes: Count
-    outside_stated_regimes: Count
-    unlisted: Count
+    inside_stated_regimes: fields.Count
+    outside_stated_regimes: fields.Count
+    unlisted: fields.Count
     drift: list[str]
 
 
-class Mistakes(LinePart, frozen=True, kw_only=True, rename="kebab"):
+class Mistakes(fields.LinePart, frozen=True, kw_only=True, rename="kebab"):
     """Wrong and tolerated answers by the kind of mistake."""
 
-    false_clear: Count
-    false_contact: Count
-    wrong_side: Count
+    false_clear: fields.Count
+    false_contact: fields.Count
+    wrong_side: fields.Count
     late: TimeMistakes | UnsetType = UNSET
     early: TimeMistakes | UnsetType = UNSET
 
 
-class FamilySummary(LinePart, frozen=True, kw_only=True):
+class FamilySummary(fields.LinePart, frozen=True, kw_only=True):
     """An implementation's cases of one family."""
 
-    asked: Count
-    right: Count
-    tolerated: Count
-    wrong: Count
-    excused: Count
+    asked: fields.Count
+    right: fields.Count
+    tolerated: fields.Count
+    wrong: fields.Count
+    excused: fields.Count
     mistakes: Mistakes
     worst_backward_error_u: Units
     worst_case: CaseId
@@ -129,46 +107,46 @@ class FamilySummary(LinePart, frozen=True, kw_only=True):
     not_asked: NotAsked | UnsetType = UNSET
 
 
-class Claims(LinePart, frozen=True, kw_only=True):
+class Claims(fields.LinePart, frozen=True, kw_only=True):
     """What an implementation under test declares, or what it was judged as."""
 
-    question: Question
-    precision: Precision
+    question: fields.Question
+    precision: fields.Precision
     domain: DomainPart
 
 
-class CauseSummary(LinePart, frozen=True, kw_only=True):
+class CauseSummary(fields.LinePart, frozen=True, kw_only=True):
     """A cause of wrong answers of an implementation under test; `cause` is "unexplained" where none is known."""
 
     cause: str
     sentence: str
     remedy: str
-    cases: Count
-    families: Counts
+    cases: fields.Count
+    families: fields.Counts
     worst_case: str
 
 
-class ImplementationSummary(LinePart, frozen=True, kw_only=True):
+class ImplementationSummary(fields.LinePart, frozen=True, kw_only=True):
     """An implementation that was judged; one under test also has its declaration, restarts and retests."""
 
     name: str
     spec: str
-    precision: Precision
-    question: Question
+    precision: fields.Precision
+    question: fields.Question
     exact: Exact
-    asked: Count
-    right: Count
-    tolerated: Count
-    wrong: Count
-    excused: Count
+    asked: fields.Count
+    right: fields.Count
+    tolerated: fields.Count
+    wrong: fields.Count
+    excused: fields.Count
     mistakes: Mistakes
     worst_backward_error_u: Units
     worst_case: CaseId
     families: dict[str, FamilySummary]
-    statuses: Counts
+    statuses: fields.Counts
     declared: Claims | UnsetType = UNSET
     judged_as: Claims | UnsetType = UNSET
-    restarts: Count | UnsetType = UNSET
+    restarts: fields.Count | UnsetType = UNSET
     asked_again: Retest | UnsetType = UNSET
     causes: Annotated[list[CauseSummary], Meta(description="Since 1.4.0; present if any.")] | UnsetType = UNSET
     fresh: Fresh | UnsetType = UNSET
@@ -179,40 +157,40 @@ class ImplementationSummary(LinePart, frozen=True, kw_only=True):
     ) = UNSET
 
 
-class TimingSummary(LinePart, frozen=True, kw_only=True):
+class TimingSummary(fields.LinePart, frozen=True, kw_only=True):
     """The time of a contender; `ratio`: to the plain formula's time in the same rounds; null: that was not timed."""
 
     name: str
     workload: str
-    rows: Count
+    rows: fields.Count
     median_ns: Nanoseconds
-    ratio: Amount | None
+    ratio: fields.Amount | None
 
 
-class WorkloadSummary(LinePart, frozen=True, kw_only=True):
+class WorkloadSummary(fields.LinePart, frozen=True, kw_only=True):
     """A method's answers on a workload of a benchmark."""
 
-    asked: Count
-    wrong: Count
-    false_clear: Count
-    false_contact: Count
-    wrong_side: Count
-    abstained: Count
+    asked: fields.Count
+    wrong: fields.Count
+    false_clear: fields.Count
+    false_contact: fields.Count
+    wrong_side: fields.Count
+    abstained: fields.Count
     reliable_above: Distance
 
 
-class TimeSummary(LinePart, frozen=True, kw_only=True):
+class TimeSummary(fields.LinePart, frozen=True, kw_only=True):
     """A method's time on a workload of a benchmark, and its ratio to the run's reference."""
 
     workload: str
     mode: str
-    rows: Count
+    rows: fields.Count
     median_ns: float
     ratio: float | None
-    ratio_ci95: Interval | None
+    ratio_ci95: fields.Interval | None
 
 
-class MethodSummary(LinePart, frozen=True, kw_only=True):
+class MethodSummary(fields.LinePart, frozen=True, kw_only=True):
     """A method of a benchmark, over all workloads and for each."""
 
     name: str
@@ -221,17 +199,17 @@ class MethodSummary(LinePart, frozen=True, kw_only=True):
     precision: str
     question: str
     exact: bool
-    asked: Count
-    wrong: Count
+    asked: fields.Count
+    wrong: fields.Count
     reliable_above: Distance
     workloads: dict[str, WorkloadSummary]
     times: list[TimeSummary]
 
 
-class FailureSummary(LinePart, frozen=True, kw_only=True):
+class FailureSummary(fields.LinePart, frozen=True, kw_only=True):
     """A failure of the run, and how many of its kind it stands for."""
 
-    subject: Annotated[str, one_of("proof", "oracle", "implementation", "findings", "measurement")]
+    subject: Annotated[str, fields.one_of("proof", "oracle", "implementation", "findings", "measurement")]
     name: str
     group: str
     kind: str
@@ -240,7 +218,7 @@ class FailureSummary(LinePart, frozen=True, kw_only=True):
     count: Annotated[int, Meta(ge=1)]
 
 
-class Summary(LinePart, frozen=True, kw_only=True):
+class Summary(fields.LinePart, frozen=True, kw_only=True):
     """Totals of a run, under keys that do not change. Explained in docs/record.md.
 
     Later versions 1.x may add keys and change none; ignore what you do not know.
@@ -253,7 +231,7 @@ class Summary(LinePart, frozen=True, kw_only=True):
     truncated: Annotated[bool, Meta(description="The record has no footer.")]
     verdict: Annotated[str, Meta(description="One sentence for people.")]
     started: Annotated[str, Meta(description="ISO 8601 with its offset.")]
-    seconds: Annotated[Amount | None, Meta(description="Wall-clock time of the whole run.")]
+    seconds: Annotated[fields.Amount | None, Meta(description="Wall-clock time of the whole run.")]
     settings: Annotated[
         SettingsPart | None,
         Meta(description="Since 1.2.0; null where there was no settings file, and nothing weakens the gate."),
@@ -270,14 +248,14 @@ class Summary(LinePart, frozen=True, kw_only=True):
 
 def render(record: Record) -> bytes:
     """The summary as JSON in UTF-8; a lone surrogate, which UTF-8 cannot hold, becomes a question mark."""
-    text = json.dumps(as_json(summary(record)), ensure_ascii=False, allow_nan=False, indent=2)
+    text = json.dumps(fields.as_json(summary(record)), ensure_ascii=False, allow_nan=False, indent=2)
     return (text + "\n").encode("utf-8", "replace")
 
 
 def summary(record: Record) -> Summary:
     """The summary; its keys and their order are the same for every run."""
     ended, footer, causes = verdict(record), record.footer, record.of(CauseLine)
-    wholes = {tested.name: tested.line for tested in under_test(record) if isinstance(tested.line, Tested)}
+    wholes = {tested.name: tested.line for tested in model.under_test(record) if isinstance(tested.line, Tested)}
     return Summary(
         hypcheck=record.header.hypcheck,
         schema=SCHEMA,
@@ -288,7 +266,7 @@ def summary(record: Record) -> Summary:
         started=record.header.started,
         seconds=None if footer is None else footer.seconds,
         settings=None if record.header.settings is UNSET else record.header.settings,
-        oracles={total.name: _oracle(total) for total in oracle_totals(record)},
+        oracles={total.name: _oracle(total) for total in model.oracle_totals(record)},
         equations=_equations(record.of(EquationLine)),
         proofs=_proofs(record.of(ProofLine)),
         findings=_findings(record),
@@ -296,13 +274,13 @@ def summary(record: Record) -> Summary:
             _implementation(judged, wholes.get(judged.name), [line for line in causes if line.spec == judged.spec])
             for judged in implementations(record)
         ],
-        timings=[decoded(total, TimingSummary) for total in timing_totals(record)],
+        timings=[fields.decoded(total, TimingSummary) for total in model.timing_totals(record)],
         methods=[_method(method) for method in measured_methods(record)],
-        failures=[decoded(failure, FailureSummary) for failure in failures(record)],
+        failures=[fields.decoded(failure, FailureSummary) for failure in failures(record)],
     )
 
 
-def _oracle(total: OracleTotal) -> OracleSummary:
+def _oracle(total: model.OracleTotal) -> OracleSummary:
     return OracleSummary(
         asked=total.asked,
         agreed=total.agreed,
@@ -336,7 +314,9 @@ def _findings(record: Record) -> Findings:
     )
 
 
-def _implementation(total: ImplementationTotal, whole: Tested | None, causes: list[CauseLine]) -> ImplementationSummary:
+def _implementation(
+    total: model.ImplementationTotal, whole: Tested | None, causes: list[CauseLine]
+) -> ImplementationSummary:
     counts = ImplementationSummary(
         name=total.name,
         spec=total.spec,
@@ -351,8 +331,8 @@ def _implementation(total: ImplementationTotal, whole: Tested | None, causes: li
         return counts
     return replace(
         counts,
-        declared=decoded(whole.declared, Claims),
-        judged_as=decoded(whole.used, Claims),
+        declared=fields.decoded(whole.declared, Claims),
+        judged_as=fields.decoded(whole.used, Claims),
         restarts=whole.restarts,
         asked_again=whole.again,
         causes=[_cause(line) for line in causes] or UNSET,
@@ -385,7 +365,7 @@ def _counts(asked: int, statuses: dict[str, int], mistakes: dict[str, int], wors
         "asked": asked,
         **{status: statuses.get(status, 0) for status in ("right", "tolerated", "wrong", "excused")},
         "mistakes": _mistakes(mistakes),
-        "worst_backward_error_u": worst_error_u(worst),
+        "worst_backward_error_u": model.worst_error_u(worst),
         "worst_case": None if worst is None else worst.case,
     }
 
@@ -406,7 +386,7 @@ def _method(method: MeasuredMethod) -> MethodSummary:
         exact=line.exact,
         asked=method.asked,
         wrong=method.wrong,
-        reliable_above=Unsigned(method.reliable_above),
-        workloads={name: decoded(measurement, WorkloadSummary) for name, measurement in method.accuracy.items()},
-        times=[decoded(measurement, TimeSummary) for measurement in method.speed.values()],
+        reliable_above=fields.Unsigned(method.reliable_above),
+        workloads={name: fields.decoded(measurement, WorkloadSummary) for name, measurement in method.accuracy.items()},
+        times=[fields.decoded(measurement, TimeSummary) for measurement in method.speed.values()],
     )

@@ -11,6 +11,7 @@ from hypcheck.messages import counted, escaped
 from hypcheck.record import Record
 from hypcheck.record.lines import CauseLine
 from hypcheck.record.measurements import AbsentLine, CostLine
+from hypcheck.report import run_facts
 from hypcheck.report.advice import advice_facts, best_rival_facts, own_method_facts
 from hypcheck.report.benchmark_facts import sentences_of
 from hypcheck.report.changes import change_facts
@@ -18,15 +19,6 @@ from hypcheck.report.drawings import ALONE, ReportContext
 from hypcheck.report.facts import Failure, cause_facts
 from hypcheck.report.formats import WrittenReport
 from hypcheck.report.messages import error_text, settings_facts
-from hypcheck.report.run_facts import (
-    benchmark_facts,
-    method_facts,
-    oracle_facts,
-    paper_facts,
-    tested_facts,
-    timing_facts,
-    unmeasured_facts,
-)
 from hypcheck.report.verdict import aligned, failures, squares, verdict
 from hypcheck.runs.judge import Status
 
@@ -70,14 +62,14 @@ def summary_lines(
         *own_method_facts(record),
         *advice_facts(record),
         *sentences_of(record, AbsentLine),
-        *unmeasured_facts(record),
-        *oracle_facts(record),
-        *paper_facts(record),
-        *tested_facts(record),
-        *method_facts(record),
-        *timing_facts(record),
+        *run_facts.unmeasured_facts(record),
+        *run_facts.oracle_facts(record),
+        *run_facts.paper_facts(record),
+        *run_facts.tested_facts(record),
+        *run_facts.method_facts(record),
+        *run_facts.timing_facts(record),
         *sentences_of(record, CostLine),
-        *benchmark_facts(record),
+        *run_facts.benchmark_facts(record),
     ]
     reports = [*_reports(written), *best_rival_facts(record)]
     drawn = [] if ended.passed else list(_squares(record))

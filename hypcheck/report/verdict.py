@@ -21,6 +21,7 @@ from hypcheck.messages import counted, escaped
 from hypcheck.record import Record
 from hypcheck.record.lines import DriftLine, GroupLine, ImplementationLine, NotStartedLine, OracleLine, ProofLine
 from hypcheck.record.measurements import ComparisonLine, ForestLine, KernelLine, SceneLine
+from hypcheck.report import model
 from hypcheck.report.benchmark_facts import SLOWER, benchmark_failures, failures_of
 from hypcheck.report.document import Code, Column, Row, Strong, TableBlock, TableCell, number, plain, table
 from hypcheck.report.facts import Failure
@@ -31,16 +32,6 @@ from hypcheck.report.messages import (
     listed,
     pace,
     rows_not_asked,
-)
-from hypcheck.report.model import (
-    PASSAGE,
-    ImplementationTotal,
-    OracleTotal,
-    implementations,
-    in_order,
-    oracle_totals,
-    under_test,
-    worst_error_u,
 )
 from hypcheck.runs.judge import Status, in_words, truth_in_words
 
@@ -145,7 +136,7 @@ def verdict(record: Record) -> Verdict:
     reason = "; ".join(filter(None, parts)) or MEANINGS.get(code, "no line of the record says why")
     if code != EXIT_INCONCLUSIVE:
         return Verdict(False, f"FAILED with exit code {code}: {reason}.")
-    few = [total for total in implementations(record) if total.gated and too_few(total.judged, total.skipped)]
+    few = [total for total in model.implementations(record) if total.gated and too_few(total.judged, total.skipped)]
     if few:
         clauses = "; ".join(_gated_clause(total, record) for total in few)
         return Verdict(False, f"INCONCLUSIVE, exit code {code}: too few rows: {clauses}. A wider domain would tell.")
@@ -191,7 +182,7 @@ _WHOLE = ("start", "all families")
 
 def _wrong_clauses(record: Record) -> Iterator[str]:
     """Count, for each implementation under test, how many of the cases asked ended in each way that fails the run."""
-    for total in implementations(record):
+    for total in model.implementations(record):
         ended = sum(
             (
                 Counter({status: group.counts.get(status, 0) for status in group.failing or ()})
@@ -199,7 +190,7 @@ def _wrong_clauses(record: Record) -> Iterator[str]:
             ),
             Counter(),
         )
-        counts = [f"{number:,} {status}" for status, number in in_order(ended).items()]
+        counts = [f"{number:,} {status}" for status, number in model.in_order(ended).items()]
         if total.gated and counts:
             yield f"{total.name}: {', '.join(counts)} of {counted(total.asked, 'case')}"
 
@@ -218,8 +209,8 @@ def _failure_counts(failed: list[Failure]) -> str:
 
 
 def _passed(record: Record) -> Verdict:
-    totals = [total for total in oracle_totals(record) if total.asked]
-    tested = [method for method in implementations(record) if method.asked]
+    totals = [total for total in model.oracle_totals(record) if total.asked]
+    tested = [method for method in model.implementations(record) if method.asked]
     compared = [method for method in measured_methods(record) if method.asked or method.speed]
     if (
         not totals
@@ -240,10 +231,10 @@ def _passed(record: Record) -> Verdict:
     return Verdict(True, f"HELD: {'; '.join(clauses)}." if clauses else "HELD: nothing failed.")
 
 
-def _gated_clause(total: ImplementationTotal, record: Record) -> str:
+def _gated_clause(total: model.ImplementationTotal, record: Record) -> str:
     """How many cases of a gated implementation were judged and how they ended, which were skipped, and not asked."""
     ended = ", ".join(f"{number:,} {status}" for status, number in total.statuses.items() if status != "skipped")
-    worst = f"worst backward error {figure(worst_error_u(total.worst))} u"
+    worst = f"worst backward error {figure(model.worst_error_u(total.worst))} u"
     parts = [f"{total.name}: {total.judged:,} judged: {ended}", worst]
     if total.fresh is not None:
         parts.append(counted(total.fresh, "fresh row") if total.fresh else "no fresh rows")
@@ -253,7 +244,7 @@ def _gated_clause(total: ImplementationTotal, record: Record) -> str:
     return "; ".join(parts)
 
 
-def _skipped(total: ImplementationTotal) -> Iterator[str]:
+def _skipped(total: model.ImplementationTotal) -> Iterator[str]:
     """Rows that were skipped, by reason, and families of which all were."""
     rows = rows_not_asked(total.not_asked)
     if rows:
@@ -265,9 +256,9 @@ def _skipped(total: ImplementationTotal) -> Iterator[str]:
         )
 
 
-def _not_asked(total: ImplementationTotal, record: Record) -> Iterator[str]:
+def _not_asked(total: model.ImplementationTotal, record: Record) -> Iterator[str]:
     """Families that the run left out."""
-    lines = [tested.line for tested in under_test(record) if tested.groups == total.groups]
+    lines = [tested.line for tested in model.under_test(record) if tested.groups == total.groups]
     for line in lines if record.header.options.get("families") else ():
         families = "" if isinstance(line, NotStartedLine) else families_not_asked(line)
         if families:
@@ -278,7 +269,7 @@ _NAMED = 3
 """At most so many families without a row that was asked are named in a verdict."""
 
 
-def _oracle_clause(totals: list[OracleTotal]) -> str:
+def _oracle_clause(totals: list[model.OracleTotal]) -> str:
     """The agreement of the oracles; a single oracle shows none."""
     undecided = sum(total.undecided for total in totals)
     doubt = f", {undecided:,} undecided" if undecided else ""
@@ -300,7 +291,7 @@ def squares(record: Record) -> Iterator[tuple[TableBlock, str]]:
 
     None of a record before 1.10.0.
     """
-    for total in implementations(record):
+    for total in model.implementations(record):
         counts = total.answers
         if total.gated and any(
             not _right(total.question, truth, answer) for truth in counts for answer in counts[truth]
@@ -308,9 +299,11 @@ def squares(record: Record) -> Iterator[tuple[TableBlock, str]]:
             yield _square(total, counts), _passing(total)
 
 
-def _square(total: ImplementationTotal, counts: Mapping[str, Mapping[str, int]]) -> TableBlock:
+def _square(total: model.ImplementationTotal, counts: Mapping[str, Mapping[str, int]]) -> TableBlock:
     """What is true in rows, what was answered in columns."""
-    truths = [truth for truth in (("1", "0") if total.question == PASSAGE else ("1", "0", "-1")) if truth in counts]
+    truths = [
+        truth for truth in (("1", "0") if total.question == model.PASSAGE else ("1", "0", "-1")) if truth in counts
+    ]
     usual = [str(answer) for answer in sorted(QUESTIONS[total.question].answers, reverse=True) if answer != CANNOT_SAY]
     others = [answer for answer in _WORDS if any(answer in row for row in counts.values())]
     titles = [f"answered {_WORDS.get(answer) or in_words(int(answer), total.question)}" for answer in usual]
@@ -328,7 +321,7 @@ def _square(total: ImplementationTotal, counts: Mapping[str, Mapping[str, int]])
     return table(f"answers of {total.name} against the truth", columns, rows)
 
 
-def _passing(total: ImplementationTotal) -> str:
+def _passing(total: model.ImplementationTotal) -> str:
     """How many of the answers that are marked do not fail the run; "" without any."""
     reasons = (("tolerated", "within the tolerance"), ("excused", "excused as known failures"))
     parts = [

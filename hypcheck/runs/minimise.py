@@ -16,15 +16,7 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.pair import SIZES, Pair, trouble_with_row
 from hypcheck.geometry.rows import PAIRS, SWEEPS, Layout, Rows
 from hypcheck.messages import counted
-from hypcheck.runs.hunt import (
-    HuntFinding,
-    HuntTarget,
-    decimals,
-    finding_lines,
-    how_wrong,
-    name_of_target,
-    titled,
-)
+from hypcheck.runs import hunt
 from hypcheck.runs.hunt_place import place_of_row
 from hypcheck.runs.hunt_search import MOVERS, border_factors, columns_of
 from hypcheck.runs.judge import Status, WrongCase
@@ -232,22 +224,22 @@ Later ones are tried only if the earlier ones give no simpler row.
 class Minimised:
     """The state of a minimisation: the given row, and each simpler one that replaced it, of which the last counts."""
 
-    target: HuntTarget
-    steps: list[HuntFinding] = field(default_factory=list)
+    target: hunt.HuntTarget
+    steps: list[hunt.HuntFinding] = field(default_factory=list)
     asked: int = 0
 
     @property
-    def first(self) -> HuntFinding:
+    def first(self) -> hunt.HuntFinding:
         """The finding of the given row."""
         return self.steps[0]
 
     @property
-    def last(self) -> HuntFinding:
+    def last(self) -> hunt.HuntFinding:
         """The finding of the simplest row so far."""
         return self.steps[-1]
 
 
-def minimise(target: HuntTarget, case: ReplayCase) -> Minimised:
+def minimise(target: hunt.HuntTarget, case: ReplayCase) -> Minimised:
     """Simplify until no simpler row fails in the same way.
 
     Raises InputError if the answer is not wrong, or the row is not of the question.
@@ -265,7 +257,7 @@ def minimise(target: HuntTarget, case: ReplayCase) -> Minimised:
     return run
 
 
-def _row_of(target: HuntTarget, case: ReplayCase) -> Row:
+def _row_of(target: hunt.HuntTarget, case: ReplayCase) -> Row:
     """The row of a case; of a spheroid that stands upright after all, without its axis."""
     case = of_question(case, target.implementation.description)
     trouble = trouble_with_row(case.row, target.layout.upright)
@@ -274,7 +266,7 @@ def _row_of(target: HuntTarget, case: ReplayCase) -> Row:
     return tuple(np.add(case.row, 0.0).tolist()) if case.layout is SWEEPS else Pair.from_row(case.row).row
 
 
-def _start(run: Minimised, row: Row) -> HuntFinding:
+def _start(run: Minimised, row: Row) -> hunt.HuntFinding:
     rows, layout = np.array([row]), run.target.layout
     if layout.has_axis(rows) and not layout.has_heights(rows) and not run.target.implementation.description.tilt:
         raise InputError('the row has an axis, and the implementation does not declare "tilt": true')
@@ -289,7 +281,7 @@ def _start(run: Minimised, row: Row) -> HuntFinding:
         raise InputError("the implementation's answer to this row is not wrong; there is nothing to simplify")
     if case.status is not Status.WRONG:
         raise InputError("the implementation's answer to this row is wrong within tolerance; see --tolerance")
-    return HuntFinding.of(case, run.target.criterion, place_of_row(row, layout), "given")
+    return hunt.HuntFinding.of(case, run.target.criterion, place_of_row(row, layout), "given")
 
 
 def _improve(run: Minimised, variants: Variants) -> bool:
@@ -304,7 +296,7 @@ def _improve(run: Minimised, variants: Variants) -> bool:
         for case in _ask(run, rows).judged():
             place = place_of_row(case.row, layout) if _alike(case, run.first.case) else None
             if place is not None and place.cause == run.first.place.cause:
-                run.steps.append(HuntFinding.of(case, run.target.criterion, place, f"step {len(run.steps)}"))
+                run.steps.append(hunt.HuntFinding.of(case, run.target.criterion, place, f"step {len(run.steps)}"))
                 return True
     return False
 
@@ -325,7 +317,7 @@ def _ask(run: Minimised, rows: Rows) -> Score:
 def minimised_lines(run: Minimised) -> Iterator[str]:
     """The report of a minimisation."""
     steps = len(run.steps) - 1
-    yield f"{name_of_target(run.target)}: {counted(steps, 'step')}, {counted(run.asked, 'row')} asked"
-    yield titled("given", f"{decimals(run.first.case.row)}, {how_wrong(run.first)}")
-    yield titled("where", run.last.place.words)
-    yield from finding_lines(run.last, run.target)
+    yield f"{hunt.name_of_target(run.target)}: {counted(steps, 'step')}, {counted(run.asked, 'row')} asked"
+    yield hunt.titled("given", f"{hunt.decimals(run.first.case.row)}, {hunt.how_wrong(run.first)}")
+    yield hunt.titled("where", run.last.place.words)
+    yield from hunt.finding_lines(run.last, run.target)

@@ -19,19 +19,12 @@ from hypcheck.implementations.description import Description
 from hypcheck.implementations.domain import Domain
 from hypcheck.implementations.implementation import Crashed, Implementation, open_implementation
 from hypcheck.implementations.session import Allowance, Limits, StartError
+from hypcheck.runs import results
 from hypcheck.runs.border_search import SearchStep, ask_search
 from hypcheck.runs.cases import PACE, CaseChunk, Pace
-from hypcheck.runs.results import (
-    CasesResult,
-    InvalidRows,
-    JudgingRules,
-    ask_chunk,
-    ask_invalid_rows,
-    merged_result,
-)
 from hypcheck.runs.retest import RetestStep, retest
 
-Step = CaseChunk | RetestStep | SearchStep | InvalidRows
+Step = CaseChunk | RetestStep | SearchStep | results.InvalidRows
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,23 +59,23 @@ class ImplementationOpener:
 class TaskResult:
     """The result of a task, and what is left of the allowance with which it began."""
 
-    result: CasesResult
+    result: results.CasesResult
     left: Allowance
 
 
 def perform_task(
-    task: Step, implementation: Implementation | Crashed, rules: JudgingRules, allowance: Allowance
+    task: Step, implementation: Implementation | Crashed, rules: results.JudgingRules, allowance: Allowance
 ) -> TaskResult:
     """Perform a task within the allowance. The result depends only on the answers and the allowance."""
     implementation.allowance = allowance
     if isinstance(task, CaseChunk):
-        result = ask_chunk(task, implementation, rules)
+        result = results.ask_chunk(task, implementation, rules)
     elif isinstance(task, RetestStep):
         result = retest(task, implementation, rules)
     elif isinstance(task, SearchStep):
         result = ask_search(task, implementation, rules)
     else:
-        result = ask_invalid_rows(task, implementation, rules)
+        result = results.ask_invalid_rows(task, implementation, rules)
     return TaskResult(result, implementation.allowance)
 
 
@@ -107,7 +100,7 @@ class RunState:
 
     left: Allowance
     done: int = 0
-    total: CasesResult = field(default_factory=CasesResult)
+    total: results.CasesResult = field(default_factory=results.CasesResult)
 
     def allowance(self, limits: Allowance) -> Allowance:
         """The allowance of the next task: the full limits, unless the implementation was given up."""
@@ -120,7 +113,7 @@ class RunState:
             before = replace(
                 before, pending=tuple(pending for pending in before.pending if not step.asks(pending.chunk))
             )
-        return RunState(self.left.after(done.left, limits), self.done + 1, merged_result([before, done.result]))
+        return RunState(self.left.after(done.left, limits), self.done + 1, results.merged_result([before, done.result]))
 
 
 class WorkerLost(Exception):  # noqa: N818 - it is an event that does not fail the run
@@ -156,7 +149,7 @@ class TaskExecution:
     workers: int
     limits: Allowance
     max_rows: int | None
-    rules: JudgingRules
+    rules: results.JudgingRules
 
     def crashed(self, task: Step, allowance: Allowance, reason: str) -> TaskResult:
         """The result of a task if all of its cases crash."""
@@ -164,7 +157,7 @@ class TaskExecution:
 
 
 def steps_of_chunks(
-    chunks: Iterable[CaseChunk], last: Iterable[SearchStep | InvalidRows] = (), pace: Pace = PACE
+    chunks: Iterable[CaseChunk], last: Iterable[SearchStep | results.InvalidRows] = (), pace: Pace = PACE
 ) -> Iterator[Step]:
     """The steps that ask these chunks, with their retests, and then those that come last."""
     rows, rounds, parts = 0, 0, set[int]()

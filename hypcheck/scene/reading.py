@@ -14,20 +14,7 @@ from importlib import resources
 from hypcheck import toml
 from hypcheck.errors import InputError
 from hypcheck.messages import suggestion
-from hypcheck.scene import tables
-from hypcheck.scene.model import (
-    QUESTIONS,
-    TURNS,
-    UPRIGHT,
-    Flight,
-    Hyperboloid,
-    Mover,
-    MoverPart,
-    Region,
-    SceneModel,
-    Start,
-    Walk,
-)
+from hypcheck.scene import model, tables
 from hypcheck.scene.tables import TomlSource, TomlTable
 
 _FLIGHT = ("distance", "straight", "vertical", "largest_turn", "refused_turn", "backward", "turn", "start")
@@ -35,19 +22,19 @@ _START = ("z", "radius", "margin")
 _WALK = ("start", "heading", "steps", "step", "largest_turn", "refused_turn")
 
 
-def _flight(top: TomlTable) -> Flight | None:
+def _flight(top: TomlTable) -> model.Flight | None:
     """What [flight] says, None where it is not there. Raises InputError."""
     table = top.table("flight", _FLIGHT)
     if table is None:
         return None
-    flight = Flight(
+    flight = model.Flight(
         distance=table.required("distance", tables.positive),
         straight=table.required("straight", tables.share),
         vertical=table.required("vertical", tables.share),
         largest_turn=table.required("largest_turn", tables.turn),
         refused_turn=table.required("refused_turn", tables.turn),
         backward=table.required("backward", tables.truth),
-        turn=table.required("turn", tables.one_of(*TURNS)),
+        turn=table.required("turn", tables.one_of(*model.TURNS)),
         start=_start(table),
     )
     moving = flight.straight + flight.vertical
@@ -58,11 +45,11 @@ def _flight(top: TomlTable) -> Flight | None:
     return flight
 
 
-def _start(flight: TomlTable) -> Start:
+def _start(flight: TomlTable) -> model.Start:
     table = flight.table("start", _START)
     if table is None:
         flight.refuse("[flight] has no start; it must be a table with z, and radius or margin")
-    start = Start(
+    start = model.Start(
         z=table.required("z", tables.span_or_number),
         radius=table.optional("radius", tables.not_negative, None),
         margin=table.optional("margin", tables.not_negative, None),
@@ -72,12 +59,12 @@ def _start(flight: TomlTable) -> Start:
     return start
 
 
-def _walk(top: TomlTable) -> Walk | None:
+def _walk(top: TomlTable) -> model.Walk | None:
     """What [walk] says, None where it is not there. Raises InputError."""
     table = top.table("walk", _WALK)
     if table is None:
         return None
-    return Walk(
+    return model.Walk(
         start=table.required("start", tables.point),
         heading=table.required("heading", tables.turn),
         steps=table.required("steps", tables.integer),
@@ -100,7 +87,7 @@ _PART = ("b", "d", "arm", "angle")
 _REGION = ("x", "y", "z")
 
 
-def read_scene(name: str) -> SceneModel:
+def read_scene(name: str) -> model.SceneModel:
     """The scene in a file, or the shipped scene of that name (see shipped_scenes). Raises InputError."""
     return parse_scene(*_file(name))
 
@@ -116,7 +103,7 @@ def shipped_text(name: str) -> str:
     return resources.files("hypcheck.scene").joinpath("shipped", name + SUFFIX).read_text(encoding="utf-8")
 
 
-def parse_scene(text: str, source: str = "the scene") -> SceneModel:
+def parse_scene(text: str, source: str = "the scene") -> model.SceneModel:
     """The scene that a TOML text describes; `source` names it in errors. Raises InputError naming key and line."""
     try:
         return _scene(TomlTable(TomlSource(source, text), (), "the scene", toml.parsed(text, source), _SCENE))
@@ -124,11 +111,11 @@ def parse_scene(text: str, source: str = "the scene") -> SceneModel:
         raise InputError(f"{source}: cannot be read as TOML: it is nested too deeply") from None
 
 
-def _scene(top: TomlTable) -> SceneModel:
+def _scene(top: TomlTable) -> model.SceneModel:
     name = top.required("name", tables.text)
-    question = top.optional("question", tables.one_of(*QUESTIONS), "position")
+    question = top.optional("question", tables.one_of(*model.QUESTIONS), "position")
     hyperboloids = _hyperboloids(top)
-    scene = SceneModel(name, question, hyperboloids, _mover(top), _region(top), _flight(top), _walk(top))
+    scene = model.SceneModel(name, question, hyperboloids, _mover(top), _region(top), _flight(top), _walk(top))
     endless = any(body.height and math.inf in map(abs, body.height.ends) for body in hyperboloids)
     for key, moving in (("flight", scene.flight), ("walk", scene.walk)):
         if moving is not None:
@@ -154,17 +141,17 @@ def _file(name: str) -> tuple[str, str]:
         raise InputError(f"{name}: there is no such file; {meant}") from None
 
 
-def _hyperboloids(top: TomlTable) -> tuple[Hyperboloid, ...]:
+def _hyperboloids(top: TomlTable) -> tuple[model.Hyperboloid, ...]:
     numbers: dict[str, int] = {}
     result = []
     for number, table in enumerate(top.tables("hyperboloid", _HYPERBOLOID, MOST_HYPERBOLOIDS), start=1):
-        body = Hyperboloid(
+        body = model.Hyperboloid(
             name=table.optional("name", tables.text, f"hyperboloid {number}"),
             alpha=table.required("alpha", tables.positive),
             gamma=table.required("gamma", tables.positive),
             center=table.optional("center", tables.point, (0.0, 0.0, 0.0)),
             height=table.optional("height", tables.height, None),
-            axis=table.optional("axis", tables.axis, UPRIGHT),
+            axis=table.optional("axis", tables.axis, model.UPRIGHT),
             solid=table.optional("solid", tables.truth, False),
         )
         first = numbers.setdefault(body.name, number)
@@ -177,17 +164,17 @@ def _hyperboloids(top: TomlTable) -> tuple[Hyperboloid, ...]:
     return tuple(result)
 
 
-def _mover(top: TomlTable) -> Mover:
+def _mover(top: TomlTable) -> model.Mover:
     table = top.table("mover", _MOVER)
     if table is None:
         top.refuse("the scene has no [mover]; it must have one, with b and d")
     b, d = (table.required(name, tables.positive) for name in ("b", "d"))
-    return Mover(b, d, tuple(_parts(table, b, d)), table.optional("axis", tables.axis_or_free, UPRIGHT))
+    return model.Mover(b, d, tuple(_parts(table, b, d)), table.optional("axis", tables.axis_or_free, model.UPRIGHT))
 
 
-def _parts(mover: TomlTable, b: float, d: float) -> Iterable[MoverPart]:
+def _parts(mover: TomlTable, b: float, d: float) -> Iterable[model.MoverPart]:
     for number, table in enumerate(mover.tables("part", _PART, MOST_PARTS), start=1):
-        part = MoverPart(
+        part = model.MoverPart(
             b=table.required("b", tables.positive),
             d=table.required("d", tables.positive),
             arm=table.required("arm", tables.not_negative),
@@ -201,7 +188,7 @@ def _parts(mover: TomlTable, b: float, d: float) -> Iterable[MoverPart]:
         yield part
 
 
-def within(part: MoverPart, b: float, d: float) -> bool:
+def within(part: model.MoverPart, b: float, d: float) -> bool:
     """Whether the part lies in the closed spheroid of semi-axes b, b, d: exactly, over the given float64 values.
 
     Divide lengths by b and d as Theorem 1 does: the mover is the unit ball, the part has semi-axes p, p, q and its
@@ -216,8 +203,8 @@ def within(part: MoverPart, b: float, d: float) -> bool:
     return e * e + q * q + (e * p) ** 2 / bend <= 1
 
 
-def _region(top: TomlTable) -> Region:
+def _region(top: TomlTable) -> model.Region:
     table = top.table("region", _REGION)
     if table is None:
-        return Region()
-    return Region(*(table.optional(name, tables.span_or_number, None) for name in _REGION))
+        return model.Region()
+    return model.Region(*(table.optional(name, tables.span_or_number, None) for name in _REGION))

@@ -21,20 +21,7 @@ from hypcheck.record import Record
 from hypcheck.report.measured import TIERS, MeasuredMethod, measured_methods, principal, workloads
 from hypcheck.report.messages import figure
 from hypcheck.report.model import ImplementationTotal, implementations
-from hypcheck.report.plots.style import (
-    LIMIT,
-    NONE_WRONG,
-    WIDTH,
-    CurveStyle,
-    Mark,
-    colour,
-    curve_style,
-    draw_marks,
-    legend_handles,
-    log_axis,
-    new_figure,
-    power_of_ten,
-)
+from hypcheck.report.plots import style
 from hypcheck.report.plots.svg import Plot
 
 TANGENT = -math.inf
@@ -121,12 +108,12 @@ def curve_plot(name: str, title: str, curves: Sequence[Curve]) -> Plot:
     """A plot of at most AT_MOST curves with their legend below them."""
     columns = 2 if all(len(escaped(curve.name)) <= _LABEL for curve in curves) else 1
     rows = -(-len(curves) // columns) + 1
-    drawn = new_figure(WIDTH, 250 + 15.5 * rows)
+    drawn = style.new_figure(style.WIDTH, 250 + 15.5 * rows)
     axes = drawn.subplots()
     left = _axes(axes, curves)
     tips: dict[str, list[str]] = {}
     for place, curve in enumerate(curves):
-        tips |= _draw_curve(axes, curve, f"{name}-{place}", curve_style(place), (place, len(curves)), left)
+        tips |= _draw_curve(axes, curve, f"{name}-{place}", style.curve_style(place), (place, len(curves)), left)
     _legend(drawn, curves, columns)
     return Plot(name, title, _description(curves), drawn, tips)
 
@@ -144,20 +131,20 @@ def _axes(axes: Axes, curves: Sequence[Curve]) -> float:
     low, high = min(finite), max(max(finite) + 1, 0)
     step = max(1, math.ceil((high - low) / _LOG2_10 / 8))
     decades = [k for k in range(math.ceil(low / _LOG2_10), math.floor(high / _LOG2_10) + 1) if k % step == 0]
-    ticks = [(k * _LOG2_10, power_of_ten(k)) for k in decades]
+    ticks = [(k * _LOG2_10, style.power_of_ten(k)) for k in decades]
     left = low - max(1.5, (high - low) / 16)
     if any(octave.exponent == TANGENT for octave in octaves):
         ticks = [(left, "0"), *(tick for tick in ticks if tick[0] > low)]
-        axes.axvline((left + low) / 2, color=colour("soft"), linewidth=0.8, linestyle=(0, (1, 3)))
+        axes.axvline((left + low) / 2, color=style.colour("soft"), linewidth=0.8, linestyle=(0, (1, 3)))
     axes.set_xticks([place for place, _ in ticks], [label for _, label in ticks])
     axes.set_xlabel("distance to the other answer (relative change of the inputs)")
-    log_axis(axes, "y", min((octave.share for octave in octaves), default=0.1) / 1.6, 1.5)
+    style.log_axis(axes, "y", min((octave.share for octave in octaves), default=0.1) / 1.6, 1.5)
     axes.set_ylabel("share of wrong answers")
     return left
 
 
 def _draw_curve(
-    axes: Axes, curve: Curve, gid: str, how: CurveStyle, turn: tuple[int, int], left: float
+    axes: Axes, curve: Curve, gid: str, how: style.CurveStyle, turn: tuple[int, int], left: float
 ) -> dict[str, list[str]]:
     """Draw a curve. Marks with tooltips: its octaves with wrong answers, and in turn with other curves some without."""
     at = [(left if octave.exponent == TANGENT else octave.middle, octave) for octave in curve.octaves]
@@ -167,13 +154,13 @@ def _draw_curve(
     place, number = turn
     wrong, none = [], []
     for count, (x, octave) in enumerate(at):
-        mark = Mark(x, octave.share, _tip(curve.name, octave))
+        mark = style.Mark(x, octave.share, _tip(curve.name, octave))
         if octave.wrong:
             wrong.append(mark)
         elif count % number == place or (count and at[count - 1][1].wrong):
             none.append(mark)
-    tips = draw_marks(axes, f"{gid}-wrong", wrong, **how.marks)
-    return tips | draw_marks(axes, f"{gid}-none", none, color=how.colour, **LIMIT)
+    tips = style.draw_marks(axes, f"{gid}-wrong", wrong, **how.marks)
+    return tips | style.draw_marks(axes, f"{gid}-none", none, color=how.colour, **style.LIMIT)
 
 
 def _tip(name: str, octave: Octave) -> str:
@@ -193,10 +180,12 @@ def _segments(finite: Sequence[tuple[float, Octave]], *, measured: bool) -> tupl
 
 
 def _legend(drawn: Figure, curves: Sequence[Curve], columns: int) -> None:
-    soft = colour("soft")
-    limit = Line2D([], [], color=soft, linestyle=_DOTS, linewidth=0.9, label=NONE_WRONG, **LIMIT)
+    soft = style.colour("soft")
+    limit = Line2D([], [], color=soft, linestyle=_DOTS, linewidth=0.9, label=style.NONE_WRONG, **style.LIMIT)
     drawn.legend(handles=[limit], loc="outside upper left", labelcolor=soft)
-    drawn.legend(handles=legend_handles([curve.name for curve in curves]), loc="outside lower left", ncols=columns)
+    drawn.legend(
+        handles=style.legend_handles([curve.name for curve in curves]), loc="outside lower left", ncols=columns
+    )
 
 
 NOT_WRONG = ("right", "skipped", "abstained", "refused")

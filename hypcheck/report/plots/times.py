@@ -14,19 +14,7 @@ from hypcheck.record import Record
 from hypcheck.record.measurements import BoundingLine, ConvergenceLine, ForestLine, SpeedLine
 from hypcheck.report.measured import TIERS, measured_methods, noise_floor, reference, workloads
 from hypcheck.report.messages import figure
-from hypcheck.report.plots.style import (
-    LIMIT,
-    MARKERS,
-    NONE_WRONG,
-    WIDTH,
-    Mark,
-    colour,
-    curve_style,
-    draw_marks,
-    legend_handles,
-    log_axis,
-    new_figure,
-)
+from hypcheck.report.plots import style
 from hypcheck.report.plots.svg import Plot
 
 _MODES = {"batch": "in a batch", "single": "one query a call", "build": "building a mesh"}
@@ -69,23 +57,23 @@ def speed_plots(record: Record) -> Iterator[Plot]:
 
 
 def _speed_plot(name: str, title: str, rows: Sequence[SpeedRow], floor: float | None, against: str) -> Plot:
-    drawn = new_figure(WIDTH, 80 + 15 * len(rows))
+    drawn = style.new_figure(style.WIDTH, 80 + 15 * len(rows))
     axes = drawn.subplots()
-    log_axis(axes, "x", min(row.low for row in rows) / 1.5, max(row.high for row in rows) * 1.5)
+    style.log_axis(axes, "x", min(row.low for row in rows) / 1.5, max(row.high for row in rows) * 1.5)
     if floor:
         axes.axvspan(
-            1 / (1 + floor), 1 + floor, color=colour("rule"), alpha=0.8, linewidth=0, label="noise of this run"
+            1 / (1 + floor), 1 + floor, color=style.colour("rule"), alpha=0.8, linewidth=0, label="noise of this run"
         )
-    axes.axvline(1, color=colour("soft"), linewidth=0.8)
+    axes.axvline(1, color=style.colour("soft"), linewidth=0.8)
     tips: dict[str, list[str]] = {}
     for number, tier in enumerate(TIERS):
         mine = [(place, row) for place, row in enumerate(rows) if row.tier == tier]
         if mine:
-            own = colour(f"series-{number + 1}")
+            own = style.colour(f"series-{number + 1}")
             axes.hlines([at for at, _ in mine], [row.low for _, row in mine], [row.high for _, row in mine], color=own)
-            marks = [Mark(row.ratio, at, row.tip) for at, row in mine]
-            look: dict[str, Any] = {"color": own, "marker": MARKERS[number], "markersize": 5, "label": tier}
-            tips |= draw_marks(axes, f"{name}-{number}", marks, **look)
+            marks = [style.Mark(row.ratio, at, row.tip) for at, row in mine]
+            look: dict[str, Any] = {"color": own, "marker": style.MARKERS[number], "markersize": 5, "label": tier}
+            tips |= style.draw_marks(axes, f"{name}-{number}", marks, **look)
     axes.set_yticks(range(len(rows)), [escaped(row.name, 36) for row in rows])
     axes.set_ylim(len(rows) - 0.4, -0.6)
     axes.tick_params(axis="y", length=0, labelsize=9)
@@ -95,15 +83,15 @@ def _speed_plot(name: str, title: str, rows: Sequence[SpeedRow], floor: float | 
     return Plot(name, title, description, drawn, tips)
 
 
-def _draw_curves(axes: Axes, name: str, curves: Mapping[str, Sequence[Mark]]) -> dict[str, list[str]]:
+def _draw_curves(axes: Axes, name: str, curves: Mapping[str, Sequence[style.Mark]]) -> dict[str, list[str]]:
     """Draw a line with marks for each name. Returns the tooltips of the marks."""
     tips: dict[str, list[str]] = {}
     for place, marks in enumerate(curves.values()):
-        how = curve_style(place)
+        how = style.curve_style(place)
         axes.plot([mark.x for mark in marks], [mark.y for mark in marks], **how.line)
-        tips |= draw_marks(axes, f"{name}-{place}", [mark for mark in marks if not mark.limit], **how.marks)
+        tips |= style.draw_marks(axes, f"{name}-{place}", [mark for mark in marks if not mark.limit], **how.marks)
         limits = [mark for mark in marks if mark.limit]
-        tips |= draw_marks(axes, f"{name}-{place}-limit", limits, color=how.colour, **LIMIT)
+        tips |= style.draw_marks(axes, f"{name}-{place}-limit", limits, color=how.colour, **style.LIMIT)
     return tips
 
 
@@ -125,7 +113,7 @@ def convergence_plots(record: Record) -> Iterator[Plot]:
             yield _convergence_plot(what, label, methods)
 
 
-def _convergence_mark(line: ConvergenceLine, what: str) -> Mark:
+def _convergence_mark(line: ConvergenceLine, what: str) -> style.Mark:
     """What is drawn of a line; of no wrong answer among n the upper limit 3/n."""
     tip = (
         f"{line.method}, {line.triangles:,} triangles: {line.wrong:,} of {line.asked:,} wrong,"
@@ -134,30 +122,32 @@ def _convergence_mark(line: ConvergenceLine, what: str) -> Mark:
     )
     if what == "wrong":
         share = (line.wrong or min(3, line.asked)) / max(1, line.asked)
-        return Mark(line.triangles, share, tip, limit=not line.wrong)
-    return Mark(line.triangles, getattr(line, what if what == "deviation" else f"{what}_ns"), tip)
+        return style.Mark(line.triangles, share, tip, limit=not line.wrong)
+    return style.Mark(line.triangles, getattr(line, what if what == "deviation" else f"{what}_ns"), tip)
 
 
 def _convergence_plot(what: str, label: str, methods: Mapping[str, Sequence[ConvergenceLine]]) -> Plot:
-    drawn = new_figure(WIDTH, 250 + 15 * len(methods))
+    drawn = style.new_figure(style.WIDTH, 250 + 15 * len(methods))
     axes = drawn.subplots()
     curves = {name: [_convergence_mark(line, what) for line in lines] for name, lines in methods.items()}
     shown = {name: [mark for mark in marks if mark.y > 0] for name, marks in curves.items()}
     values = [mark.y for marks in shown.values() for mark in marks] or [1.0]
     triangles = [mark.x for marks in curves.values() for mark in marks]
-    log_axis(axes, "x", min(triangles) / 1.5, max(triangles) * 1.5)
-    log_axis(axes, "y", min(values) / 1.8, max(values) * 1.8)
+    style.log_axis(axes, "x", min(triangles) / 1.5, max(triangles) * 1.5)
+    style.log_axis(axes, "y", min(values) / 1.8, max(values) * 1.8)
     axes.set(xlabel="triangles", ylabel=label)
     tips = _draw_curves(axes, f"convergence-{what}", shown)
-    handles = legend_handles(methods)
+    handles = style.legend_handles(methods)
     if what == "wrong":
-        handles.append(Line2D([], [], label=NONE_WRONG, color=colour("soft"), linestyle="none", **LIMIT))
+        handles.append(
+            Line2D([], [], label=style.NONE_WRONG, color=style.colour("soft"), linestyle="none", **style.LIMIT)
+        )
     drawn.legend(handles=handles, loc="outside lower left")
     description = f"{label} against the number of triangles. At the most: {_last_tips(curves)}."
     return Plot(f"convergence-{what}", label, description, drawn, tips)
 
 
-def _last_tips(curves: Mapping[str, Sequence[Mark]]) -> str:
+def _last_tips(curves: Mapping[str, Sequence[style.Mark]]) -> str:
     """The tooltips of the last marks."""
     return "; ".join(marks[-1].tip for marks in curves.values() if marks)
 
@@ -178,7 +168,7 @@ def bounding_plots(record: Record) -> Iterator[Plot]:
             yield _bounding_plot(what, label, curves)
 
 
-def _bounding_marks(line: BoundingLine, what: str) -> list[Mark]:
+def _bounding_marks(line: BoundingLine, what: str) -> list[style.Mark]:
     """What is drawn over d/b, of the rows that have it."""
     marks = []
     for ratio, asked, contacts, excess in line.overlap:
@@ -186,43 +176,43 @@ def _bounding_marks(line: BoundingLine, what: str) -> list[Mark]:
         if value is not None and asked:
             known = "" if excess is None else f", median excess clearance {figure(excess)} radii"
             tip = f"{line.shape}, d/b {figure(ratio)}: {contacts:,.0f} of {asked:,.0f} false contacts{known}"
-            marks.append(Mark(float(ratio), float(value), tip))
+            marks.append(style.Mark(float(ratio), float(value), tip))
     return sorted(marks)
 
 
-def _bounding_plot(what: str, label: str, curves: Mapping[str, Sequence[Mark]]) -> Plot:
-    drawn = new_figure(WIDTH, 240 + 15 * len(curves))
+def _bounding_plot(what: str, label: str, curves: Mapping[str, Sequence[style.Mark]]) -> Plot:
+    drawn = style.new_figure(style.WIDTH, 240 + 15 * len(curves))
     axes = drawn.subplots()
     marks = [mark for drawn_marks in curves.values() for mark in drawn_marks]
     ratios = [mark.x for mark in marks]
-    log_axis(axes, "x", min(*ratios, 0.5) / 1.3, max(*ratios, 2.0) * 1.3)
-    axes.axvline(1, color=colour("soft"), linewidth=0.8)
+    style.log_axis(axes, "x", min(*ratios, 0.5) / 1.3, max(*ratios, 2.0) * 1.3)
+    axes.axvline(1, color=style.colour("soft"), linewidth=0.8)
     axes.set(xlabel="d/b, half height by radius of the spheroid (1: a sphere)", ylabel=label)
     tips = _draw_curves(axes, f"bounding-{what}", curves)
     axes.set_ylim(bottom=min(0.0, *(mark.y for mark in marks)))
-    drawn.legend(handles=legend_handles(curves), loc="outside lower left")
+    drawn.legend(handles=style.legend_handles(curves), loc="outside lower left")
     return Plot(f"bounding-{what}", label, f"{label} against d/b. {_last_tips(curves)}.", drawn, tips)
 
 
 def forest_plots(record: Record) -> Iterator[Plot]:
     """One plot, a curve for each that was asked."""
-    curves: dict[str, list[Mark]] = {}
+    curves: dict[str, list[style.Mark]] = {}
     for line in sorted(record.of(ForestLine), key=lambda line: line.trees):
         tip = (
             f"{line.method}, {line.trees:,} trees: {figure(line.step_ns)} ns a step, built in {figure(line.build_s)} s,"
             f" {line.wrong:,} of {line.asked:,} wrong"
         )
-        curves.setdefault(line.method, []).append(Mark(line.trees, line.step_ns, tip))
+        curves.setdefault(line.method, []).append(style.Mark(line.trees, line.step_ns, tip))
     if not curves:
         return
-    drawn = new_figure(WIDTH, 250 + 15 * len(curves))
+    drawn = style.new_figure(style.WIDTH, 250 + 15 * len(curves))
     axes = drawn.subplots()
     trees, times, _, _ = zip(*(mark for marks in curves.values() for mark in marks), strict=True)
-    log_axis(axes, "x", min(trees) / 1.5, max(trees) * 1.5)
-    log_axis(axes, "y", min(times) / 2, max(times) * 2)
+    style.log_axis(axes, "x", min(trees) / 1.5, max(trees) * 1.5)
+    style.log_axis(axes, "y", min(times) / 2, max(times) * 2)
     axes.set(xlabel="trees", ylabel="time of a step (ns)")
     tips = _draw_curves(axes, "forest", curves)
-    drawn.legend(handles=legend_handles(curves), loc="outside lower left")
+    drawn.legend(handles=style.legend_handles(curves), loc="outside lower left")
     title = "time of a step against the number of trees"
     description = f"{title.capitalize()}. In the largest forest: {_last_tips(curves)}."
     yield Plot("forest", title, description, drawn, tips)

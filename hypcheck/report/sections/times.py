@@ -7,19 +7,7 @@ from collections.abc import Iterator, Sequence
 from msgspec.structs import astuple, fields
 
 from hypcheck.messages import counted
-from hypcheck.record import Record
-from hypcheck.record.measurements import (
-    ComparisonLine,
-    CostLine,
-    ForestLine,
-    KernelLine,
-    MemoryLine,
-    RefusedLine,
-    SceneLine,
-    Shares,
-    SpeedLine,
-    UnmeasuredLine,
-)
+from hypcheck.record import Record, measurements
 from hypcheck.report.document import (
     MISSING,
     Block,
@@ -55,16 +43,16 @@ _MEMORY = "The growth of a fresh process's peak resident memory while it answers
 def speed_sections(record: Record) -> Iterator[Section]:
     """The times and the memory of methods, with their intervals and the noise of the run."""
     blocks = [
-        *_untimed("Not timed, because the answers were wrong:", record.of(RefusedLine)),
-        *_untimed("Could not be timed here, which does not fail the run:", record.of(UnmeasuredLine)),
+        *_untimed("Not timed, because the answers were wrong:", record.of(measurements.RefusedLine)),
+        *_untimed("Could not be timed here, which does not fail the run:", record.of(measurements.UnmeasuredLine)),
     ]
-    if record.of(SpeedLine) or blocks:
+    if record.of(measurements.SpeedLine) or blocks:
         yield Section("Run times", (Paragraph(_TIMES), *blocks, Figures("speeds"), _speed_table(record)))
-    if record.of(MemoryLine):
+    if record.of(measurements.MemoryLine):
         yield Section("Memory", (Paragraph(_MEMORY), _memory(record)))
 
 
-def _untimed(words: str, lines: Sequence[RefusedLine | UnmeasuredLine]) -> list[Block]:
+def _untimed(words: str, lines: Sequence[measurements.RefusedLine | measurements.UnmeasuredLine]) -> list[Block]:
     """A list of these lines after these words; nothing without a line."""
     items = [(Code(line.method), f" on {line.workload}, {line.mode}: {line.reason}") for line in lines]
     return [Paragraph(words), bullets(items)] if items else []
@@ -82,7 +70,7 @@ def _speed_table(record: Record) -> TableBlock:
     return table("run times", heads, rows)
 
 
-def _time(record: Record, line: SpeedLine) -> Row:
+def _time(record: Record, line: measurements.SpeedLine) -> Row:
     floor = noise_floor(record, line.workload, line.mode)
     noise = MISSING if floor is None else TableCell(f"± {figure(100 * floor)} %", floor)
     dropped = f", {counted(line.dropped, 'impossible sample')} dropped" if line.dropped else ""
@@ -102,7 +90,7 @@ def _memory(record: Record) -> TableBlock:
             TableCell(figure(line.peak_bytes / 1e6), line.peak_bytes),
             measured(line.peak_bytes / max(1, line.rows)),
         )
-        for line in record.of(MemoryLine)
+        for line in record.of(measurements.MemoryLine)
     ]
     return table("memory", "method | # rows | # growth, MB | # bytes a row", rows)
 
@@ -120,7 +108,7 @@ _SCENES = prose(
 
 def scene_sections(record: Record) -> Iterator[Section]:
     """What scenes leave out and save, and the cost of a walker's step in a forest."""
-    scenes, forests = record.of(SceneLine), record.of(ForestLine)
+    scenes, forests = record.of(measurements.SceneLine), record.of(measurements.ForestLine)
     if scenes:
         yield Section("What scenes leave out", (Paragraph(_SCENES), _shares(scenes), _scene_table(scenes)))
     if forests:
@@ -129,7 +117,7 @@ def scene_sections(record: Record) -> Iterator[Section]:
         yield Section("A step in a forest", (Paragraph(_FOREST), Figures("forest"), _forest(forests), methods))
 
 
-def _forest(lines: list[ForestLine]) -> TableBlock:
+def _forest(lines: list[measurements.ForestLine]) -> TableBlock:
     rows = [
         (
             Code(line.method),
@@ -146,7 +134,7 @@ def _forest(lines: list[ForestLine]) -> TableBlock:
     return table("a step in a forest", heads, rows)
 
 
-def _shares(lines: list[SceneLine]) -> TableBlock:
+def _shares(lines: list[measurements.SceneLine]) -> TableBlock:
     rows: list[Row] = [
         (
             line.scene,
@@ -157,11 +145,11 @@ def _shares(lines: list[SceneLine]) -> TableBlock:
         )
         for line in lines
     ]
-    stages = " | ".join(f"# {field.name}, %" for field in fields(Shares))
+    stages = " | ".join(f"# {field.name}, %" for field in fields(measurements.Shares))
     return table("what decides in scenes", f"scene | question | # pairs of sizes | {stages} | # wrong", rows)
 
 
-def _scene_table(lines: list[SceneLine]) -> TableBlock:
+def _scene_table(lines: list[measurements.SceneLine]) -> TableBlock:
     rows = [
         (
             line.scene,
@@ -187,19 +175,19 @@ _BASELINE = prose(
 
 def baseline_sections(record: Record) -> Iterator[Section]:
     """The comparison with the baseline; none if there is no baseline."""
-    if record.of(ComparisonLine):
-        yield Section("Against the baseline", (Paragraph(_BASELINE), _baseline(record.of(ComparisonLine))))
+    if record.of(measurements.ComparisonLine):
+        yield Section("Against the baseline", (Paragraph(_BASELINE), _baseline(record.of(measurements.ComparisonLine))))
 
 
 def target_sections(record: Record) -> Iterator[Section]:
     """The paper's claims of cost, and the targets of the kernels."""
-    if record.of(CostLine):
+    if record.of(measurements.CostLine):
         yield Section("The paper's claims of cost", tuple(_claims(record)))
-    if record.of(KernelLine):
-        yield Section("The kernels' targets", (_kernels(record.of(KernelLine)),))
+    if record.of(measurements.KernelLine):
+        yield Section("The kernels' targets", (_kernels(record.of(measurements.KernelLine)),))
 
 
-def _baseline(lines: list[ComparisonLine]) -> TableBlock:
+def _baseline(lines: list[measurements.ComparisonLine]) -> TableBlock:
     order = ["slower", "inconclusive", "faster", "same"]
     ranked = sorted(lines, key=lambda line: (not line.gates, order.index(line.verdict)))
     rows = [
@@ -219,15 +207,15 @@ def _baseline(lines: list[ComparisonLine]) -> TableBlock:
     return table("against the baseline", heads, rows)
 
 
-def _verdict(line: ComparisonLine) -> TableCell:
+def _verdict(line: measurements.ComparisonLine) -> TableCell:
     verdict = line.verdict
     return TableCell(verdict, tone=_TONES.get(verdict, "")) if line.gates else TableCell(f"({verdict})")
 
 
-def costs_by_claim(record: Record) -> dict[str, list[CostLine]]:
+def costs_by_claim(record: Record) -> dict[str, list[measurements.CostLine]]:
     """The claims of cost with their lines, one for each scene."""
-    claims: dict[str, list[CostLine]] = {}
-    for line in record.of(CostLine):
+    claims: dict[str, list[measurements.CostLine]] = {}
+    for line in record.of(measurements.CostLine):
         claims.setdefault(line.claim, []).append(line)
     return claims
 
@@ -254,7 +242,7 @@ def _claims(record: Record) -> Iterator[Block]:
         yield table("what was compared", "scene | compared | # against the first | # ns | operations", compared)
 
 
-def _compared(line: CostLine) -> Iterator[Row]:
+def _compared(line: measurements.CostLine) -> Iterator[Row]:
     for alternative in line.compared:
         operations = ", ".join(f"{amount} {name}" for name, amount in (alternative.operations or {}).items())
         yield (
@@ -266,7 +254,7 @@ def _compared(line: CostLine) -> Iterator[Row]:
         )
 
 
-def _kernels(lines: list[KernelLine]) -> TableBlock:
+def _kernels(lines: list[measurements.KernelLine]) -> TableBlock:
     rows = [
         (
             line.name,

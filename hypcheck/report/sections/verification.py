@@ -11,6 +11,7 @@ from hypcheck.messages import counted
 from hypcheck.record import Record
 from hypcheck.record.fields import numbers_of
 from hypcheck.record.lines import EquationLine, FindingLine, ImplementationLine, MapLine, NotStartedLine, ProofLine
+from hypcheck.report import messages, model
 from hypcheck.report.document import (
     MISSING,
     NONE,
@@ -35,30 +36,6 @@ from hypcheck.report.document import (
     prose,
     table,
 )
-from hypcheck.report.messages import (
-    domain_text,
-    families_not_asked,
-    figure,
-    from_hex,
-    rows_not_asked,
-    short_row,
-    spread,
-    tolerance_of,
-)
-from hypcheck.report.model import (
-    REFERENCE,
-    ImplementationTotal,
-    OracleTotal,
-    UnderTest,
-    drawn_way,
-    explanation,
-    implementations,
-    oracle_totals,
-    timing_totals,
-    under_test,
-    unlisted,
-    worst_error_u,
-)
 
 _ORACLES = prose(
     "Each oracle answers on its own. `exact` agrees where an independent check accepts the certificate of its answer;"
@@ -69,7 +46,7 @@ _ORACLES = prose(
 
 def oracle_sections(record: Record) -> Iterator[Section]:
     """The agreement of the oracles; none if no oracle was wanted."""
-    totals = oracle_totals(record)
+    totals = model.oracle_totals(record)
     if not totals:
         return
     asked = [total for total in totals if total.unavailable is None]
@@ -77,7 +54,7 @@ def oracle_sections(record: Record) -> Iterator[Section]:
     yield Section("The oracles", (Paragraph(_ORACLES), *([_oracle_table(asked)] if asked else []), bullets(missing)))
 
 
-def _oracle_table(totals: list[OracleTotal]) -> TableBlock:
+def _oracle_table(totals: list[model.OracleTotal]) -> TableBlock:
     rows = [
         (
             Code(total.name),
@@ -100,7 +77,7 @@ _IN_TABLE = ("right", "tolerated", "wrong", "skipped")
 
 def method_sections(record: Record) -> Iterator[Section]:
     """What each method got wrong, by how much, and in which families; none if nothing was judged."""
-    totals = implementations(record)
+    totals = model.implementations(record)
     exact = [total for total in totals if total.exact]
     others = [total for total in totals if not total.exact]
     if exact:
@@ -111,7 +88,7 @@ def method_sections(record: Record) -> Iterator[Section]:
         yield _part(precision, [total for total in others if total.precision == precision])
 
 
-def _exact(methods: Sequence[ImplementationTotal]) -> Section:
+def _exact(methods: Sequence[model.ImplementationTotal]) -> Section:
     rows = [(Code(method.name), method.title, count(method.asked), _statuses(method.statuses)) for method in methods]
     return Section(
         "Methods that promise to be exact",
@@ -122,9 +99,9 @@ def _exact(methods: Sequence[ImplementationTotal]) -> Section:
     )
 
 
-def _introduction(record: Record, methods: Sequence[ImplementationTotal]) -> Section:
-    tolerance = tolerance_of(record.header.options)
-    limit = f"at most {figure(tolerance)} u" if tolerance is not None else "at most the run's tolerance"
+def _introduction(record: Record, methods: Sequence[model.ImplementationTotal]) -> Section:
+    tolerance = messages.tolerance_of(record.header.options)
+    limit = f"at most {messages.figure(tolerance)} u" if tolerance is not None else "at most the run's tolerance"
     sentences = (
         prose(
             "Each method in floats, held against the exact decisions, on the cases inside its stated regimes. The"
@@ -139,17 +116,17 @@ def _introduction(record: Record, methods: Sequence[ImplementationTotal]) -> Sec
     return Section("Numerical findings", (Paragraph(sentences), _glossary(methods)))
 
 
-def _glossary(methods: Sequence[ImplementationTotal]) -> Block:
+def _glossary(methods: Sequence[model.ImplementationTotal]) -> Block:
     """The titles of the methods; one that runs in several precisions is described once."""
     titles = {_plain_name(method): method.title.removesuffix(f", {method.precision}") for method in methods}
     return bullets([(Code(name), f": {title}") for name, title in titles.items() if title != name])
 
 
-def _plain_name(method: ImplementationTotal) -> str:
+def _plain_name(method: model.ImplementationTotal) -> str:
     return method.name.removesuffix(f"-{method.precision}")
 
 
-def _part(precision: str, methods: Sequence[ImplementationTotal]) -> Section:
+def _part(precision: str, methods: Sequence[model.ImplementationTotal]) -> Section:
     otherwise = [
         (method, {name: n for name, n in method.statuses.items() if name not in _IN_TABLE}) for method in methods
     ]
@@ -157,16 +134,16 @@ def _part(precision: str, methods: Sequence[ImplementationTotal]) -> Section:
     return Section(precision, (_totals(methods), bullets(also), *_matrix(methods)), level=3)
 
 
-def _totals(methods: Sequence[ImplementationTotal]) -> TableBlock:
+def _totals(methods: Sequence[model.ImplementationTotal]) -> TableBlock:
     columns = (
         "method | question | # asked | # right | # tolerated | # wrong | # false clear | # worst error in u | its case"
     )
     return table("methods", columns, [_method_row(method) for method in methods])
 
 
-def _method_row(method: ImplementationTotal) -> Row:
+def _method_row(method: model.ImplementationTotal) -> Row:
     statuses, worst = method.statuses, method.worst
-    error = worst_error_u(worst)
+    error = model.worst_error_u(worst)
     return (
         Code(_plain_name(method)),
         method.question,
@@ -175,12 +152,12 @@ def _method_row(method: ImplementationTotal) -> Row:
         count(statuses.get("tolerated", 0)),
         count(statuses.get("wrong", 0), bad=True),
         count(method.mistakes.get("false-clear", 0)),
-        TableCell(figure(error) if worst else NONE, error),
-        Code(worst.case, from_hex(numbers_of(worst))) if worst else NONE,
+        TableCell(messages.figure(error) if worst else NONE, error),
+        Code(worst.case, messages.from_hex(numbers_of(worst))) if worst else NONE,
     )
 
 
-def _matrix(methods: Sequence[ImplementationTotal]) -> tuple[Block, ...]:
+def _matrix(methods: Sequence[model.ImplementationTotal]) -> tuple[Block, ...]:
     families = dict.fromkeys(group.family for total in methods for group in total.groups)
     groups = {(total.name, group.family): group for total in methods for group in total.groups}
 
@@ -209,7 +186,7 @@ def _statuses(statuses: dict[str, int]) -> str:
 
 def gated_sections(record: Record) -> Iterator[Section]:
     """Gated implementations: what each declares, and what it was judged as; none if nothing was gated."""
-    gated = under_test(record)
+    gated = model.under_test(record)
     if not gated:
         return
     columns = " |  | question | spheroids | precision | domain | language | version"
@@ -232,13 +209,13 @@ def _gated_rows(name: str, line: ImplementationLine) -> Iterator[Row]:
             description.question,
             ("upright and tilted" if description.tilt else "upright") + ", with ends" * (description.heights is True),
             description.precision,
-            domain_text(description.domain),
+            messages.domain_text(description.domain),
             description.language or MISSING,
             description.version or MISSING,
         )
 
 
-def _gated_value(tested: UnderTest) -> Text:
+def _gated_value(tested: model.UnderTest) -> Text:
     line = tested.line
     name: Text = (Code(tested.name), ", ", Code(line.spec))
     if isinstance(line, NotStartedLine):
@@ -250,11 +227,11 @@ def _gated_value(tested: UnderTest) -> Text:
     fresh = sum(group.fresh or 0 for group in tested.groups)
     freshness = f" {counted(fresh, 'row')} of a seed that nobody knew before the run." if fresh else " No fresh rows."
     counts: Counter[str] = sum((Counter(group.not_asked or {}) for group in tested.groups), Counter())
-    left_out = [text for text in (rows_not_asked(counts), families_not_asked(line)) if text]
+    left_out = [text for text in (messages.rows_not_asked(counts), messages.families_not_asked(line)) if text]
     known += (freshness if line.not_asked is not UNSET else "") + (
         f" Not asked: {'; '.join(left_out)}." if left_out else ""
     )
-    known += "".join(f" {fact[0].upper()}{fact[1:]}." for fact in spread(line))
+    known += "".join(f" {fact[0].upper()}{fact[1:]}." for fact in messages.spread(line))
     sentences = (
         f": {counted(again.asked, 'case')} asked again in another order, in other batches and in a fresh process;"
         f" {again.within:,} answered otherwise within the tolerance, {again.beyond:,} beyond it."
@@ -273,19 +250,19 @@ _SWEEPS = prose(
 
 def way_sections(record: Record) -> Iterator[Section]:
     """The worst answers about sweeps, drawn; none if no such answer is wrong."""
-    if any(drawn_way(implementation) is not None for implementation in implementations(record)):
+    if any(model.drawn_way(implementation) is not None for implementation in model.implementations(record)):
         yield Section("The worst sweeps", (Paragraph(_SWEEPS), SWEEPS))
 
 
 def timing_sections(record: Record) -> Iterator[Section]:
     """How long the fast path takes beside other methods; none if nothing was timed."""
-    totals = timing_totals(record)
+    totals = model.timing_totals(record)
     if not totals:
         return
     workloads = joined([Code(name) for name in dict.fromkeys(total.workload for total in totals)])
     how = (
         ", in one process, in interleaved rounds on the machine below. Each is set against the"
-        f" {REFERENCE} in the same round; the median of the rounds. Times do not carry over to another machine."
+        f" {model.REFERENCE} in the same round; the median of the rounds. Times do not carry over to another machine."
     )
     introduction = ("On ", workloads, how)
     rows = [
@@ -294,7 +271,7 @@ def timing_sections(record: Record) -> Iterator[Section]:
             total.title,
             count(total.rows),
             measured(total.median_ns),
-            TableCell(f"{figure(total.least_ns)} to {figure(total.greatest_ns)}", total.greatest_ns),
+            TableCell(f"{messages.figure(total.least_ns)} to {messages.figure(total.greatest_ns)}", total.greatest_ns),
             paced(total.ratio),
         )
         for total in totals
@@ -383,14 +360,14 @@ def _findings(lines: list[FindingLine]) -> Section:
 
 def _finding(group: list[FindingLine]) -> Row:
     line = group[0]
-    why = explanation(line)
-    row = from_hex(line.first_row)
+    why = model.explanation(line)
+    row = messages.from_hex(line.first_row)
     return (
         joined([Code(finding.formula) for finding in group]),
         Code(line.family),
         Strong("inside") if line.inside else "outside",
         TableCell(f"{line.wrong:,} of {line.asked:,}", line.wrong / max(1, line.asked)),
-        TableCell(Strong(why), tone="bad") if unlisted(line) else why,
-        short_row(row),
+        TableCell(Strong(why), tone="bad") if model.unlisted(line) else why,
+        messages.short_row(row),
         Code(line.first_case, row),
     )
