@@ -1,14 +1,24 @@
-"""TOML files that users write, as text of a bounded length; an error in a file is one sentence."""
+"""TOML files that users write, read strictly: bounded, each value checked, none left over; a refusal names its line.
+
+A reader of TOML does not give lines. The scanner at the end finds them in a text that is known to be valid TOML 1.0
+(tomllib has read it), so it judges nothing.
+"""
 
 from __future__ import annotations
 
+import json
+import math
 import os
 import re
 import stat
 import sys
-from typing import Any
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, NoReturn, TypeVar
 
 from hypcheck.errors import InputError, system_reason
+from hypcheck.messages import suggestion
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -70,3 +80,331 @@ def parsed(text: str, name: str) -> dict[str, Any]:
         raise InputError(f"{name}: cannot be read as TOML: it is nested too deeply") from None
     except ValueError:  # an integer of more than 4300 digits
         raise InputError(f"{name}: {_TOO_LONG}") from None
+
+
+Value = TypeVar("Value")
+Check = Callable[[object], Value]
+"""From what the file holds to what is made of it; raises ValueError, whose text ends "it must be …"."""
+
+Path = tuple[str | int, ...]
+"""How to get to a value: keys of tables, and places in arrays counted from 0."""
+
+_LONGEST = 60
+"""Characters of a value that a message shows."""
+
+LONGEST_TEXT = 1000
+"""Characters of a text."""
+
+
+@dataclass(frozen=True)
+class TomlSource:
+    """A file's name and its text."""
+
+    name: str
+    text: str
+
+    @cached_property
+    def lines(self) -> dict[Path, int]:
+        """The line of everything in it; asked for only where something is wrong."""
+        return lines_of(self.text)
+
+    def refuse(self, path: Path, sentence: str) -> NoReturn:
+        """Raise InputError about what stands at the path."""
+        line = nearest_line(self.lines, path)
+        raise InputError(f"{self.name}{'' if line is None else f', line {line}'}: {sentence}")
+
+
+class TomlTable:
+    """A table of a file. `title` says which one it is, as messages name it."""
+
+    def __init__(self, source: TomlSource, path: Path, title: str, content: object, keys: Sequence[str]) -> None:
+        self._source, self._path, self.title = source, path, title
+        if not isinstance(content, dict):
+            self.refuse(f"{title} is {shown(content)}; it must be a table with {', '.join(keys)}")
+        self._content: dict[str, Any] = content
+        for key in content:
+            if key not in keys:
+                hint = suggestion(key, keys, most=1, otherwise="it may have")
+                self.refuse(f"{title} has the key {shown(key)}, which is not known; {hint}", key)
+
+    def refuse(self, sentence: str, *keys: str | int) -> NoReturn:
+        """Raise InputError about the table, or about a value in it."""
+        self._source.refuse((*self._path, *keys), sentence)
+
+    def required(self, key: str, check: Check[Value]) -> Value:
+        """The checked value of a key that must be there."""
+        if key not in self._content:
+            self.refuse(f"{self.title} has no {key}; it must be {_wanted(check)}")
+        return self._checked(key, check)
+
+    def optional(self, key: str, check: Check[Value], default: Value) -> Value:
+        """The checked value of a key, or the default where it is not there."""
+        return self._checked(key, check) if key in self._content else default
+
+    def table(self, key: str, keys: Sequence[str]) -> TomlTable | None:
+        """The table of that key, None where it is not there."""
+        if key not in self._content:
+            return None
+        title = f"{self.title}.{key}" if self._path else f"[{key}]"
+        return TomlTable(self._source, (*self._path, key), title, self._content[key], keys)
+
+    def tables(self, key: str, keys: Sequence[str], most: int | None = None) -> list[TomlTable]:
+        """The array of tables of that key, `most` of them at most, each entitled by its number; empty without one."""
+        array = self._content.get(key, [])
+        if not isinstance(array, list):
+            name = ".".join([*map(str, self._path), key])
+            self.refuse(f"{key} is {shown(array)}; it must be an array of tables, [[{name}]]", key)
+        if most is not None and len(array) > most:
+            self.refuse(f"{self.title} has {len(array):,} tables {key}; a file may have {most:,} at most", key)
+        title = f"{self.title} {key}" if self._path else key.replace("_", " ")
+        return [
+            TomlTable(self._source, (*self._path, key, place), f"{title} {place + 1}", content, keys)
+            for place, content in enumerate(array)
+        ]
+
+    def _checked(self, key: str, check: Check[Value]) -> Value:
+        value = self._content[key]
+        try:
+            return check(value)
+        except ValueError as error:
+            self.refuse(f"{self.title}: {key} is {shown(value)}; it must be {error}", key)
+
+
+def shown(value: object) -> str:
+    """A value as a message shows it: short, and as it stands in the file where that can be."""
+    text = json.dumps(value, ensure_ascii=False, default=str).replace("NaN", "nan").replace("Infinity", "inf")
+    return text if len(text) <= _LONGEST else text[:_LONGEST] + "…"
+
+
+def text(value: object) -> str:
+    """A text with something in it."""
+    if not isinstance(value, str) or not value.strip() or len(value) > LONGEST_TEXT:
+        raise ValueError(f"a text that is not empty, of at most {LONGEST_TEXT:,} characters")
+    return value
+
+
+def one_of(*choices: str) -> Check[str]:
+    """One of some words."""
+
+    def check(value: object) -> str:
+        if not isinstance(value, str) or value not in choices:
+            raise ValueError(f"one of {', '.join(choices)}")
+        return value
+
+    return check
+
+
+def number_with(wanted: str, low: float = -math.inf, high: float = math.inf, *, above: bool = False) -> Check[float]:
+    """A check for a finite number from `low` to `high`, or `above` low; `wanted` ends the sentence of a refusal."""
+
+    def check(value: object) -> float:
+        result = number_of(value, wanted)
+        if not low <= result <= high or (above and result == low):
+            raise ValueError(wanted)
+        return result
+
+    return check
+
+
+number = number_with("a finite number")
+positive = number_with("a finite number above 0", 0, above=True)
+"""A length of a body."""
+
+not_negative = number_with("a finite number, 0 or more", 0)
+"""A distance."""
+
+
+def integer(value: object) -> int:
+    """How many of something."""
+    if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value < 2**31:
+        raise ValueError("a whole number, 0 or more and below 2^31")
+    return value
+
+
+def truth(value: object) -> bool:
+    """Whether something is so."""
+    if not isinstance(value, bool):
+        raise ValueError("true or false")  # noqa: TRY004 - as in number_of
+    return value
+
+
+def number_of(value: object, wanted: str, *, infinite: bool = False) -> float:
+    """The number, as float64. Raises ValueError, whose text is `wanted`, where it is no number or not finite."""
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        raise ValueError(wanted)  # noqa: TRY004 - turned into a sentence about the value
+    try:
+        result = float(value) + 0.0  # + 0.0 turns −0.0 into 0.0
+    except OverflowError:
+        raise ValueError(f"{wanted} that float64 holds") from None
+    if math.isnan(result) or (math.isinf(result) and not infinite):
+        raise ValueError(wanted)
+    return result
+
+
+def _wanted(check: Check[Any]) -> str:
+    """What a check asks for: the sentence with which it refuses what is nothing at all."""
+    try:
+        check(None)
+    except ValueError as error:
+        return str(error)
+    raise AssertionError("a check let nothing pass for something")
+
+
+_BLANK = re.compile(r"[ \t\r\n]*")
+_COMMENT = re.compile(r"#[^\n]*")
+_SPACE = re.compile(r"[ \t]*")
+_BARE_KEY = re.compile(r"[A-Za-z0-9_-]+")
+_BARE_VALUE = re.compile(r"[^,\]}#\n]+")
+_WITHIN = {'"': re.compile(r'[^"\\]+'), "'": re.compile(r"[^']+")}
+"""What stands in a text between its marks and escapes. No pattern repeats a group: that takes memory each time."""
+
+
+def lines_of(text: str) -> dict[Path, int]:
+    """The line, counted from 1, of every table, array and value in a valid TOML text, by its path."""
+    return _TomlScanner(text).scan()
+
+
+def nearest_line(lines: Mapping[Path, int], path: Path) -> int | None:
+    """The line of the value at the path, else of the innermost table or array around it that is known."""
+    while path and path not in lines:
+        path = path[:-1]
+    return lines.get(path)
+
+
+class _TomlScanner:
+    def __init__(self, text: str) -> None:
+        self._text = text
+        self._at = 0
+        self._lines: dict[Path, int] = {}
+        self._counts: dict[Path, int] = {}
+        """How many tables each array of tables has so far."""
+        self._counted, self._line_there = 0, 1
+        """Up to where lines were counted, and the line there."""
+
+    def scan(self) -> dict[Path, int]:
+        table: Path = ()
+        self._blank()
+        while self._at < len(self._text):
+            if self._text[self._at] == "[":
+                table = self._header()
+            else:
+                self._pair(table)
+            self._blank()
+        return self._lines
+
+    def _header(self) -> Path:
+        """The table that [a.b] or [[a.b]] begins."""
+        line, several = self._line(), self._text.startswith("[[", self._at)
+        self._at += 2 if several else 1
+        keys = self._keys()
+        self._at += 2 if several else 1
+        table: Path = ()
+        for key in keys[:-1]:
+            table = self._inner(table, key)
+        if several:
+            array = (*table, keys[-1])
+            self._lines.setdefault(array, line)
+            self._counts[array] = self._counts.get(array, 0) + 1
+        table = self._inner(table, keys[-1])
+        self._lines[table] = line
+        return table
+
+    def _inner(self, table: Path, key: str) -> Path:
+        """The table of that key; of an array of tables, its last one."""
+        path: Path = (*table, key)
+        return (*path, self._counts[path] - 1) if path in self._counts else path
+
+    def _pair(self, table: Path) -> None:
+        """A key and its value; each table on the way of a dotted key begins where it is first named."""
+        line = self._line()
+        path = table
+        for key in self._keys():
+            path = (*path, key)
+            self._lines.setdefault(path, line)
+        self._at += 1  # the equals sign
+        self._skip(_SPACE)
+        self._value(path)
+
+    def _value(self, path: Path) -> None:
+        self._lines[path] = self._line()
+        opening = self._text[self._at]
+        if opening == "[":
+            self._sequence("]", path)
+        elif opening == "{":
+            self._sequence("}", path)
+        else:
+            self._quoted() if opening in _WITHIN else self._skip(_BARE_VALUE)
+
+    def _sequence(self, closing: str, path: Path) -> None:
+        """What stands between brackets, with commas between."""
+        place = 0
+        self._at += 1
+        self._blank()
+        while self._text[self._at] != closing:
+            if closing == "]":
+                self._value((*path, place))
+            else:
+                self._pair(path)
+            place += 1
+            self._blank()
+            if self._text[self._at] == ",":
+                self._at += 1
+                self._blank()
+        self._at += 1
+
+    def _keys(self) -> tuple[str, ...]:
+        """The parts of a dotted key; the scanner stands on what follows it then."""
+        keys = []
+        while True:
+            self._skip(_SPACE)
+            keys.append(self._key())
+            self._skip(_SPACE)
+            if self._text[self._at] != ".":
+                return tuple(keys)
+            self._at += 1
+
+    def _key(self) -> str:
+        """A key without its quotation marks and escapes."""
+        begin = self._at
+        if self._text[begin] not in _WITHIN:
+            return self._take(_BARE_KEY)
+        self._quoted()
+        return str(parsed(f"key = {self._text[begin : self._at]}", "the scene")["key"])
+
+    def _quoted(self) -> None:
+        """A text in one quotation mark, or in three and with one or two of its own before the last three."""
+        quote = self._text[self._at]
+        mark = 3 * quote if self._text.startswith(3 * quote, self._at) else quote
+        self._at += len(mark)
+        while not self._text.startswith(mark, self._at):
+            if self._text[self._at] == "\\" and quote == '"':
+                self._at += 2
+            elif self._text[self._at] == quote:
+                self._at += 1
+            else:
+                self._skip(_WITHIN[quote])
+        self._at += len(mark)
+        for _ in range(len(mark) - 1):
+            self._at += self._text.startswith(quote, self._at)
+
+    def _blank(self) -> None:
+        """Blanks, ends of lines and comments."""
+        self._skip(_BLANK)
+        while self._text.startswith("#", self._at):
+            self._skip(_COMMENT)
+            self._skip(_BLANK)
+
+    def _line(self) -> int:
+        self._line_there += self._text.count("\n", self._counted, self._at)
+        self._counted = self._at
+        return self._line_there
+
+    def _take(self, pattern: re.Pattern[str]) -> str:
+        match = pattern.match(self._text, self._at)
+        if match is None:
+            raise AssertionError("a text that is not valid TOML was to be scanned")
+        self._at = match.end()
+        return match.group()
+
+    def _skip(self, pattern: re.Pattern[str]) -> None:
+        self._take(pattern)

@@ -6,10 +6,8 @@ Options on the command line take precedence. An unknown key or an invalid value 
 from __future__ import annotations
 
 import json
-import math
 import operator
 import re
-import sys
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -23,6 +21,7 @@ from hypcheck import toml
 from hypcheck.cli.options import LARGEST_COUNT, LARGEST_SEED, LIMITS, integer_wanted
 from hypcheck.errors import InputError
 from hypcheck.messages import escaped, suggestion
+from hypcheck.toml import TomlSource
 
 if TYPE_CHECKING:
     from hypcheck.record.lines import SettingsPart
@@ -35,8 +34,6 @@ ABOUT_ONE = ("tolerance", "precision", "question", "domain", *LIMITS)
 COMMANDS = ("verify", "replay", "hunt", "minimise")
 """Commands that read the settings: verify all of them, the others ABOUT_ONE."""
 
-_LONGEST_KEY = 100
-"""Characters of a key that is looked for in the text; no setting has a longer name."""
 _BYTES = re.compile(r"[0-9]+[KMGT]?", re.ASCII | re.IGNORECASE)
 
 
@@ -149,42 +146,23 @@ def _as_text(value: object) -> str:
 def read_settings(path: Path) -> ProjectSettings | None:
     """The settings in a file, None if there is no such file. Raises InputError naming file, line and key."""
     try:
-        text = toml.text_of(str(path))
+        source = TomlSource(str(path), toml.text_of(str(path)))
     except FileNotFoundError:
         return None
-    content = toml.parsed(text, str(path))
-    checked = {key: _checked(path, text, key, value) for key, value in content.items()}
+    checked = {key: _checked(source, key, value) for key, value in toml.parsed(source.text, source.name).items()}
     return ProjectSettings(checked.pop("specs", ()), checked)
 
 
-def _checked(path: Path, text: str, key: str, value: object) -> Any:  # noqa: ANN401 - the type of its option
-    where = f"{path}{_line_of(text, key)}"
+def _checked(source: TomlSource, key: str, value: object) -> Any:  # noqa: ANN401 - the type of its option
     check = _KEYS.get(key)
     if check is None:
-        raise InputError(f"{where}: there is no setting {key!r}; {suggestion(key, _KEYS, most=1)}")
+        source.refuse((key,), f"there is no setting {key!r}; {suggestion(key, _KEYS, most=1)}")
     try:
         return check(value)
     except ValueError as error:
-        raise InputError(f"{where}: {key} is {_shown(value)}; it must be {error}") from None
+        source.refuse((key,), f"{key} is {toml.shown(value)}; it must be {error}")
     except InputError as error:  # of a domain, whose message is whole
-        raise InputError(f"{where}: {error}") from None
-
-
-def _line_of(text: str, key: str) -> str:
-    """The end of "FILE, line 3" for the line that sets the key or begins its table; empty if none is found."""
-    if len(key) > _LONGEST_KEY:
-        return ""
-    quoted = rf"""["']?{re.escape(key)}["']?"""
-    begins = re.compile(rf"\s*(?:{quoted}\s*[=.]|\[+\s*{quoted}\s*[].])")
-    for number, line in enumerate(text.splitlines(), start=1):
-        if begins.match(line):
-            return f", line {number}"
-    return ""
-
-
-def _shown(value: object) -> str:
-    shown = json.dumps(value, ensure_ascii=False, default=str)
-    return shown if len(shown) <= 60 else shown[:60] + "…"
+        source.refuse((key,), str(error))
 
 
 def _texts(value: object) -> tuple[str, ...]:
@@ -218,25 +196,6 @@ def _integer(least: int, greatest: int = LARGEST_COUNT) -> Callable[[object], in
     return check
 
 
-def _number(value: object, *, above: bool = False) -> float:
-    wanted = "a number above 0" if above else "a number, 0 or more"
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise ValueError(wanted)  # noqa: TRY004 - the caller makes a sentence about the value of it
-    if not 0 <= value < math.inf or (above and not value) or value > sys.float_info.max:
-        raise ValueError(wanted)
-    return float(value)
-
-
-def _seconds(value: object) -> float:
-    return _number(value, above=True)
-
-
-def _truth(value: object) -> bool:
-    if not isinstance(value, bool):
-        raise ValueError("true or false")  # noqa: TRY004 - as above
-    return value
-
-
 def _bytes(value: object) -> str:
     if isinstance(value, int) and not isinstance(value, bool) and value > 0:
         return str(value)
@@ -245,25 +204,16 @@ def _bytes(value: object) -> str:
     return value
 
 
-def _one_of(choices: Callable[[], tuple[str, ...]]) -> Callable[[object], str]:
-    def check(value: object) -> str:
-        if not isinstance(value, str) or value not in choices():
-            raise ValueError(f"one of {', '.join(choices())}")
-        return value
-
-    return check
-
-
-def _precisions() -> tuple[str, ...]:
+def _precision(value: object) -> str:
     from hypcheck.implementations.domain import PRECISIONS
 
-    return PRECISIONS
+    return toml.one_of(*PRECISIONS)(value)
 
 
-def _questions() -> tuple[str, ...]:
+def _question(value: object) -> str:
     from hypcheck.implementations.description import QUESTIONS
 
-    return tuple(QUESTIONS)
+    return toml.one_of(*QUESTIONS)(value)
 
 
 def _domain(value: object) -> str:
@@ -284,19 +234,19 @@ _KEYS: Mapping[str, Callable[[object], Any]] = MappingProxyType(
         "families": _names,
         "count": _integer(0),
         "seed": _integer(0, LARGEST_SEED),
-        "tolerance": _number,
-        "precision": _one_of(_precisions),
-        "question": _one_of(_questions),
+        "tolerance": toml.not_negative,
+        "precision": _precision,
+        "question": _question,
         "domain": _domain,
         "max_abstained": _integer(0),
-        "fail_on": _one_of(lambda: ("wrong", "false-clear")),
-        "deterministic": _truth,
+        "fail_on": toml.one_of("wrong", "false-clear"),
+        "deterministic": toml.truth,
         "known_failures": _path,
-        "startup_timeout": _seconds,
-        "timeout": _seconds,
+        "startup_timeout": toml.positive,
+        "timeout": toml.positive,
         "restarts": _integer(0),
         "memory": _bytes,
-        "isolate": _one_of(lambda: ("auto", "on", "off")),
+        "isolate": toml.one_of("auto", "on", "off"),
         "pass_env": _names,
         "see": _texts,
     }

@@ -17,13 +17,11 @@ from __future__ import annotations
 
 import math
 import re
-import sys
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -36,11 +34,11 @@ from hypcheck.runs.cases import frozen_vectors
 from hypcheck.runs.causes import AnsweredRows, Cause, Scope
 from hypcheck.runs.diagnosis import CAUSES
 from hypcheck.tables.streams import replace_output
+from hypcheck.toml import TomlSource, TomlTable
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import family_of, parse_case_id
 from hypcheck.vectors.invalid_rows import INVALID_CONTENTS
 
-_LARGEST = sys.float_info.max
 _SUBJECTS = ("case", "family", "cause")
 _KEYS = (*_SUBJECTS, "max_u", "reason")
 
@@ -93,59 +91,41 @@ def entries_about(
 def read_known_failures(path: Path) -> tuple[KnownFailure, ...]:
     """The entries of a file. Raises InputError naming the file, the line, the entry, and what would be right."""
     try:
-        text = toml.text_of(str(path))
+        source = TomlSource(str(path), toml.text_of(str(path)))
     except FileNotFoundError:
         raise InputError(f"cannot read {path}: no such file or directory") from None
-    content = toml.parsed(text, str(path))
-    unknown = [key for key in content if key != "known_failure"]
-    entries = content.get("known_failure", [])
-    if unknown or not isinstance(entries, list):
-        raise InputError(f"{path}: {unknown[0] if unknown else 'known_failure'!s} is not an array of [[known_failure]]")
-    lines = _lines_of(text, len(entries))
-    return tuple(
-        _entry(item, f"{path}{lines[number - 1]}: known failure {number}")
-        for number, item in enumerate(entries, start=1)
-    )
+    top = TomlTable(source, (), "the file", toml.parsed(source.text, source.name), ("known_failure",))
+    return tuple(map(_entry, top.tables("known_failure", _KEYS)))
 
 
-_BEGINS = re.compile(r"""\s*\[\[\s*["']?known_failure["']?\s*\]\]""")
-
-
-def _lines_of(text: str, entries: int) -> list[str]:
-    """The end of "FILE, line 3" for each entry; empty texts unless each begins with [[known_failure]] on a line."""
-    places = [f", line {number}" for number, line in enumerate(text.splitlines(), start=1) if _BEGINS.match(line)]
-    return places if len(places) == entries else [""] * entries
-
-
-def _entry(item: Any, where: str) -> KnownFailure:  # noqa: ANN401  whatever TOML holds
-    if not isinstance(item, dict):
-        raise InputError(f"{where} is {item!r}; it must be a table with {', '.join(_KEYS)}")
-    unknown = [key for key in item if key not in _KEYS]
-    if unknown:
-        raise InputError(f"{where} has the key {unknown[0]!r}; it may have {', '.join(_KEYS)}")
-    named = [key for key in _SUBJECTS if key in item]
-    if len(named) != 1:
-        raise InputError(f"{where} must name either a case or a family or a cause")
-    subject, reason = item[named[0]], item.get("reason")
-    if not isinstance(subject, str):
-        raise InputError(f"{where} names {subject!r}; it must be a text")
-    if not isinstance(reason, str) or not reason.strip():
-        raise InputError(f"{where} has no reason; each entry must say why it is known")
-    max_u = item.get("max_u", float("inf"))
-    if isinstance(max_u, bool) or not isinstance(max_u, (int, float)) or not 0 <= max_u or _LARGEST < max_u < math.inf:
-        raise InputError(f"{where} has max_u = {max_u!r}; it must be a number of units u, 0 or more")
-    _require_known(named[0], subject, where)
-    if "cause" in item and "max_u" not in item:
-        raise InputError(f"{where} names a cause and has no max_u; say how far off it may be, inf for any distance")
-    return KnownFailure(item.get("case"), item.get("family"), float(max_u), reason, item.get("cause"))
-
-
-def _require_known(key: str, name: str, where: str) -> None:
-    """Raise InputError if there is no case, family or cause of that name, or if it cannot be excused."""
+def _entry(table: TomlTable) -> KnownFailure:
+    named = {key: table.optional(key, toml.text, None) for key in _SUBJECTS}
+    subjects = [(key, name) for key, name in named.items() if name is not None]
+    if len(subjects) != 1:
+        table.refuse(f"{table.title} must name either a case or a family or a cause")
+    reason, max_u = table.required("reason", _reason), table.optional("max_u", _units, None)
+    ((key, name),) = subjects
     try:
-        {"case": _require_case, "family": _require_family, "cause": _require_cause}[key](name)
+        _REQUIRE[key](name)
     except InputError as error:
-        raise InputError(f"{where}: {error}") from None
+        table.refuse(f"{table.title}: {error}", key)
+    if key == "cause" and max_u is None:
+        table.refuse(f"{table.title} names a cause and has no max_u; say how far off it may be, inf for any distance")
+    return KnownFailure(named["case"], named["family"], math.inf if max_u is None else max_u, reason, named["cause"])
+
+
+def _reason(value: object) -> str:
+    if not isinstance(value, str) or not value.strip():
+        raise ValueError("a text that says why it is known")
+    return value
+
+
+def _units(value: object) -> float:
+    wanted = "a number of units u, 0 or more"
+    units = toml.number_of(value, wanted, infinite=True)
+    if units < 0:
+        raise ValueError(wanted)
+    return units
 
 
 _FROZEN_ID = re.compile(r"(?P<family>.+)-\d+", re.ASCII)
@@ -179,6 +159,14 @@ def _require_cause(name: str) -> None:
             f"the cause {name!r} is about every row: with it excused nothing would be tested; name cases instead"
         )
     raise InputError(f"there is no cause {name!r} that may be known; {suggestion(name, excusable_causes())}")
+
+
+_REQUIRE: Mapping[str, Callable[[str], None]] = {
+    "case": _require_case,
+    "family": _require_family,
+    "cause": _require_cause,
+}
+"""Raises InputError if there is no case, family or cause of that name, or if it cannot be excused."""
 
 
 def _families() -> tuple[str, ...]:

@@ -10,12 +10,13 @@ import math
 from collections.abc import Iterable
 from fractions import Fraction
 from importlib import resources
+from typing import Literal
 
 from hypcheck import toml
 from hypcheck.errors import InputError
 from hypcheck.messages import suggestion
-from hypcheck.scene import model, tables
-from hypcheck.scene.tables import TomlSource, TomlTable
+from hypcheck.scene import model
+from hypcheck.toml import TomlSource, TomlTable
 
 _FLIGHT = ("distance", "straight", "vertical", "largest_turn", "refused_turn", "backward", "turn", "start")
 _START = ("z", "radius", "margin")
@@ -28,13 +29,13 @@ def _flight(top: TomlTable) -> model.Flight | None:
     if table is None:
         return None
     flight = model.Flight(
-        distance=table.required("distance", tables.positive),
-        straight=table.required("straight", tables.share),
-        vertical=table.required("vertical", tables.share),
-        largest_turn=table.required("largest_turn", tables.turn),
-        refused_turn=table.required("refused_turn", tables.turn),
-        backward=table.required("backward", tables.truth),
-        turn=table.required("turn", tables.one_of(*model.TURNS)),
+        distance=table.required("distance", toml.positive),
+        straight=table.required("straight", _share),
+        vertical=table.required("vertical", _share),
+        largest_turn=table.required("largest_turn", _turn),
+        refused_turn=table.required("refused_turn", _turn),
+        backward=table.required("backward", toml.truth),
+        turn=table.required("turn", toml.one_of(*model.TURNS)),
         start=_start(table),
     )
     moving = flight.straight + flight.vertical
@@ -50,9 +51,9 @@ def _start(flight: TomlTable) -> model.Start:
     if table is None:
         flight.refuse("[flight] has no start; it must be a table with z, and radius or margin")
     start = model.Start(
-        z=table.required("z", tables.span_or_number),
-        radius=table.optional("radius", tables.not_negative, None),
-        margin=table.optional("margin", tables.not_negative, None),
+        z=table.required("z", _span_or_number),
+        radius=table.optional("radius", toml.not_negative, None),
+        margin=table.optional("margin", toml.not_negative, None),
     )
     if (start.radius is None) == (start.margin is None):
         table.refuse("[flight].start must have either a radius or a margin")
@@ -65,12 +66,12 @@ def _walk(top: TomlTable) -> model.Walk | None:
     if table is None:
         return None
     return model.Walk(
-        start=table.required("start", tables.point),
-        heading=table.required("heading", tables.turn),
-        steps=table.required("steps", tables.integer),
-        step=table.required("step", tables.positive),
-        largest_turn=table.required("largest_turn", tables.turn),
-        refused_turn=table.required("refused_turn", tables.turn),
+        start=table.required("start", _point),
+        heading=table.required("heading", _turn),
+        steps=table.required("steps", toml.integer),
+        step=table.required("step", toml.positive),
+        largest_turn=table.required("largest_turn", _turn),
+        refused_turn=table.required("refused_turn", _turn),
     )
 
 
@@ -112,8 +113,8 @@ def parse_scene(text: str, source: str = "the scene") -> model.SceneModel:
 
 
 def _scene(top: TomlTable) -> model.SceneModel:
-    name = top.required("name", tables.text)
-    question = top.optional("question", tables.one_of(*model.QUESTIONS), "position")
+    name = top.required("name", toml.text)
+    question = top.optional("question", toml.one_of(*model.QUESTIONS), "position")
     hyperboloids = _hyperboloids(top)
     scene = model.SceneModel(name, question, hyperboloids, _mover(top), _region(top), _flight(top), _walk(top))
     endless = any(body.height and math.inf in map(abs, body.height.ends) for body in hyperboloids)
@@ -146,17 +147,17 @@ def _hyperboloids(top: TomlTable) -> tuple[model.Hyperboloid, ...]:
     result = []
     for number, table in enumerate(top.tables("hyperboloid", _HYPERBOLOID, MOST_HYPERBOLOIDS), start=1):
         body = model.Hyperboloid(
-            name=table.optional("name", tables.text, f"hyperboloid {number}"),
-            alpha=table.required("alpha", tables.positive),
-            gamma=table.required("gamma", tables.positive),
-            center=table.optional("center", tables.point, (0.0, 0.0, 0.0)),
-            height=table.optional("height", tables.height, None),
-            axis=table.optional("axis", tables.axis, model.UPRIGHT),
-            solid=table.optional("solid", tables.truth, False),
+            name=table.optional("name", toml.text, f"hyperboloid {number}"),
+            alpha=table.required("alpha", toml.positive),
+            gamma=table.required("gamma", toml.positive),
+            center=table.optional("center", _point, (0.0, 0.0, 0.0)),
+            height=table.optional("height", _height, None),
+            axis=table.optional("axis", _axis, model.UPRIGHT),
+            solid=table.optional("solid", toml.truth, False),
         )
         first = numbers.setdefault(body.name, number)
         if first != number:
-            same = tables.shown(body.name)
+            same = toml.shown(body.name)
             table.refuse(f"hyperboloid {number} is called {same} as hyperboloid {first} is; names must differ", "name")
         result.append(body)
     if not result:
@@ -168,17 +169,17 @@ def _mover(top: TomlTable) -> model.Mover:
     table = top.table("mover", _MOVER)
     if table is None:
         top.refuse("the scene has no [mover]; it must have one, with b and d")
-    b, d = (table.required(name, tables.positive) for name in ("b", "d"))
-    return model.Mover(b, d, tuple(_parts(table, b, d)), table.optional("axis", tables.axis_or_free, model.UPRIGHT))
+    b, d = (table.required(name, toml.positive) for name in ("b", "d"))
+    return model.Mover(b, d, tuple(_parts(table, b, d)), table.optional("axis", _axis_or_free, model.UPRIGHT))
 
 
 def _parts(mover: TomlTable, b: float, d: float) -> Iterable[model.MoverPart]:
     for number, table in enumerate(mover.tables("part", _PART, MOST_PARTS), start=1):
         part = model.MoverPart(
-            b=table.required("b", tables.positive),
-            d=table.required("d", tables.positive),
-            arm=table.required("arm", tables.not_negative),
-            angle=table.optional("angle", tables.number, 0.0),
+            b=table.required("b", toml.positive),
+            d=table.required("d", toml.positive),
+            arm=table.required("arm", toml.not_negative),
+            angle=table.optional("angle", toml.number, 0.0),
         )
         if not within(part, b, d):
             table.refuse(
@@ -207,4 +208,64 @@ def _region(top: TomlTable) -> model.Region:
     table = top.table("region", _REGION)
     if table is None:
         return model.Region()
-    return model.Region(*(table.optional(name, tables.span_or_number, None) for name in _REGION))
+    return model.Region(*(table.optional(name, _span_or_number, None) for name in _REGION))
+
+
+_turn = toml.number_with("a number of degrees, from -180 to 180", -180, 180)
+_share = toml.number_with("a number from 0 to 1", 0, 1)
+
+
+def _point(value: object) -> model.Point:
+    """Three coordinates."""
+    return _three(value, "three finite numbers, [x, y, z]")
+
+
+def _axis(value: object) -> model.Point:
+    """A direction, of any length."""
+    wanted = "three finite numbers, [x, y, z], not all 0"
+    vector = _three(value, wanted)
+    if not any(vector):
+        raise ValueError(wanted)
+    return vector
+
+
+def _three(value: object, wanted: str) -> model.Point:
+    if not isinstance(value, list) or len(value) != 3:
+        raise ValueError(wanted)
+    x, y, z = (toml.number_of(part, wanted) for part in value)
+    return x, y, z
+
+
+def _axis_or_free(value: object) -> model.Point | Literal["free"]:
+    """A direction, or that each query names one."""
+    if value == model.FREE:
+        return model.FREE
+    try:
+        return _axis(value)
+    except ValueError as error:
+        raise ValueError(f'{error}, or "{model.FREE}"') from None
+
+
+def _height(value: object) -> model.Span:
+    """The two heights between which something stands; infinite where it does not end."""
+    return _span(value, "two numbers, finite or infinite, [low, high] with low < high", infinite=True)
+
+
+def _span(
+    value: object, wanted: str = "two finite numbers, [low, high] with low < high", *, infinite: bool = False
+) -> model.Span:
+    """A range of more than one number."""
+    if not isinstance(value, list) or len(value) != 2:
+        raise ValueError(wanted)
+    low, high = (toml.number_of(end, wanted, infinite=infinite) for end in value)
+    if not low < high:
+        raise ValueError(wanted)
+    return model.Span(low, high)
+
+
+def _span_or_number(value: object) -> model.Span:
+    """A range, or a single number that fixes it."""
+    if isinstance(value, list):
+        return _span(value)
+    only = toml.number_of(value, "a finite number, or two, [low, high] with low < high")
+    return model.Span(only, only)

@@ -148,7 +148,8 @@ def test_known_failure_that_names_nothing_is_refused_with_file_and_line(tmp_path
     out = tmp_path / "out"
     assert main(["verify", "builtin:fast", "--families", "ring", "--count", "0", "--out", str(out), *known]) == 2
     error = capsys.readouterr().err
-    assert f"{tmp_path / 'known.toml'}, line 4: known failure 2" in error
+    line = 4 if "max_u" in said else 5
+    assert f"{tmp_path / 'known.toml'}, line {line}: known failure 2" in error
     assert said in error
     assert not (out / "record.jsonl").exists()
 

@@ -90,7 +90,7 @@ def test_invented_case_of_a_known_failure_is_refused_before_a_program_is_asked(t
     Path("known.toml").write_text(_entry('case = "ring-99999"'))
     options = ("--known-failures", "known.toml", "--isolate", "on" if HERE.whole else "auto")
     assert main(["verify", by_heart.SPEC, *options, "--out", "out"]) == 2
-    assert "known.toml, line 1: known failure 1: there is no case 'ring-99999'" in capsys.readouterr().err
+    assert "known.toml, line 2: known failure 1: there is no case 'ring-99999'" in capsys.readouterr().err
 
 
 def _entry(line: str) -> str:

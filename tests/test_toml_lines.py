@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hypcheck.scene.tables import lines_of, nearest_line
+from hypcheck.toml import lines_of, nearest_line
 
 if sys.version_info >= (3, 11):
     import tomllib
