@@ -159,7 +159,7 @@ def _limit_of(case: Vector) -> Position | None:
 
 
 TILTED_ROOTS = 10
-"""As many upright rows as one tilted one takes as long as where roots are counted, which counts it so often."""
+"""A tilted row, whose matrices and roots take longer, counts as so many upright ones where roots are counted."""
 
 
 def shares(plan: SelfCheckPlan, family: Family, families: Sequence[Family]) -> dict[str, int]:

@@ -9,7 +9,6 @@ coefficients show it. Sturm's theorem counts where that rule is not sharp.
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from functools import lru_cache
@@ -26,6 +25,7 @@ from hypcheck.truth.polynomials import (
     shifted_by_one,
     value,
 )
+from hypcheck.truth.rationals import power_near, power_of_two
 
 Interval = tuple[Fraction, Fraction]
 
@@ -33,9 +33,10 @@ Interval = tuple[Fraction, Fraction]
 @lru_cache(maxsize=16)  # a polynomial is asked for its roots in one interval after another
 def sturm_chain(f: Polynomial) -> tuple[Polynomial, ...]:
     """f, f′ and the negated remainders of Euclid's algorithm, each up to a positive factor; the last is gcd(f, f′)."""
-    chain = [primitive(f), primitive(derivative(f))]
-    while len(chain[-1]) > 1 and (rest := remainder(chain[-2], chain[-1])):
-        chain.append(scaled(-1, rest))
+    chain, rest = [primitive(f)], primitive(derivative(f))
+    while rest:
+        chain.append(rest)
+        rest = scaled(-1, remainder(chain[-2], chain[-1]))
     return tuple(chain)
 
 
@@ -44,42 +45,15 @@ def variations(chain: Sequence[Polynomial], x: Fraction) -> int:
     return changes_of_sign(value(f, x) for f in chain)
 
 
-def roots_between(f: Polynomial, low: Fraction | None, high: Fraction | None) -> int:
-    """How many distinct roots a polynomial has between two numbers that are no roots; None is −∞, or ∞."""
-    if len(f) == 1:
-        return 0
-    chain = sturm_chain(f)
-    return _changes(chain, low, -1) - _changes(chain, high, 1)
-
-
-def _changes(chain: Sequence[Polynomial], x: Fraction | None, direction: int) -> int:
-    if x is not None:
-        return variations(chain, x)
-    signs = [(f[0] > 0) == (direction > 0 or len(f) % 2 == 1) for f in chain]
-    return sum(left != right for left, right in itertools.pairwise(signs))
-
-
 def isolate(f: Polynomial) -> list[Interval]:
     """Open intervals with one root of f each, in order, all real roots covered; no 0 inside any.
 
     f is squarefree and is not 0 at 0.
     """
-    chain = sturm_chain(f)
-    near, far = (Fraction(2) ** exponent for exponent in root_exponents(f))
-    points = [-far, -near, near, far]
-    counts = [variations(chain, point) for point in points]
-    pending = list(zip(points, counts, points[1:], counts[1:], strict=False))
-    intervals = []
-    while pending:
-        lower, left, upper, right = pending.pop()
-        if left - right == 1:
-            intervals.append((lower, upper))
-        elif left > right:
-            # Eight candidates, seven roots at most: one of them is no root.
-            middle = next(x for x in _between(lower, upper) if value(f, x))
-            count = variations(chain, middle)
-            pending += [(lower, left, middle, count), (middle, count, upper, right)]
-    return sorted(intervals)
+    near, far = (power_of_two(exponent) for exponent in root_exponents(f))
+    mirrored = tuple(-number if place % 2 else number for place, number in enumerate(f))
+    below = ((-high, -low) for low, high in _isolated(mirrored, near, far))
+    return sorted([*below, *_isolated(f, near, far)])
 
 
 def root_exponents(f: Polynomial) -> tuple[int, int]:
@@ -92,43 +66,12 @@ def root_exponents(f: Polynomial) -> tuple[int, int]:
     return f[-1].bit_length() - largest - 2, largest - f[0].bit_length() + 2
 
 
-def _exponent(x: Fraction) -> int:
-    """An integer e with 2^(e − 1) < x < 2^(e + 1), for x > 0."""
-    return x.numerator.bit_length() - x.denominator.bit_length()
-
-
-def _between(lower: Fraction, upper: Fraction) -> Iterator[Fraction]:
-    """Eight short dyadic numbers strictly between two of one sign, near the middle of their exponents or theirs.
-
-    Far apart (e.g. 2^−2000 and 2): with e halfway between the exponents i and j ≥ i + 3 of the ends, i + 1 ≤ e ≤ j − 2,
-    so lower < 2^(i+1) ≤ 2^e and 2^(e+1) ≤ 2^(j−1) < upper. Near: the width is more than 8 units, and the eight are
-    from 1 unit below to 3 above the centre.
-    """
-    if upper <= 0:
-        yield from (-x for x in _between(-upper, -lower))
-        return
-    low, high = _exponent(lower), _exponent(upper)
-    if high - low >= 3:
-        start = Fraction(2) ** ((low + high) // 2)
-        unit = start / 4
-    else:
-        unit = Fraction(2) ** (_exponent(upper - lower) - 4)
-        start = (lower + upper) // (2 * unit) * unit
-    yield start
-    for step in range(1, 4):
-        yield start + step * unit
-    for step in range(1, 8, 2):
-        yield start + step * unit / 2
-
-
 UNIT_INTERVAL_WIDTH_BITS = 60
 """`narrowed` goes on until an enclosure is at most 2^−60 of its root: one float64, or two neighbours, hold it."""
 
 
 def squarefree(f: Polynomial) -> Polynomial:
     """The primitive polynomial with the roots of a primitive f, each of them simple."""
-    if len(f) == 1:
-        return (1,)
     common = sturm_chain(f)[-1]
     return f if len(common) == 1 else quotient(f, common)
 
@@ -146,15 +89,21 @@ def roots_from_0_to_1(f: Polynomial) -> list[Interval]:
     ends = [Fraction(time) for time in (0, 1) if value(f, Fraction(time)) == 0]
     for end in ends:
         f = divided_by_root(f, end)
-    return sorted([*((end, end) for end in ends), *(_away(f, *interval, ends) for interval in _isolated(f))])
+    return sorted(
+        [
+            *((end, end) for end in ends),
+            *(_away(f, *interval, ends) for interval in _isolated(f, Fraction(0), Fraction(1))),
+        ]
+    )
 
 
-def _isolated(f: Polynomial) -> Iterator[Interval]:
-    """Open intervals with one root each of a squarefree f, f(0) and f(1) not 0; all roots in (0, 1) are in one."""
-    if len(f) == 1:
-        return
+def _isolated(f: Polynomial, low: Fraction, high: Fraction) -> Iterator[Interval]:
+    """Open intervals with one root each of a squarefree f, 0 ≤ low < high no roots; all roots between them are in one.
+
+    Sturm's theorem counts them.
+    """
     chain = sturm_chain(f)
-    pending = [(Fraction(0), variations(chain, Fraction(0)), Fraction(1), variations(chain, Fraction(1)))]
+    pending = [(low, variations(chain, low), high, variations(chain, high))]
     while pending:
         low, left, high, right = pending.pop()
         if left - right == 1:
@@ -173,8 +122,12 @@ def _away(f: Polynomial, low: Fraction, high: Fraction, ends: Sequence[Fraction]
 
 
 def _no_root_between(f: Polynomial, low: Fraction, high: Fraction) -> Fraction:
-    """A number near the middle that is no root: of as many as f has roots, and one more, one is none."""
-    middle, step = (low + high) / 2, (high - low) / 32
+    """A number near the middle, or near the middle of their exponents, that is no root.
+
+    Of as many numbers as f has roots, and one more, one is none.
+    """
+    middle = power_near(low, high) if 0 < 4 * low < high else (low + high) / 2
+    step = min(middle - low, high - middle) / 16
     return next(x for x in (middle + k * step for k in range(len(f))) if value(f, x))
 
 

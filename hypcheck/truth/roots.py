@@ -7,10 +7,10 @@ side where sup φ = 0 there.
 
 What patterns there are and what they mean is in root_patterns.py.
 
-**How they are found.** f and g are integer polynomials from the definitions of the matrices, and no root of f is
-approximated: roots are counted by Sturm's theorem on either side of R, or of an enclosure of R that holds no other root
-of f or g where R is irrational; that R is a root of f too says their greatest common divisor. A multiple root of f is
-one number, and rational. A pattern that a table does not list is a fault of this program, never an answer.
+**How they are found.** f and g are integer polynomials from the definitions of the matrices, and no root is
+approximated: the roots of f are counted by Sturm's theorem on either side of R, which is rational or a root of a
+quadratic; there the signs of polynomials are exact. A multiple root of f is one number, and rational. A pattern that a
+table does not list is a fault of this program, never an answer.
 """
 
 from __future__ import annotations
@@ -23,17 +23,18 @@ from itertools import combinations, pairwise
 
 from hypcheck.geometry.pair import Lengths, Pair, Position
 from hypcheck.truth.kinds import Kind
-from hypcheck.truth.polynomial_roots import root_exponents, roots_between, squarefree, sturm_chain
+from hypcheck.truth.polynomial_roots import squarefree, sturm_chain
 from hypcheck.truth.polynomials import (
     Polynomial,
-    common_divisor,
-    divided_by_root,
+    changes_of_sign,
     linear_factor,
     polynomial_product,
     primitive,
     quotient,
-    value,
+    remainder,
+    scaled,
 )
+from hypcheck.truth.rationals import sign_with_root
 from hypcheck.truth.root_patterns import (
     BEYOND,
     COMPLEX,
@@ -110,8 +111,7 @@ def classify_by_roots(
     try:
         if pair.is_upright:
             return classify_invariants(Invariants.of(pair), kinds, sides)
-        f, g = characteristic(pair.lengths), poles(pair.lengths)
-        return _position(*roots_outward(f, g, g), sides)
+        return _position(*roots_outward(characteristic(pair.lengths), *poles(pair.lengths)), sides)
     except AssertionError as error:
         raise AssertionError(f"{error}, for {pair}") from error
 
@@ -195,10 +195,17 @@ def characteristic(lengths: Lengths) -> Polynomial:
     return _pencil(S, H)
 
 
-def poles(lengths: Lengths) -> Polynomial:
-    """A positive multiple of det(M + λD), in the same unit, primitive."""
+def poles(lengths: Lengths) -> tuple[Polynomial, Polynomial]:
+    """Multiples of factors of det(M + λD), in the same unit, of which L and R are roots.
+
+    −α²/b² is a root, its vectors are perpendicular to both axes. The quotient has a root on either side of 0, and L is
+    the one nearer to 0 of those below.
+    """
     S, H = _matrices(lengths)
-    return _pencil([row[:3] for row in S[:3]], H[:3])
+    square = sum(number * number for number in lengths.axis)
+    linear = linear_factor(Fraction(-(lengths.d**2) * square, lengths.gamma**2))
+    quadratic = quotient(_pencil([row[:3] for row in S[:3]], H[:3]), linear)
+    return linear if _sign(linear, quadratic, -1) < 0 else quadratic, quadratic
 
 
 def _matrices(lengths: Lengths) -> tuple[list[list[int]], list[int]]:
@@ -236,49 +243,43 @@ def _determinant(matrix: list[list[int]]) -> int:
     )
 
 
-def _mirrored(f: Polynomial) -> Polynomial:
-    """f(−λ), with the sign of f at 0."""
-    return tuple(-number if power % 2 else number for power, number in zip(range(len(f) - 1, -1, -1), f, strict=True))
+def roots_outward(f: Polynomial, below: Polynomial, above: Polynomial) -> tuple[Roots, Roots]:
+    """The real roots of f below 0 and above it, outward, beside L and R.
 
-
-def roots_outward(f: Polynomial, g_below: Polynomial, g_above: Polynomial) -> tuple[Roots, Roots]:
-    """The real roots of f below 0 and above it, outward, beside the root next to 0 of each of two polynomials."""
+    L and R are roots of `below` and of `above`, which are linear, or quadratic with a root on either side of 0.
+    """
     factors = tuple(_factors(f))
-    return _side(factors, g_below, -1), _side(factors, g_above, 1)
+    return _side(factors, below, -1), _side(factors, above, 1)
 
 
-def _side(factors: Sequence[tuple[Polynomial, int]], g: Polynomial, sign: int) -> Roots:
-    """The roots of one side, outward; R is the root of g next to 0 there."""
-    if len(g) == 2:
-        near = far = Fraction(-g[1], g[0])
-        at_end = [len(factor) > 1 and not value(factor, near) for factor, _ in factors]
-    else:
-        poles = squarefree(g)
-        shared = [common_divisor(factor, poles) for factor, _ in factors]
-        others = [quotient(factor, common) for (factor, _), common in zip(factors, shared, strict=True)]
-        near, far = _about_root(poles, others, sign)
-        at_end = [roots_between(both, *sorted((near, far))) > 0 for both in shared]
-    multiple = next((Fraction(-factor[1], factor[0]) for factor, times in factors if times > 1), None)
-    counted = [
-        divided_by_root(factor, near) if both and near == far else factor
-        for (factor, _), both in zip(factors, at_end, strict=True)
-    ]
+def _side(factors: Sequence[tuple[Polynomial, int]], end: Polynomial, side: int) -> Roots:
+    """The roots on one side of 0, outward, beside the root of `end` on that side.
 
-    def count(factor: Polynomial, start: Fraction, end: Fraction | None) -> int:
-        return roots_between(factor, start, end) if sign > 0 else roots_between(factor, end, start)
-
-    places: Roots = []
-    for place, start, end in ((INNER, Fraction(0), near), (BEYOND, far, None)):
-        if place is BEYOND:
-            places += [(END, times) for (_, times), both in zip(factors, at_end, strict=True) if both]
-        if multiple is not None and abs(start) < sign * multiple and (end is None or sign * multiple < abs(end)):
-            simple, (_, times) = counted[0], factors[-1]
-            places += [(place, 1)] * count(simple, start, multiple)
-            places += [(place, times), *[(place, 1)] * count(simple, multiple, end)]
-        else:
-            for factor, (_, times) in zip(counted, factors, strict=True):
-                places += [(place, times)] * count(factor, start, end)
+    The changes of sign in a Sturm chain fall by the number of its roots in (low, high], also where high is one.
+    """
+    (simple, _), *multiple = factors
+    chain = sturm_chain(simple)
+    signs = [_sign(f, end, side) for f in chain]
+    at_zero, at_end = changes_of_sign(f[-1] for f in chain), changes_of_sign(signs)
+    at_infinity = changes_of_sign(f[0] if side > 0 or len(f) % 2 else -f[0] for f in chain)
+    met = signs[0] == 0
+    inner = abs(at_zero - at_end) - (met and side > 0)
+    beyond = abs(at_end - at_infinity) - (met and side < 0)
+    places = [(INNER, 1)] * inner + [(END, 1)] * met + [(BEYOND, 1)] * beyond
+    for factor, times in multiple:
+        if side * factor[1] < 0:
+            before = abs(at_zero - changes_of_sign(_sign(f, factor) for f in chain))
+            places.insert(before, ((END, INNER, BEYOND)[side * _sign(factor, end, side)], times))
     return places
+
+
+def _sign(f: Polynomial, g: Polynomial, side: int = 1) -> int:
+    """The sign of f at the root of a linear g, or at the root of a quadratic g that is on this side of the other."""
+    linear, constant = (0, 0, *remainder(f, g))[-2:]
+    if len(g) == 2:
+        return sign_with_root(constant, 0, 0)
+    a, b, c = g if g[0] > 0 else scaled(-1, g)
+    return sign_with_root(2 * a * constant - b * linear, side * linear, b * b - 4 * a * c)
 
 
 def _factors(f: Polynomial) -> Iterator[tuple[Polynomial, int]]:
@@ -296,35 +297,3 @@ def _layers(f: Polynomial) -> Iterator[Polynomial]:
         yield squarefree(f)
         common = sturm_chain(f)[-1]
         f = common if common[0] > 0 else tuple(-number for number in common)
-
-
-def _about_root(f: Polynomial, others: Sequence[Polynomial], sign: int) -> tuple[Fraction, Fraction]:
-    """Two numbers, the nearer to 0 first, about the root of f next to 0 on one side.
-
-    Between them there is no other root of f, which is squarefree, and none of the others, which do not have that root.
-    Its exponent is found first, since roots may be 10³⁰⁰ apart.
-    """
-    if sign < 0:
-        low, high = _about_root(_mirrored(f), [_mirrored(other) for other in others], 1)
-        return -low, -high
-
-    def no_root(low: Fraction, high: Fraction) -> Fraction:
-        """A number of [low, high) that is no root of f, which has three at most."""
-        return next(number for step in range(4) if value(f, number := low + (high - low) * step / 4))
-
-    def of_exponent(exponent: int) -> Fraction:
-        return no_root(Fraction(2) ** exponent, Fraction(2) ** (exponent + 1))
-
-    def meets(other: Polynomial) -> bool:
-        return not value(other, low) or not value(other, high) or roots_between(other, low, high) > 0
-
-    below, above = root_exponents(f)
-    below -= 1
-    while above - below > 1:
-        exponent = (below + above) // 2
-        below, above = (below, exponent) if roots_between(f, Fraction(0), of_exponent(exponent)) else (exponent, above)
-    low, high = of_exponent(below), of_exponent(above)
-    while roots_between(f, low, high) > 1 or any(map(meets, others)):
-        middle = no_root((low + high) / 2, high)
-        low, high = (low, middle) if roots_between(f, low, middle) else (middle, high)
-    return low, high

@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+import itertools
 from fractions import Fraction
 
 import pytest
+import sympy
 
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.truth import roots
 from hypcheck.truth.root_patterns import MEANING, SIDES, sides_by_signs, word_of
 from hypcheck.truth.roots import classify_by_roots
+from hypcheck.vectors import frozen
 from tests.support.tilted_fractions import interpolated, matrices, value
 from tests.tools.oracle_agreement import rows
 from tests.truth.tilted_cases import SYMMETRIC
 
+X = sympy.Symbol("x")
 EXTERIOR, CONTACT, INTERIOR = Position.EXTERIOR, Position.CONTACT, Position.INTERIOR
 
 
@@ -36,6 +40,35 @@ def test_the_quartic_is_the_determinant_of_the_pencil():
         for at in (1, -2, 3):
             one, other = value(ours[::-1], at), value(theirs, at * unit)
             assert (one > 0) == (other > 0)
+
+
+def outward(f, g, side):
+    """The word for the roots of f on one side of 0, beside the root of g next to 0 there, by sympy's isolation."""
+    f, g = (sympy.Poly([sympy.Rational(*number.as_integer_ratio()) for number in h], X) for h in (f, g))
+    if side < 0:
+        f, g = f.compose(sympy.Poly(-X)), g.compose(sympy.Poly(-X))
+
+    def holds_root(h, low, high):
+        """Of a closed interval that is a point, or of an open one."""
+        return h.count_roots(low, high) > len({end for end in (low, high) if low != high and h.eval(end) == 0})
+
+    places, place = [], "(0,R)"
+    for between in (f * g).sqf_part().intervals(inf=0, sqf=True):
+        at_end = place == "(0,R)" and holds_root(g, *between)
+        places += [("R" if at_end else place, times) for h, times in f.sqf_list()[1] if holds_root(h, *between)]
+        place = ">R" if at_end else place
+    return word_of(places)
+
+
+@pytest.mark.parametrize("family", ["uniform", "twins", "ring", "tangent", "stiff", "slight"])
+def test_places_of_roots_of_a_tilted_pair_are_those_of_another_algebra(family):
+    tilted = [case for case in frozen.load(f"tilted-{family}").cases if not Pair.from_row(case.row).is_upright]
+    for case in tilted[::40]:
+        f, centred = (interpolated(*matrices(row))[::-1] for row in (case.row, [*case.row[:4], 0, 0, 0, *case.row[7:]]))
+        # centred = −(1 + λ) det(M + λD)
+        g = list(itertools.accumulate(centred[:-1], lambda before, number: number - before))
+        report = classify_by_roots(Pair.from_row(case.row))
+        assert (report.below, report.above) == (outward(f, g, -1), outward(f, g, 1)), case.id
 
 
 @pytest.mark.parametrize(("row", "position", "limit_of"), SYMMETRIC)
