@@ -41,9 +41,9 @@ def enlarged(b: ArrayLike, d: ArrayLike, margin: ArrayLike, half: ArrayLike | No
     They are no larger than they must be in the directions in which the given ones are `half` (n,) wide: b without.
     """
     b, d, margin = (np.asarray(numbers, np.float64) for numbers in (b, d, margin))
+    margin = np.maximum(margin, _RANGE[0])
     v = b if half is None else np.asarray(half, np.float64)
-    fits = (np.minimum(b, d) >= _RANGE[0]) & (np.maximum(b, d) <= _RANGE[1])
-    fits = fits & (margin >= _RANGE[0]) & (margin <= _RANGE[1]) & (v >= _RANGE[0])
+    fits = (np.minimum(b, d) >= _RANGE[0]) & (np.maximum(b, d) <= _RANGE[1]) & (margin <= _RANGE[1]) & (v >= _RANGE[0])
     with np.errstate(all="ignore"):
         wide, tall = (np.sqrt((v + margin) * (axis * axis / v + margin)) * _OUTWARD for axis in (b, d))
     return np.where(fits, wide, math.inf), np.where(fits, tall, math.inf)

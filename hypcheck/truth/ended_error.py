@@ -35,7 +35,7 @@ from itertools import product
 from hypcheck.geometry.pair import Lengths, Pair, Position
 from hypcheck.truth import exact, least
 from hypcheck.truth.exact import Decision
-from hypcheck.truth.rationals import power_of_two, root_of, rounded
+from hypcheck.truth.rationals import exponent_of, power_of_two, root_of, rounded
 
 _LARGEST = Fraction(1, 100)
 _LEAST_OCTAVE = -1100
@@ -172,7 +172,8 @@ def enclosure(pair: Pair, decision: Decision) -> tuple[Fraction, Fraction]:
         return Fraction(0), Fraction(0)
     low, high = _bracket(pair)
     while (high - low) * 2**_NARROW_BITS > high:
-        middle = (low + high) / 2
+        unit = power_of_two(exponent_of(high - low) - 3)
+        middle = round((low + high) / 2 / unit) * unit  # exact decisions about short numbers are quick
         low, high = (low, middle) if _meets(pair, middle) else (middle, high)
     return low - 1, high - 1
 
@@ -182,7 +183,8 @@ def _bracket(pair: Pair) -> tuple[Fraction, Fraction]:
     guess = least.to_border(pair, width=_WIDTH)
     if math.isfinite(guess.upper) and guess.lower > 0:
         loose = Fraction(1, 2**_GUESSED)
-        low, high = Fraction(guess.lower) * (1 - loose), Fraction(guess.upper) * (1 + loose)
+        low = rounded(Fraction(guess.lower) * (1 - loose), _NARROW_BITS)
+        high = rounded(Fraction(guess.upper) * (1 + loose), _NARROW_BITS)
         if not _meets(pair, low) and _meets(pair, high):
             return low, high
     if _meets(pair, _power(-_FARTHEST)):

@@ -150,3 +150,4 @@ def test_a_margin_holds_for_the_parts_of_a_mover():
     assert scene.position(1.5, 0.0, 0.0, 0.0) == 1
     assert scene.position(1.5, 0.0, 0.0, 0.0, margin=0.15) == 1
     assert scene.position(1.5, 0.0, 0.0, 0.0, margin=0.25) == 0
+    assert scene.position(1.5, 0.0, 0.0, 0.0, margin=5e-324) == 1
