@@ -37,16 +37,23 @@ Proof. intros (rnd & V & ->) H; apply round_ge_generic; [exact its_exponents | e
 Lemma stays_small p v e : rounded p v -> (-1074 <= e)%Z -> Rabs p <= pow e -> Rabs v <= pow e.
 Proof. intros (rnd & V & ->) E H; apply abs_round_le_generic; [exact its_exponents | exact V | apply power_is_float; exact E | exact H]. Qed.
 
-(** Powers that are floats: none overflows, and those below are 0 or are not told. *)
-Definition fit s := (-1074 <=? high s)%Z && (high s <=? 1023)%Z && match low s with Some l => (-1074 <=? l)%Z | None => true end.
+(** What a processor makes of an exact result p: p rounded; or 0, where p is below the normal range and is flushed; or, where p
+    overflows, the greatest float or infinity, which are here numbers of 2^1023 or more with the sign of p. *)
+Definition returned p v := rounded p v \/ (Rabs p < pow (-1022) /\ v = 0) \/ (pow 1023 < Rabs p /\ pow 1023 <= Rabs v /\ 0 <= p * v).
 
-Lemma rounding_within s p v : fit s = true -> rounded p v -> within s p -> within s v.
+(** Powers that are floats: none overflows, and those below are normal or are not told. *)
+Definition fit s := (-1074 <=? high s)%Z && (high s <=? 1023)%Z && match low s with Some l => (-1022 <=? l)%Z | None => true end.
+
+Lemma rounding_within s p v : fit s = true -> returned p v -> within s p -> within s v.
 Proof.
-  unfold fit; intros F R (H & P & L); apply andb_prop in F as [F FL]; apply andb_prop in F as [F1 F2]; apply Z.leb_le in F1.
-  repeat split.
+  unfold fit; intros F R (H & P & L); apply andb_prop in F as [F FL]; apply andb_prop in F as [F1 F2]; apply Z.leb_le in F1, F2.
+  pose proof (bpow_le radix2 _ _ F2); destruct R as [R | [[T ->] | [T _]]]; [| | lra]; repeat split.
   - apply stays_small with p; assumption.
   - intros E; apply stays_positive with p; auto.
-  - destruct (low s) as [l |]; [| exact I]; apply Z.leb_le in FL; apply stays_above with p; assumption.
+  - destruct (low s) as [l |]; [| exact I]; apply Z.leb_le in FL; apply stays_above with p; try assumption; lia.
+  - rewrite Rabs_R0; apply bpow_ge_0.
+  - intros _; lra.
+  - destruct (low s) as [l |]; [| exact I]; apply Z.leb_le in FL; pose proof (bpow_le radix2 _ _ FL); pose proof (Rle_abs p); lra.
 Qed.
 
 Definition no_less (a c : option Z) := match a, c with Some l, Some k => Some (Z.max l k) | Some l, None | None, Some l => Some l | None, None => None end.
@@ -126,25 +133,29 @@ Proof.
   - rewrite <- IZR_Zpower by apply Z.log2_nonneg; apply IZR_le; apply (Z.log2_spec z Z0).
 Qed.
 
-(** ** The run: [pre] is a result before it is rounded, which an operation that is contracted with it may take in its place. *)
+(** ** The run: [pre] is a result before it is rounded. A sum or difference may take that of a product in its place: they are contracted. *)
 
 Section Run.
 
-Variables (x pre : string -> R).
+Variables (multiplied : list string) (x pre : string -> R).
 
-Definition takes (a : argument) p := match a with Name n => p = x n \/ p = pre n | Number z => p = IZR z end.
+Definition has (a : argument) p := match a with Name n => p = x n | Number z => p = IZR z end.
+Definition takes (a : argument) p := match a with Name n => p = x n \/ (is_in n multiplied = true /\ p = pre n) | Number z => p = IZR z end.
+
+Lemma has_taken a p : has a p -> takes a p.
+Proof. destruct a; cbn; auto. Qed.
 
 Inductive kind := Plus | Minus | Times | Over | Negated | Sized.
 Definition kind_of (s : step) := look (operation (meaning s)) [("add", Plus); ("sub", Minus); ("mul", Times); ("div", Over); ("neg", Negated);
   ("abs", Sized)].
 
 Definition runs (s : step) : Prop := let n := name s in match kind_of s, arguments (meaning s) with
-  | Some Plus, [a; c] => exists p q, takes a p /\ takes c q /\ pre n = p + q /\ rounded (pre n) (x n)
-  | Some Minus, [a; c] => exists p q, takes a p /\ takes c q /\ pre n = p - q /\ rounded (pre n) (x n)
-  | Some Times, [a; c] => exists p q, takes a p /\ takes c q /\ pre n = p * q /\ rounded (pre n) (x n)
-  | Some Over, [a; c] => exists p q, takes a p /\ takes c q /\ pre n = p / q /\ rounded (pre n) (x n)
-  | Some Negated, [a] => exists p, takes a p /\ pre n = - p /\ x n = - p
-  | Some Sized, [a] => exists p, takes a p /\ pre n = Rabs p /\ x n = Rabs p
+  | Some Plus, [a; c] => exists p q, takes a p /\ takes c q /\ pre n = p + q /\ returned (pre n) (x n)
+  | Some Minus, [a; c] => exists p q, takes a p /\ takes c q /\ pre n = p - q /\ returned (pre n) (x n)
+  | Some Times, [a; c] => exists p q, has a p /\ has c q /\ pre n = p * q /\ returned (pre n) (x n)
+  | Some Over, [a; c] => exists p q, has a p /\ has c q /\ pre n = p / q /\ returned (pre n) (x n)
+  | Some Negated, [a] => exists p q, takes a p /\ has a q /\ pre n = - p /\ x n = - q
+  | Some Sized, [a] => exists p, has a p /\ pre n = Rabs p /\ x n = Rabs p
   | Some _, _ => False | None, _ => True end.
 
 Definition of_argument known a := match a with Name n => look n known | Number z => if (0 <? z)%Z then Some (whole z) else None end.
@@ -173,7 +184,7 @@ Definition all_hold known := forall n s, look n known = Some s -> within s (x n)
 Lemma argument_within known a s p : all_hold known -> of_argument known a = Some s -> takes a p -> within s p.
 Proof.
   intros K; destruct a as [n | z]; cbn; intros E T.
-  - apply K in E as [E1 E2]; destruct T as [-> | ->]; assumption.
+  - apply K in E as [E1 E2]; destruct T as [-> | [_ ->]]; assumption.
   - destruct (Z.ltb_spec 0 z); [| discriminate]; injection E as <-; subst p; apply whole_within; assumption.
 Qed.
 
@@ -181,21 +192,22 @@ Lemma step_within known s r : all_hold known -> runs s -> size_of known s = Some
   within r (x (name s)) /\ within r (pre (name s)).
 Proof.
   intros K R E F; unfold runs, size_of, two in *.
-  assert (finish : forall v, rounded (pre (name s)) (x (name s)) -> pre (name s) = v -> within r v ->
+  assert (finish : forall v, returned (pre (name s)) (x (name s)) -> pre (name s) = v -> within r v ->
     within r (x (name s)) /\ within r (pre (name s))).
   { intros v RO EV W; rewrite <- EV in W; split; [apply rounding_within with (pre (name s)) |]; assumption. }
   destruct (kind_of s) as [[] |]; [| | | | | | discriminate];
     destruct (arguments (meaning s)) as [| a [| c [|]]]; try discriminate; try contradiction;
     destruct (of_argument known a) as [sa |] eqn:A; try discriminate;
     try (destruct (of_argument known c) as [sc |] eqn:C; [| discriminate]; destruct R as (p & q & TA & TC & PRE & RO);
+      try apply has_taken in TA; try apply has_taken in TC;
       pose proof (argument_within known a sa p K A TA) as WA; pose proof (argument_within known c sc q K C TC) as WC).
   - injection E as <-; apply finish with (p + q); [exact RO | exact PRE | apply add_within; assumption].
   - injection E as <-; apply finish with (p - q); [exact RO | exact PRE | apply sub_within; assumption].
   - injection E as <-; apply finish with (p * q); [exact RO | exact PRE | apply mul_within; assumption].
   - apply finish with (p / q); [exact RO | exact PRE | apply (div_within sa sc p q r E); assumption].
-  - destruct R as (p & TA & -> & ->); injection E as <-; pose proof (argument_within known a sa p K A TA) as WA.
-    split; apply neg_within; exact WA.
-  - destruct R as (p & TA & -> & ->); injection E as <-; pose proof (argument_within known a sa p K A TA) as WA.
+  - destruct R as (p & q & TA & HA & -> & ->); injection E as <-; apply has_taken in HA.
+    split; apply neg_within; [apply (argument_within known a sa q K A HA) | apply (argument_within known a sa p K A TA)].
+  - destruct R as (p & TA & -> & ->); apply has_taken in TA; injection E as <-; pose proof (argument_within known a sa p K A TA) as WA.
     split; apply abs_within; exact WA.
 Qed.
 
@@ -230,19 +242,26 @@ Definition guarded := [("b", between (-100) 100); ("d", between (-100) 100); ("A
   ("z_over_d", about 101); ("P", to 200); ("Q", to 200); ("P_plus_Q", to 200); ("u_4", between (-50) (-49)); ("u_8", between (-49) (-48));
   ("u_12", between (-49) (-48)); ("u_16", between (-48) (-47)); ("u_1536", between (-42) (-41)); ("slack", between 0 1)].
 
-(** What a processor returns for a result that is not negative: rounded, or, where that overflows, the greatest float or infinity. *)
-Definition returned p v := rounded p v \/ (pow 1023 <= p /\ pow 1023 <= v).
-
-Lemma below p v e : returned p v -> (-1074 <= e <= 1023)%Z -> v < pow e -> p < pow e /\ rounded p v.
+Lemma below p v e : returned p v -> 0 <= p -> (-1022 <= e <= 1023)%Z -> v < pow e -> p < pow e.
 Proof.
-  intros [R | [P V]] [E1 E2] H.
-  - split; [| exact R]; apply Rnot_le_lt; intro N; pose proof (stays_above p v e R E1 N); lra.
-  - pose proof (at_most _ _ E2); lra.
+  intros R P0 [E1 E2] H; destruct R as [R | [[T ->] | (T & V & PV)]].
+  - apply Rnot_le_lt; intro N; pose proof (stays_above p v e R ltac:(lia) N); lra.
+  - pose proof (at_most _ _ E1); rewrite Rabs_pos_eq in T by exact P0; lra.
+  - pose proof (at_most _ _ E2); rewrite Rabs_pos_eq in T by exact P0; pose proof (bpow_gt_0 radix2 1023).
+    assert (0 <= v) by (apply Rmult_le_reg_l with p; lra); rewrite Rabs_pos_eq in V by assumption; lra.
 Qed.
-Lemma above p v e : returned p v -> (-1074 <= e < 1023)%Z -> pow e < v -> pow e < p.
+Lemma above p v e : returned p v -> 0 <= p -> (-1022 <= e < 1023)%Z -> pow e < v -> pow e < p.
 Proof.
-  intros [R | [P V]] [E1 E2] H; apply Rnot_le_lt; intro N; [pose proof (stays_below p v e R E1 N); lra |].
-  pose proof (bpow_lt radix2 e 1023 E2); lra.
+  intros R P0 [E1 E2] H; pose proof (bpow_gt_0 radix2 e); destruct R as [R | [[T ->] | (T & V & PV)]]; [| lra |].
+  - apply Rnot_le_lt; intro N; pose proof (stays_below p v e R ltac:(lia) N); lra.
+  - rewrite Rabs_pos_eq in T by exact P0; pose proof (bpow_lt radix2 e 1023 E2); lra.
+Qed.
+Lemma no_more p v e : returned p v -> 0 <= p -> (-1022 <= e <= 1023)%Z -> p <= pow e -> v <= pow e.
+Proof.
+  intros R P0 [E1 E2] H; destruct R as [R | [[T ->] | (T & V & PV)]].
+  - apply stays_below with p; [exact R | lia | exact H].
+  - apply bpow_ge_0.
+  - rewrite Rabs_pos_eq in T by exact P0; pose proof (at_most _ _ E2); lra.
 Qed.
 Lemma root_below r e : 0 <= r -> r * r < pow (2 * e) -> r < pow e.
 Proof.
@@ -257,7 +276,7 @@ Qed.
 
 Section Guards.
 
-Variables x pre : string -> R.
+Variables (multiplied : list string) (x pre : string -> R).
 
 (** Inputs are floats, each step of which the guards are made returns its result, and the constants are those of the header. *)
 Hypotheses (Inputs : forall n, In n ["alpha"; "gamma"; "b"; "d"; "x"; "y"; "z"] -> pre n = x n)
@@ -269,12 +288,12 @@ Hypotheses
   (RA : pre "A" = x "alpha_over_b" * x "alpha_over_b") (VA : returned (pre "A") (x "A"))
   (RB : pre "B" = x "gamma_over_d" * x "gamma_over_d") (VB : returned (pre "B") (x "B"))
   (Rx : pre "xx" = x "x" * x "x") (Vx : returned (pre "xx") (x "xx")) (Ry : pre "yy" = x "y" * x "y") (Vy : returned (pre "yy") (x "yy"))
-  (Rr : exists p q, takes x pre (Name "xx") p /\ takes x pre (Name "yy") q /\ pre "rr" = p + q) (Vr : returned (pre "rr") (x "rr"))
+  (Rr : exists p q, takes multiplied x pre (Name "xx") p /\ takes multiplied x pre (Name "yy") q /\ pre "rr" = p + q) (Vr : returned (pre "rr") (x "rr"))
   (Rb : pre "bb" = x "b" * x "b") (Vb : returned (pre "bb") (x "bb"))
   (RP : pre "P" = x "rr" / x "bb") (VP : returned (pre "P") (x "P"))
-  (Rz : pre "z_over_d" = x "z" / x "d") (Vz : rounded (pre "z_over_d") (x "z_over_d") \/ pow 1023 <= Rabs (x "z_over_d"))
+  (Rz : pre "z_over_d" = x "z" / x "d") (Vz : returned (pre "z_over_d") (x "z_over_d"))
   (RQ : pre "Q" = x "z_over_d" * x "z_over_d") (VQ : returned (pre "Q") (x "Q"))
-  (RS : exists q, takes x pre (Name "Q") q /\ pre "P_plus_Q" = x "P" + q) (VS : returned (pre "P_plus_Q") (x "P_plus_Q")).
+  (RS : exists q, takes multiplied x pre (Name "Q") q /\ pre "P_plus_Q" = x "P" + q) (VS : returned (pre "P_plus_Q") (x "P_plus_Q")).
 
 (** The guards, as the step "usable" asks them. *)
 Hypotheses (Ga : 0 < x "alpha") (Gg : 0 < x "gamma") (Gb : pow (-100) < x "b" < pow 100) (Gd : pow (-100) < x "d" < pow 100)
@@ -290,66 +309,71 @@ Let about_is h v : Rabs v <= pow h -> within (about h) v.
 Proof. intros H; repeat split; cbn; [exact H | discriminate]. Qed.
 
 Let returned_positive p v : returned p v -> 0 <= p -> 0 <= v.
-Proof. intros [R | [_ V]] P; [apply stays_positive with p; assumption | pose proof (bpow_gt_0 radix2 1023); lra]. Qed.
+Proof.
+  intros [R | [[_ ->] | (T & _ & PV)]] P; [apply stays_positive with p; assumption | lra |].
+  pose proof (bpow_gt_0 radix2 1023); rewrite Rabs_pos_eq in T by exact P; apply Rmult_le_reg_l with p; lra.
+Qed.
 
-Let ratio r A : pre A = x r * x r -> 0 <= x r -> returned (pre r) (x r) -> returned (pre A) (x A) -> pow (-100) < x A < pow 100 ->
+Let ratio r A : pre A = x r * x r -> 0 <= pre r -> 0 <= x r -> returned (pre r) (x r) -> returned (pre A) (x A) -> pow (-100) < x A < pow 100 ->
   given r (between (-50) 50) /\ given A (between (-100) 100).
 Proof.
-  intros E P VR VA' [L H]; destruct (below _ _ 100 VA' ltac:(lia) H) as [H' _]; pose proof (above _ _ (-100) VA' ltac:(lia) L) as L'.
+  intros E P0 P VR VA' [L H]; assert (PA : 0 <= pre A) by (rewrite E; apply Rmult_le_pos; assumption).
+  pose proof (below _ _ 100 VA' PA ltac:(lia) H) as H'; pose proof (above _ _ (-100) VA' PA ltac:(lia) L) as L'.
   rewrite E in H', L'; pose proof (root_below _ 50 P H') as RH; pose proof (root_above _ (-50) P L') as RL.
-  destruct (below _ _ 50 VR ltac:(lia) RH) as [QH _]; pose proof (above _ _ (-50) VR ltac:(lia) RL) as QL.
+  pose proof (below _ _ 50 VR P0 ltac:(lia) RH) as QH; pose proof (above _ _ (-50) VR P0 ltac:(lia) RL) as QL.
   repeat split; try (apply between_is); rewrite ?E; lra.
 Qed.
 
 Theorem guards_give : all_hold x pre guarded.
 Proof.
   assert (b0 : 0 < x "b") by (pose proof (bpow_gt_0 radix2 (-100)); lra); assert (d0 : 0 < x "d") by (pose proof (bpow_gt_0 radix2 (-100)); lra).
-  assert (pa : 0 <= x "alpha_over_b") by (apply (returned_positive _ _ Va); rewrite Ra; apply over_pos; lra).
-  assert (pg : 0 <= x "gamma_over_d") by (apply (returned_positive _ _ Vg); rewrite Rg; apply over_pos; lra).
-  destruct (ratio "alpha_over_b" "A" RA pa Va VA GA) as [Ka KA].
-  destruct (ratio "gamma_over_d" "B" RB pg Vg VB GB) as [Kg KB].
+  assert (pa0 : 0 <= pre "alpha_over_b") by (rewrite Ra; apply over_pos; lra); pose proof (returned_positive _ _ Va pa0) as pa.
+  assert (pg0 : 0 <= pre "gamma_over_d") by (rewrite Rg; apply over_pos; lra); pose proof (returned_positive _ _ Vg pg0) as pg.
+  destruct (ratio "alpha_over_b" "A" RA pa0 pa Va VA GA) as [Ka KA].
+  destruct (ratio "gamma_over_d" "B" RB pg0 pg Vg VB GB) as [Kg KB].
   (* the squares are not negative *)
   assert (sq : forall v, 0 <= v * v) by (intros v; pose proof (pow2_ge_0 v); lra).
   assert (px : 0 <= pre "xx") by (rewrite Rx; apply sq); assert (py : 0 <= pre "yy") by (rewrite Ry; apply sq).
   pose proof (returned_positive _ _ Vx px) as qx; pose proof (returned_positive _ _ Vy py) as qy.
-  destruct Rr as (rp & rq & Tp & Tq & Er); assert (p1 : 0 <= rp) by (destruct Tp as [-> | ->]; assumption);
-    assert (p2 : 0 <= rq) by (destruct Tq as [-> | ->]; assumption).
+  destruct Rr as (rp & rq & Tp & Tq & Er); assert (p1 : 0 <= rp) by (destruct Tp as [-> | [_ ->]]; assumption);
+    assert (p2 : 0 <= rq) by (destruct Tq as [-> | [_ ->]]; assumption).
   assert (pr : 0 <= pre "rr") by (rewrite Er; lra); pose proof (returned_positive _ _ Vr pr) as qr.
   (* b squared *)
   assert (B2 : pow (-200) < x "b" * x "b" < pow 200).
   { change (-200)%Z with (-100 + -100)%Z; change 200%Z with (100 + 100)%Z; rewrite !bpow_plus; pose proof (bpow_gt_0 radix2 (-100)).
     split; apply Rmult_gt_0_lt_compat; lra. }
   assert (Bb : pow (-200) <= x "bb" <= pow 200).
-  { destruct Vb as [V | [V _]]; [| rewrite Rb in V; pose proof (at_most 200 1023 ltac:(lia)); lra].
-    split; [apply stays_above with (pre "bb") | apply stays_below with (pre "bb")]; try exact V; try lia; rewrite Rb; lra. }
+  { assert (W : within (between (-200) 200) (x "bb")).
+    { apply rounding_within with (pre "bb"); [reflexivity | exact Vb |]; apply between_is; rewrite Rb; lra. }
+    destruct W as (W1 & W2 & W3); cbn [low high positive between] in W1, W2, W3; rewrite Rabs_pos_eq in W1 by (apply W2; reflexivity); lra. }
   assert (bb0 : 0 < x "bb") by (pose proof (bpow_gt_0 radix2 (-200)); lra).
   assert (pP : 0 <= pre "P") by (rewrite RP; apply over_pos; lra); pose proof (returned_positive _ _ VP pP) as qP.
   assert (pQ : 0 <= pre "Q") by (rewrite RQ; apply sq); pose proof (returned_positive _ _ VQ pQ) as qQ.
-  destruct RS as (sq' & Ts & Es); assert (ps : 0 <= sq') by (destruct Ts as [-> | ->]; assumption).
-  destruct (below _ _ 200 VS ltac:(lia) GS) as [S1 _]; rewrite Es in S1.
-  destruct (below _ _ 200 VP ltac:(lia) ltac:(lra)) as [P1 _].
+  destruct RS as (sq' & Ts & Es); assert (ps : 0 <= sq') by (destruct Ts as [-> | [_ ->]]; assumption).
+  assert (pS : 0 <= pre "P_plus_Q") by (rewrite Es; lra).
+  pose proof (below _ _ 200 VS pS ltac:(lia) GS) as S1; rewrite Es in S1.
+  pose proof (below _ _ 200 VP pP ltac:(lia) ltac:(lra)) as P1.
   assert (Q1 : pre "Q" <= pow 200 /\ x "Q" <= pow 200).
-  { destruct Ts as [-> | ->].
-    - destruct (below _ _ 200 VQ ltac:(lia) ltac:(lra)) as [Q1 _]; lra.
-    - split; [lra |]; destruct VQ as [V | [V _]]; [apply stays_below with (pre "Q"); [exact V | lia | lra] |].
-      pose proof (at_most 200 1023 ltac:(lia)); lra. }
+  { destruct Ts as [-> | [_ ->]].
+    - pose proof (below _ _ 200 VQ pQ ltac:(lia) ltac:(lra)); lra.
+    - split; [lra |]; apply no_more with (pre "Q"); [exact VQ | exact pQ | lia | lra]. }
   assert (r1 : x "rr" < pow 400).
   { rewrite RP in P1; apply Rmult_lt_reg_r with (/ x "bb"); [apply Rinv_0_lt_compat; exact bb0 |].
     apply Rlt_le_trans with (pow 200); [exact P1 |]; apply Rmult_le_reg_r with (x "bb"); [exact bb0 |].
     rewrite Rmult_assoc, Rinv_l by lra; change 400%Z with (200 + 200)%Z; rewrite bpow_plus, Rmult_1_r.
     apply Rmult_le_compat_l; [apply bpow_ge_0 | lra]. }
-  destruct (below _ _ 400 Vr ltac:(lia) r1) as [r2 _]; rewrite Er in r2.
-  assert (part : forall n p, takes x pre (Name n) p -> returned (pre n) (x n) -> p < pow 400 -> x n <= pow 400 /\ pre n <= pow 400).
-  { intros n p [-> | ->] V H; [destruct (below _ _ 400 V ltac:(lia) H) as [H' _]; lra |].
-    split; [| lra]; destruct V as [V | [V _]]; [apply stays_below with (pre n); [exact V | lia | lra] |].
-    pose proof (at_most 400 1023 ltac:(lia)); lra. }
-  destruct (part "xx" rp Tp Vx ltac:(lra)) as [x1 x2]; destruct (part "yy" rq Tq Vy ltac:(lra)) as [y1 y2].
+  pose proof (below _ _ 400 Vr pr ltac:(lia) r1) as r2; rewrite Er in r2.
+  assert (part : forall n p, takes multiplied x pre (Name n) p -> returned (pre n) (x n) -> 0 <= pre n -> p < pow 400 -> x n <= pow 400 /\ pre n <= pow 400).
+  { intros n p [-> | [_ ->]] V P0 H; [pose proof (below _ _ 400 V P0 ltac:(lia) H); lra |].
+    split; [| lra]; apply no_more with (pre n); [exact V | exact P0 | lia | lra]. }
+  destruct (part "xx" rp Tp Vx px ltac:(lra)) as [x1 x2]; destruct (part "yy" rq Tq Vy py ltac:(lra)) as [y1 y2].
   assert (zs : Rabs (x "z_over_d") <= pow 100 /\ Rabs (pre "z_over_d") <= pow 101).
   { assert (H : Rabs (x "z_over_d") <= pow 100).
     { apply Rnot_lt_le; intro N; pose proof (Rmult_gt_0_lt_compat (pow 100) (Rabs (x "z_over_d")) (pow 100) (Rabs (x "z_over_d"))
         ltac:(apply bpow_gt_0) ltac:(apply bpow_gt_0 || (pose proof (bpow_gt_0 radix2 100); lra)) N N) as M.
       rewrite <- bpow_plus, <- Rabs_mult, Rabs_pos_eq in M by apply sq; rewrite <- RQ in M; change (100 + 100)%Z with 200%Z in M; lra. }
-    split; [exact H |]; destruct Vz as [V | V]; [| pose proof (bpow_lt radix2 100 1023 ltac:(lia)); lra].
+    split; [exact H |]; pose proof (bpow_lt radix2 100 1023 ltac:(lia)); destruct Vz as [V | [[V _] | (_ & V & _)]]; [| | lra].
+    2: { pose proof (bpow_lt radix2 (-1022) 101 ltac:(lia)); lra. }
     apply Rnot_lt_le; intro N; destruct V as (rnd & VR & E).
     pose proof (abs_round_ge_generic radix2 binary64 rnd (pow 101) (pre "z_over_d") (power_is_float 101 ltac:(lia)) ltac:(lra)) as M.
     rewrite <- E in M; pose proof (bpow_lt radix2 100 101 ltac:(lia)); lra. }
@@ -390,7 +414,7 @@ Theorem stage_two_is_in_range : never_overflows C_certified = true /\ never_over
 Proof. vm_compute; repeat split; repeat constructor. Qed.
 
 (** Guards imply that no step overflows. *)
-Theorem no_overflow x pre l s k : (l = C_certified \/ l = C_single) -> all_hold x pre guarded -> Forall (runs x pre) l ->
+Theorem no_overflow multiplied x pre l s k : (l = C_certified \/ l = C_single) -> all_hold x pre guarded -> Forall (runs multiplied x pre) l ->
   In s l -> kind_of s = Some k -> Rabs (x (name s)) < pow 1024 /\ Rabs (pre (name s)) < pow 1024.
 Proof.
   intros L K R I O; assert (N : never_overflows l = true).
@@ -412,7 +436,7 @@ Proof.
   assert (H : (high t <= 1023)%Z).
   { apply (F guarded l (reached l)) with (name s); [| exact S | exact T]; intros n r M.
     unfold guarded in M; cbn [look] in M; repeat match type of M with (if ?c then _ else _) = _ => destruct c; [injection M as <-; cbn; lia |] end; discriminate. }
-  destruct (sizes_hold x pre l guarded (reached l) K R S (name s) t T) as [(W1 & _) (W2 & _)].
+  destruct (sizes_hold multiplied x pre l guarded (reached l) K R S (name s) t T) as [(W1 & _) (W2 & _)].
   pose proof (at_most _ _ H); pose proof (bpow_lt radix2 1023 1024 ltac:(lia)); split; lra.
 Qed.
 
@@ -425,12 +449,12 @@ Theorem what_may_underflow : may_underflow C_certified = ["xx"; "yy"; "P"; "z_ov
     "nine_c0"; "c1_squared"; "c2c0"; "three_c2c0"; "h1h3"; "h1h3_4"; "h2_squared"; "two_c2"; "rise_B"; "rise_A"].
 Proof. vm_compute; reflexivity. Qed.
 
-Theorem others_are_normal x pre l s : all_hold x pre guarded -> Forall (runs x pre) l -> In s (products l) -> is_normal l (name s) = true ->
+Theorem others_are_normal multiplied x pre l s : all_hold x pre guarded -> Forall (runs multiplied x pre) l -> In s (products l) -> is_normal l (name s) = true ->
   normal (pre (name s)).
 Proof.
   intros K R I N; unfold is_normal in N; destruct (look (name s) (reached l)) as [t |] eqn:T; [| discriminate].
   destruct (low t) as [k |] eqn:L; [| discriminate]; apply Z.leb_le in N.
   assert (S : sizes guarded l = Some (reached l)) by (unfold reached in *; destruct (sizes guarded l); [reflexivity | discriminate]).
-  destruct (sizes_hold x pre l guarded (reached l) K R S (name s) t T) as [_ (_ & _ & W)]; rewrite L in W.
+  destruct (sizes_hold multiplied x pre l guarded (reached l) K R S (name s) t T) as [_ (_ & _ & W)]; rewrite L in W.
   right; pose proof (at_most _ _ N); pose proof (Rle_abs (pre (name s))); lra.
 Qed.

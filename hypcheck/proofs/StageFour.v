@@ -248,7 +248,7 @@ Proof.
     exact_value "K_e"; exact_value "M_M"; exact_value "M_M_n1"; exact_value "K_e_2"; exact_value "r3_outer"; exact_value "r3_inner"; exact_value "r3";
     exact_value "p_D"; exact_value "M_q"; exact_value "room_within"; exact_value "beyond"; exact_value "s_D"; exact_value "M_t";
     exact_value "room_without"; clear L; unfold n2_of, n1_of, alpha, gamma, b, d, x, y, z, M, e, side, I in *; clear S2; destruct inner;
-    repeat match goal with H : IZR (v ?n) = _ |- context [IZR (v ?n)] => rewrite H end; repeat split; ring.
+    repeat match goal with H : IZR (v _) = _ |- _ => rewrite ?H; clear H end; repeat split; ring.
 Qed.
 
 Hypotheses (Z1 : is_0 num "r1") (Z2 : is_0 num "r2") (Z3 : is_0 num "r3") (Room : if inner then not_negative "room_within"

@@ -1,6 +1,7 @@
 (** Stage 2: where its computed numbers lie beyond their computed bounds, the answer is the position.
 
-    Every operation returns its exact result times 1 + t, |t| <= u, whatever was rounded and contracted: no overflow and no underflow. *)
+    Every operation returns its exact result times 1 + t, |t| <= u, whatever was rounded and contracted; what underflows besides moves a
+    value by [lost] at most. StageTwoRuns.v says that the steps of the C are such, by its guards. *)
 
 Require Import Reals Lra List.
 From Hypcheck Require Import Geometry UnitBall Cubic Rule Rounding Kernel RunningBound Positions Stages.
@@ -17,28 +18,33 @@ Let row n := nth n [alpha; gamma; b; d; x; y; z] 0.
 Let computed env := computes u exact_inputs env.
 
 (** The numbers by their names in the program. *)
-Variables fA fB fAB fBP fAQ fP fQ f1 f2 : R.
+Variables fA fB fAB fBP fAQ fP fQ f1 f2 lost : R.
 Hypotheses (CA : computed row StageTwo.A fA) (CB : computed row StageTwo.B fB) (CAB : computed row StageTwo.AB fAB)
-  (CBP : computed row StageTwo.BP fBP) (CAQ : computed row StageTwo.AQ fAQ) (CP : computed row StageTwo.P fP)
-  (CQ : computed row StageTwo.Q fQ) (C1 : computed row StageTwo.c1 f1) (C2 : computed row StageTwo.c2 f2).
+  (CBP : nearly (computed row StageTwo.BP) lost fBP) (CAQ : nearly (computed row StageTwo.AQ) lost fAQ)
+  (CP : nearly (computed row StageTwo.P) lost fP) (CQ : nearly (computed row StageTwo.Q) lost fQ)
+  (C1 : nearly (computed row StageTwo.c1) lost f1) (C2 : nearly (computed row StageTwo.c2) lost f2).
+Hypotheses (BP0 : 0 <= fBP) (AQ0 : 0 <= fAQ) (P0 : 0 <= fP) (Q0 : 0 <= fQ).
+Let small := / 2 ^ 52 * / 2 ^ 52 * / 2 ^ 52.
+Hypotheses (L1 : 0 <= lost <= small) (LA : lost <= small * fA) (LAB : lost <= small * fAB) (LABB : lost <= small * (fAB * fAB)).
 
 Let coefficients n := nth n [- fAB; f1; f2] 0.
 Variables h1 h2 h3 delta_3 : R.
-Hypotheses (H1 : computed coefficients StageTwo.Parts.h1 h1) (H2 : computed coefficients StageTwo.Parts.h2 h2)
-  (H3 : computed coefficients StageTwo.Parts.h3 h3) (CD : computed (fun n => nth n [h1; h2; h3] 0) StageTwo.Last.delta_3 delta_3).
+Hypotheses (H1 : nearly (computed coefficients StageTwo.Parts.h1) lost h1) (H2 : nearly (computed coefficients StageTwo.Parts.h2) lost h2)
+  (H3 : nearly (computed coefficients StageTwo.Parts.h3) lost h3) (CD : nearly (computed (fun n => nth n [h1; h2; h3] 0) StageTwo.Last.delta_3) lost delta_3).
 
 Let slopes n := nth n [f1; f2; alpha; gamma; b; d] 0.
 Variables slope_B offset_B slope_A offset_A : R.
-Hypotheses (KB : computed slopes StageTwo.Slopes.slope_B slope_B) (KB' : computed slopes StageTwo.Slopes.offset_B offset_B)
-  (KA : computed slopes StageTwo.Slopes.slope_A slope_A) (KA' : computed slopes StageTwo.Slopes.offset_A offset_A).
+Hypotheses (KB : nearly (computed slopes StageTwo.Slopes.slope_B) lost slope_B) (KB' : nearly (computed slopes StageTwo.Slopes.offset_B) lost offset_B)
+  (KA : nearly (computed slopes StageTwo.Slopes.slope_A) lost slope_A) (KA' : nearly (computed slopes StageTwo.Slopes.offset_A) lost offset_A).
 
 (** Their bounds, computed too. *)
 Let known n := nth n [fA; fB; fAB; fBP; fAQ; fP; fQ; Rabs f1; Rabs f2; Rabs h1; Rabs h2; Rabs h3;
                       4 * unit * slack; 8 * unit * slack; 12 * unit * slack; slack; 16 * unit * slack] 0.
 Variables E e1 e2 bound_B offset_bound_B bound_A offset_bound_A : R.
-Hypotheses (BE : computed known StageTwo.Bound.E E) (B1 : computed known StageTwo.Bound.e1 e1) (B2 : computed known StageTwo.Bound.e2 e2)
-  (BB : computed known StageTwo.Bound.bound_B bound_B) (BB' : computed known StageTwo.Bound.offset_bound_B offset_bound_B)
-  (BA : computed known StageTwo.Bound.bound_A bound_A) (BA' : computed known StageTwo.Bound.offset_bound_A offset_bound_A).
+Let bounded := computes u products_unrounded known.
+Hypotheses (BE : bounded StageTwo.Bound.E E) (B1 : bounded StageTwo.Bound.e1 e1) (B2 : bounded StageTwo.Bound.e2 e2)
+  (BB : bounded StageTwo.Bound.bound_B bound_B) (BB' : bounded StageTwo.Bound.offset_bound_B offset_bound_B)
+  (BA : bounded StageTwo.Bound.bound_A bound_A) (BA' : bounded StageTwo.Bound.offset_bound_A offset_bound_A).
 
 Let A := (alpha / b) ^ 2.
 Let B := (gamma / d) ^ 2.

@@ -53,11 +53,14 @@ HEADER_TEXT = "HeaderText"
 PRINTED = ("Steps", "Programs", HEADER_TEXT, "Printed", "Fixed", "FixedRuns", "Ranges")
 """What the printed C rests on, the words of 128 bits that it computes with, and the range of its floats."""
 
-COMPOSED = ("Stages", "StageTwoAnswers", "StageThree", "StageFive", "Long", "StageFour")
+COMPOSED = ("Stages", "StageTwoAnswers", "Underflow", "StageTwoRuns", "StageThree", "StageFive", "Long", "StageFour")
 """All stages in one theorem, Stages.whatever_stage_answers, and from the numbers of a stage to the position."""
 
 OF_STAGES = ("Stages", "StageTwoAnswers", "StageThree", "StageFive", "StageFour")
 """The files whose theorems say that what a stage answers is the position."""
+
+OF_RUNS = ("StageTwoRuns",)
+"""The same from the steps of the C in float64, with its guards."""
 
 FILES = (*SOUNDNESS, "ExtractedChecker", *RULE, *STAGES, *ROUNDING, *PRINTED, *COMPOSED)
 """Every file, in the order in which Coq needs them; the name says what it proves."""
@@ -72,7 +75,7 @@ AXIOMS = (
 OF_FLOCQ = "Classical_Prop.classic"
 """The excluded middle, which Flocq uses: what is said of its floats may assume it too."""
 
-ON_FLOCQ = ("Floats", "Ranges")
+ON_FLOCQ = ("Floats", "Ranges", "Underflow", "StageTwoRuns")
 """The files that say something of Flocq's floats."""
 
 PACKAGES = {

@@ -126,6 +126,8 @@ PLACES = (
     Place("2", "Kernel", r"^Theorem error_of_\w+ .*?\.$", (constants,)),
     Place("2", "RunningBound", r"4 \* unit \* slack; .*?\] 0\.$", (constants,)),
     Place("2", "StageTwoAnswers", r"^\| says_\w+ : .*?(?=^\||\.$)", (comparisons, guards)),
+    Place("2", "StageTwoRuns", r"^Definition (?:lost|constants) .*?\.$", (constants,)),
+    Place("2", "StageTwoRuns", r"^Theorem \w+_is_right : .*?\.$", (guards,)),
     Place("3", "FixedRuns", r"^Theorem header_covers_\w+ .*?\.$", (bounds,)),
     Place("4", "StageFour", r"^Definition (?:lengths|\w+_inputs) .*?\.$", (constants,), "(** ** What the"),
     Place("4", "Tangency", r"^Definition (?:n2_of|n1_of|tangency_equations) .*?\.$", (constants,)),
