@@ -3,13 +3,13 @@
     hypcheck.position(alpha, gamma, b, d, x, y, z, axis=..., margin=...) -> int
     hypcheck.classify((alpha, gamma, b, d), points, axis=..., margin=...) -> int8 (n,); or rows, or a table of columns
     hypcheck.classify_scene((alpha, gamma, b, d), x, y, z, axis=...) -> int8 (n,)
-    hypcheck.Prepared(sizes, axis=...): what classify_scene keeps between calls, given to it in the place of the sizes
+    hypcheck.Prepared(sizes, axis=...): sizes prepared once for many calls of classify_scene
     hypcheck.clearance((alpha, gamma, b, d), points, axis=...) -> hypcheck.Clearance: distance, nearest point, normal
     hypcheck.passage((alpha, gamma, b, d), start, end, axis=...) -> .hit, .first_lower, .first_upper
     hypcheck.Scene.from_toml(path), .from_arrays(alpha, gamma, center, mover=hypcheck.Mover(b, d)): many hyperboloids;
         .classify(points), .passage(start, end), .first_contact(path), .nearest(points);
         .with_hyperboloid(…), .moved(…), .without(…)
-    hypcheck.InputError: what they raise about invalid rows, scenes and files, with a sentence
+    hypcheck.InputError: raised for invalid rows, scenes and files, with a sentence
 
 They are loaded when first used; all but position and passage load numpy.
 """
@@ -87,7 +87,7 @@ _HOMES = {
 
 @in_default_environment  # numbers in a module are read, and computed, as it is loaded
 def __getattr__(name: str) -> object:
-    """Load a public name when it is first asked for, and keep it: a call of position is shorter than a look-up here."""
+    """Load a public name at its first use, and keep it: a call of position takes less time than a look-up here."""
     if name not in _HOMES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     module, attribute = _HOMES[name]

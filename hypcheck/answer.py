@@ -1,6 +1,6 @@
 """The answer about one pair: position, kind, clearance, and a checked proof; as JSON and as text.
 
-The exact decision and the nearest point are asked about every pair. An answer is given only if they agree and its proof
+The exact decision and the nearest point both decide every pair. An answer is given only if they agree and its proof
 holds. The numbers that check a proof by hand are explained in docs/mathematics.md, "A certificate for every answer".
 Loads no numpy, but for distances that are tilted or beside ends.
 """
@@ -92,10 +92,10 @@ def ended_clearance_of(pair: Pair, decision: Decision) -> float:
 
 
 def answer(pair: Pair, margin: float | None = None) -> Answer:
-    """Decide, measure and prove. Raises DisagreementError where two oracles, or a proof and its claim, contradict.
+    """Decide, measure and prove. Raises DisagreementError if two oracles, or a proof and its claim, disagree.
 
-    A pair with an axis that is an upright one all the same is answered as that. `margin`, a length of 0 or more, asks
-    for the position with it besides.
+    A pair whose axis is vertical is answered as an upright pair. With `margin`, a length of 0 or more, the answer also
+    has the position with that margin.
     """
     pair = pair.upright if pair.is_upright else pair
     decision = exact.decide(pair.lengths)
@@ -164,7 +164,7 @@ def distance_of(pair: Pair) -> tuple[float, float]:
 
 
 def _distance_in_c(pair: Pair) -> tuple[float, float] | None:
-    """The same of an upright pair without ends, and without numpy; None where C is not there, or knows it worse."""
+    """The distance of an upright pair without ends, computed without numpy; None if C is missing or less precise."""
     if choice().kernel == "numpy" or pair.has_ends or not pair.is_upright:
         return None
     position, numbers = array("b", [0]), array("d", [0.0] * 11)
@@ -181,7 +181,7 @@ def _distance_by_arrays(pair: Pair) -> tuple[float, float]:
 
 
 def _ten_digits(number: float, rounding: str) -> float:
-    """The number rounded towards a side, so that the last digits of a guess do not show; no farther than a float."""
+    """The number rounded up or down, to hide the meaningless last digits of a guess; never beyond the next float."""
     return float(Context(prec=10, rounding=rounding).create_decimal(Decimal(number)))
 
 

@@ -51,7 +51,7 @@ def answers(rows: Rows) -> TableAnswers:
 
 
 def _answers_between_ends(rows: Rows) -> TableAnswers:
-    """Those of rows with heights: those of the rest as without ends, the others one by one."""
+    """The answers of rows with heights: rows with infinite heights together, the others one by one."""
     require_valid(rows)
     answered = answers(np.ascontiguousarray(rows[:, : len(TILTED_COLUMNS)]))
     for index in np.flatnonzero(np.isfinite(rows[:, 10:12]).any(axis=1)).tolist():
@@ -147,7 +147,7 @@ def _alone(table: Table, alone: int) -> int:
 def _answer_chunk(
     render: Callable[[TableChunk, TableAnswers | SweepAnswers], bytes], margin: float | None, unread: UnreadChunk
 ) -> tuple[bytes, int]:
-    """What is written about a chunk, and how many rows it has."""
+    """The text that is written for a chunk, and its number of rows."""
     chunk = unread()
     if chunk.layout != PAIRS and margin is not None:
         raise InputError("--margin is for positions; x1, y1, z1 make the rows sweeps, so leave one of them out")

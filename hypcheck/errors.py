@@ -126,7 +126,7 @@ def limit_reached(error: BaseException) -> SystemLimitError | None:
 
 
 class Terminated(BaseException):
-    """The system asked the process to end (SIGTERM), or its terminal has gone (SIGHUP)."""
+    """The process received SIGTERM, or SIGHUP because its terminal was closed."""
 
 
 def system_reason(error: OSError) -> str:

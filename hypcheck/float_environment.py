@@ -1,10 +1,11 @@
-"""Float64 arithmetic as it is by default, for the length of a call: rounded to nearest, subnormal numbers kept.
+"""Default float64 arithmetic during a call: rounded to nearest, with subnormal numbers.
 
 A host process may round in another direction (fesetround), or flush subnormal numbers to zero: a library that was built
 with -ffast-math sets that for the thread that loads it. Bounds of rounding errors hold under both in the compiled
-kernel. Python, numpy and mpmath are made for the default alone: there a subnormal size compares equal to 0, TwoSum
-loses its error term, and a text is read as another number. So what a user calls runs in the default environment, and
-the caller's is as before when it returns or raises. Threads that are started meanwhile begin with the default.
+kernel. Python, numpy and mpmath work only in the default environment: in another one a subnormal size compares equal to
+0, TwoSum loses its error term, and a text is read as a different number. So public functions run in the default
+environment, and restore the caller's when they return or raise. Threads that are started in the meantime begin with the
+default.
 """
 
 from __future__ import annotations

@@ -69,7 +69,7 @@ _LONGEST_COMPARED = 100
 def suggestion(name: str, known: Iterable[str], *, most: int = 3, otherwise: str = "there are") -> str:
     """The end of a sentence about a name that is not `known`: up to `most` similar names, else all known ones.
 
-    `otherwise` stands before the list of all.
+    `otherwise` is the text before the list of all names.
     """
     known = tuple(known)
     shown = {_plain(name_known): name_known for name_known in known}

@@ -104,7 +104,7 @@ def perform(
 def in_order(
     function: Callable[[Task], Result], tasks: Iterable[Task], workers: int, alone: int, ahead: int = 2
 ) -> Generator[Result, None, None]:
-    """The result of each task, in order. The first `alone` tasks are done here, the others by so many workers.
+    """The result of each task, in order. This process does the first `alone` tasks, `workers` processes the others.
 
     Tasks are taken in advance, `ahead` for each worker, which has something to do while another's task takes long. An
     error is raised after the results before it. If a worker is killed, its task is done here. The caller closes the
@@ -174,7 +174,7 @@ def one_each(function: Callable[[Task], Result], tasks: Iterable[Task], workers:
 def end_with_parent() -> None:
     """End this process at once when its parent ends.
 
-    A parent may be killed, which its children do not notice: those of a pool would wait for ever for a task, and others
+    Children do not notice that their parent was killed: those of a pool would wait for a task without end, and others
     would first finish work that nobody needs.
     """
     parent = parent_process()

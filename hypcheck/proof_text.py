@@ -18,7 +18,7 @@ from hypcheck.truth.pencil import quartic
 
 
 def is_rule(certificate: Certificate) -> bool:
-    """Whether a contact with a hyperboloid that ends is said without a witness: by the exact rule alone."""
+    """Whether only the exact rule proves a contact with a hyperboloid that ends, without a witness."""
     return certificate.position is Position.CONTACT and not certificate.points and certificate.double_root is None
 
 
@@ -92,7 +92,7 @@ def proof_as_json(pair: Pair, certificate: Certificate) -> dict[str, Any]:
 
 
 def _ended_proof_as_json(pair: Pair, certificate: Certificate) -> dict[str, Any]:
-    """The same where the hyperboloid ends."""
+    """The proof of a pair whose hyperboloid ends, as JSON."""
     if certificate.points:
         return _points_as_json(pair, certificate.points)
     if certificate.multiplier is not None:
@@ -113,7 +113,7 @@ def _piece_as_json(piece: Piece) -> dict[str, str]:
 
 
 def _tilted_proof_as_json(pair: Pair, certificate: Certificate) -> dict[str, Any]:
-    """The same where the axis is tilted: pivots of S + λH, or the quartic f of a double root and pivots of M + mD."""
+    """The proof of a tilted pair, as JSON: pivots of S + λH, or the quartic f of a double root and pivots of M + mD."""
     if certificate.multiplier is not None:
         pivots = _pivots(pair, certificate.multiplier, 4)
         return {

@@ -1,7 +1,7 @@
 """The answer about one sweep, the straight motion of a spheroid between two positions: contact or none, and a proof.
 
-The passage is decided exactly, and its certificate is checked by code that shares nothing with what found it. Loads no
-numpy.
+The passage is decided exactly, and its certificate is checked by code that shares nothing with the code that found it.
+Loads no numpy.
 """
 
 from __future__ import annotations
@@ -25,10 +25,9 @@ class SweepAnswer:
     """The answer about a sweep.
 
     row: sizes, the two centres, and the axis where the spheroid has one; behind an axis, heights where it ends.
-    passage: what happens, decided exactly.
-    first: two neighbouring float64 that the time of the first contact lies between, or 0 twice; None without contact.
-    certificate: proves `first`, and was checked; None where the surfaces touch at an irrational time alone, and where
-    the hyperboloid ends.
+    passage: the exact decision. first: two neighbouring float64 that the time of the first contact lies between, or 0
+    twice; None without contact. certificate: proves `first`, and was checked; None if the surfaces touch only at an
+    irrational time, and if the hyperboloid ends.
     """
 
     row: tuple[float, ...]
@@ -58,7 +57,7 @@ def sweep_answer(row: Sequence[float]) -> SweepAnswer:
 
 
 def passage_of_row(row: Sequence[float]) -> Passage:
-    """What happens on a sweep: sizes, two centres, and an axis and heights or not. Raises InputError."""
+    """The decision of a sweep: sizes, two centres, perhaps an axis, perhaps heights. Raises InputError."""
     axis, heights = row[10 : len(TILTED_SWEEP_COLUMNS)], row[len(TILTED_SWEEP_COLUMNS) :]
     z_min, z_max, solid = heights or WITHOUT_ENDS
     return passage(row[:4], row[4:7], row[7:10], axis or None, z_min=z_min, z_max=z_max, solid=solid)

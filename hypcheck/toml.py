@@ -105,11 +105,11 @@ class TomlSource:
 
     @cached_property
     def lines(self) -> dict[Path, int]:
-        """The line of everything in it; asked for only where something is wrong."""
+        """The line of each value; computed only for an error."""
         return lines_of(self.text)
 
     def refuse(self, path: Path, sentence: str) -> NoReturn:
-        """Raise InputError about what stands at the path."""
+        """Raise InputError about the value at the path."""
         line = nearest_line(self.lines, path)
         raise InputError(f"{self.name}{'' if line is None else f', line {line}'}: {sentence}")
 
@@ -138,11 +138,11 @@ class TomlTable:
         return self._checked(key, check)
 
     def optional(self, key: str, check: Check[Value], default: Value) -> Value:
-        """The checked value of a key, or the default where it is not there."""
+        """The checked value of a key, or the default if it is absent."""
         return self._checked(key, check) if key in self._content else default
 
     def table(self, key: str, keys: Sequence[str]) -> TomlTable | None:
-        """The table of that key, None where it is not there."""
+        """The table of that key; None if it is absent."""
         if key not in self._content:
             return None
         title = f"{self.title}.{key}" if self._path else f"[{key}]"
@@ -171,7 +171,7 @@ class TomlTable:
 
 
 def shown(value: object) -> str:
-    """A value as a message shows it: short, and as it stands in the file where that can be."""
+    """A value as a message shows it: short, and written as in the file if possible."""
     text = json.dumps(value, ensure_ascii=False, default=str).replace("NaN", "nan").replace("Infinity", "inf")
     return text if len(text) <= _LONGEST else text[:_LONGEST] + "…"
 
@@ -222,14 +222,14 @@ def integer(value: object) -> int:
 
 
 def truth(value: object) -> bool:
-    """Whether something is so."""
+    """The value of a key that must be true or false."""
     if not isinstance(value, bool):
         raise ValueError("true or false")  # noqa: TRY004 - as in number_of
     return value
 
 
 def number_of(value: object, wanted: str, *, infinite: bool = False) -> float:
-    """The number, as float64. Raises ValueError, whose text is `wanted`, where it is no number or not finite."""
+    """The number, as float64. Raises ValueError with the text `wanted` if it is not a number or not finite."""
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise ValueError(wanted)  # noqa: TRY004 - turned into a sentence about the value
     try:
@@ -242,7 +242,7 @@ def number_of(value: object, wanted: str, *, infinite: bool = False) -> float:
 
 
 def _wanted(check: Check[Any]) -> str:
-    """What a check asks for: the sentence with which it refuses what is nothing at all."""
+    """The requirement of a check: the sentence with which it refuses None."""
     try:
         check(None)
     except ValueError as error:
@@ -315,7 +315,7 @@ class _TomlScanner:
         return (*path, self._counts[path] - 1) if path in self._counts else path
 
     def _pair(self, table: Path) -> None:
-        """A key and its value; each table on the way of a dotted key begins where it is first named."""
+        """A key and its value; each table within a dotted key begins where it is first named."""
         line = self._line()
         path = table
         for key in self._keys():
@@ -336,7 +336,7 @@ class _TomlScanner:
             self._quoted() if opening in _WITHIN else self._skip(_BARE_VALUE)
 
     def _sequence(self, closing: str, path: Path) -> None:
-        """What stands between brackets, with commas between."""
+        """The values between brackets, separated by commas."""
         place = 0
         self._at += 1
         self._blank()
@@ -353,7 +353,7 @@ class _TomlScanner:
         self._at += 1
 
     def _keys(self) -> tuple[str, ...]:
-        """The parts of a dotted key; the scanner stands on what follows it then."""
+        """The parts of a dotted key; afterwards the scanner is behind the key."""
         keys = []
         while True:
             self._skip(_SPACE)

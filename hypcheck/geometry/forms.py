@@ -65,7 +65,7 @@ class Pairs:
         return as_rows(self.columns, tilted=True, heights=True)
 
     def require_valid(self, rows: Rows) -> None:
-        """Raise InputError about the first invalid of these rows; one pair alone has no index."""
+        """Raise InputError about the first invalid row; for a single pair the message has no index."""
         trouble = trouble_with_row(rows[0].tolist()) if self.single else None
         if trouble is not None:
             raise InputError(trouble)
@@ -78,7 +78,7 @@ def pairs_of(
     axis: ArrayLike | None = None,
     heights: Sequence[Argument] = (-math.inf, math.inf, False),
 ) -> Pairs:
-    """The pairs of a call. Raises InputError for other numbers of arguments, and for what is given twice."""
+    """The pairs of a call. Raises InputError for other numbers of arguments, and for a column that is given twice."""
     columns: dict[str, Argument] = {}
     require_known(named, (*PAIRS.ended, "center"))
     _add(columns, _by_position(arguments))
@@ -112,7 +112,7 @@ def require_known(named: Mapping[str, Argument], known: Sequence[str]) -> None:
 
 
 def spread(named: Mapping[str, Argument], points: Mapping[str, Sequence[str]]) -> dict[str, Argument]:
-    """Values by the names of columns, where some names stand for three. Raises InputError for what is given twice."""
+    """Values by the names of columns; some names mean three columns. Raises InputError for a column given twice."""
     columns: dict[str, Argument] = {}
     for name, value in named.items():
         _add(columns, named_points(name, value, points[name]) if name in points else {name: value})
@@ -193,7 +193,7 @@ def named_points(subject: str, points: ArrayLike, names: Sequence[str] = CENTER)
 
 
 def points_or_columns(x: ArrayLike, y: ArrayLike | None, z: ArrayLike | None) -> tuple[Any, Any, Any]:
-    """Three columns, as they are, or those of points, which stand alone."""
+    """Three columns: the arguments, or the columns of points if only those are given."""
     if y is None and z is None:
         x, y, z = named_points("the centre", x).values()
     if y is None or z is None:

@@ -167,9 +167,9 @@ class Pair:
 class Lengths:
     """A pair in exact integers: α, b, x, y in one unit, γ, d, z in another, which for tilted spheroids is the same.
 
-    The position of an upright pair depends on the ratios within each group alone (Theorem 1 of the paper scales space
-    by 1/b, 1/b, 1/d), so each group may have its own unit. That of a tilted one depends on all ratios, and on the
-    direction of the axis, whose unit means nothing. Every float64 or rational pair can be written so without rounding.
+    The position of an upright pair depends only on the ratios within each group (Theorem 1 of the paper scales space by
+    1/b, 1/b, 1/d), so each group may have its own unit. That of a tilted one depends on all ratios, and on the
+    direction of the axis but not on its length. Every float64 or rational pair can be written so without rounding.
 
     `upward` is a vector along the hyperboloid's axis, in a unit of its own. Where it is not vertical, all lengths are
     in one unit. `low` and `high` are the heights along it between which the hyperboloid ends, in the unit of z; None is
@@ -191,7 +191,7 @@ class Lengths:
 
     @classmethod
     def of(cls, row: Sequence[float | Fraction], upward: Sequence[float | Fraction] = UPRIGHT) -> Lengths:
-        """The integers of seven valid numbers, with an axis and heights behind them or not, float64 or rational."""
+        """The integers of seven valid numbers, float64 or rational; an axis may follow them, and then heights."""
         alpha, gamma, b, d, x, y, z, *others = row
         direction, ends = others[:3], [height for height in others[3:5] if abs(height) != math.inf]
         radial, axial = (alpha, b, x, y), (gamma, d, z, *ends)
@@ -229,7 +229,7 @@ def counted_along(
 
 
 def trouble_with(name: str, value: object) -> str | None:
-    """Why `value` cannot stand in column `name`, as the end of a sentence, or None when it can."""
+    """Why `value` is not valid in column `name`, as the end of a sentence; None if it is valid."""
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         return f"{name} is {value!r}; it must be a number"
     try:
@@ -244,13 +244,13 @@ def trouble_with(name: str, value: object) -> str | None:
 
 
 def trouble_with_axis(axis: Sequence[object]) -> str | None:
-    """Why three values are no axis, as the end of a sentence, or None when they are one."""
+    """Why three values are not an axis, as the end of a sentence; None if they are one."""
     troubles = (trouble_with(name, part) for name, part in zip(AXIS, axis, strict=True))
     return next((trouble for trouble in troubles if trouble), None if any(axis) else NO_DIRECTION)
 
 
 def trouble_with_heights(heights: Sequence[object]) -> str | None:
-    """Why three values are no z_min, z_max, solid, as the end of a sentence, or None when they are."""
+    """Why three values are not valid as z_min, z_max, solid, as the end of a sentence; None if they are."""
     low, high, solid = heights
     for name, value in zip(HEIGHTS, heights, strict=True):
         infinite = value in (-math.inf, math.inf) and name != "solid"
@@ -263,10 +263,10 @@ def trouble_with_heights(heights: Sequence[object]) -> str | None:
 
 
 def trouble_with_row(row: Sequence[object], columns: Sequence[str] = COLUMNS) -> str | None:
-    """Why values for these columns, with those of an axis behind or not, are no valid row: the first trouble, or None.
+    """The first trouble with the values of a row, as the end of a sentence; None for a valid row.
 
-    Behind those of an axis there may be those of heights. The trouble is the end of a sentence. By default the row is
-    one of seven, ten or thirteen numbers.
+    Values of an axis may follow those of these columns, and values of heights may follow those of the axis. By default
+    the row is one of seven, ten or thirteen numbers.
     """
     for name, value in zip(columns, row, strict=False):
         trouble = trouble_with(name, value)

@@ -68,7 +68,7 @@ class Layout:
         return len(self.upright), len(self.tilted), len(self.ended)
 
     def subject(self, width: int) -> str:
-        """What rows of so many numbers are about."""
+        """The subject of rows with that number of columns."""
         return self.subjects[self.widths.index(width)]
 
     @property
@@ -133,7 +133,7 @@ Table = Mapping[str, ArrayLike]
 
 
 def names_of(values: object) -> list[str] | None:
-    """The names of a table's columns; None of what is not a table."""
+    """The names of a table's columns; None if the value is not a table."""
     if isinstance(values, np.ndarray):
         return None if values.dtype.names is None else list(values.dtype.names)
     names = getattr(values, "keys", None)
@@ -224,7 +224,7 @@ def require_unmasked(subject: str, values: object) -> None:
 
 
 def invalid(rows: Rows, layout: Layout = PAIRS) -> Mask:
-    """A mask (n,) of the rows that are no valid query: see pair.Pair."""
+    """A mask (n,) of the invalid rows: see pair.Pair."""
     others, axis, heights = parts_of(rows, layout)
     valid = np.isfinite(rows[:, : len(layout.tilted)]).all(axis=1) & (others[:, : len(SIZES)] > 0).all(axis=1)
     if layout.has_axis(rows):
@@ -294,9 +294,9 @@ def within(
 ) -> Mask:
     """A mask (n,) of the rows with α/b and γ/d in `ratio` and lengths in `magnitude`, bounds included.
 
-    The least magnitude applies to semi-axes alone: a coordinate may be arbitrarily near to 0, since a centre close to
-    the axis or to the waist is ordinary, and so may an end, which may be infinite too. The axis of a spheroid is no
-    length of either body, and may be of any.
+    The lower limit of magnitudes applies only to semi-axes: a coordinate may be arbitrarily near 0, since a centre
+    close to the axis or to the waist is ordinary, and so may an end, which may also be infinite. The axis of a spheroid
+    may have any length, since it is not a length of a body.
     """
     alpha, gamma, b, d = rows[:, :4].T
     with np.errstate(over="ignore", under="ignore"):

@@ -1,9 +1,9 @@
-"""Says where isolation is why a program failed, and what to do about it: by what the program or its runtime said.
+"""Finds out from a program's error text whether isolation made it fail, and says what to do about it.
 
-Nothing is blamed on isolation that fails without it too. So a sign in the text is not enough: it is held against this
-system, which this process sees whole. A file must be there, a module must be one of this package, a folder must be one
-that this account may write to. Where that cannot be known, as of a system call that was refused, the sentence says
-"which may be why".
+A failure that also happens without isolation must not be attributed to it. So a sign in the text is not enough: it is
+compared with this system, all of which this process sees. A file must exist, a module must belong to this package, and
+this account must be allowed to write to the folder. If this cannot be known, as for a refused system call, the sentence
+says "which may be why".
 """
 
 from __future__ import annotations
@@ -29,13 +29,13 @@ _OWN = (
 )
 _DEVICES = ("/dev/null", "/dev/zero", "/dev/full", "/dev/random", "/dev/urandom", "/dev/fd", "/dev/std")
 _CARDS = ("/dev/nvidia*", "/dev/dri/*", "/dev/kfd")
-"""What drivers of graphics cards show in /dev on Linux."""
+"""Files in /dev of drivers of graphics cards, on Linux."""
 
 
 def isolation_advice(text: str, words: Sequence[str], isolation: Isolation) -> str:
     """What to do if the program of these words failed with this text because it is isolated: the end of a sentence.
 
-    Empty where nothing isolates, and where it would fail without isolation too.
+    Empty if nothing isolates, and if the program would fail without isolation too.
     """
     return _advice(text, tuple(words), isolation, os.getcwd()) if isolation.means.names else ""
 
@@ -49,7 +49,7 @@ def _advice(text: str, words: tuple[str, ...], isolation: Isolation, folder: str
 
 @dataclass(frozen=True, eq=False)
 class _View:
-    """What the program of these words sees, started in this folder."""
+    """The files and variables that the program of these words sees, if it is started in this folder."""
 
     words: tuple[str, ...]
     isolation: Isolation
@@ -97,7 +97,7 @@ class _View:
 
 
 def _hypcheck(text: str, view: _View) -> str:
-    """A part of this package that is there."""
+    """A module or name of this package that exists."""
     module = re.search(r"No module named '?(hypcheck[\w.]*)", text)
     name = re.search(r"cannot import name '(\w+)' from '(hypcheck[\w.]*)'", text)
     attribute = re.search(r"module '(hypcheck[\w.]*)' has no attribute '(\w+)'", text)
@@ -119,7 +119,7 @@ def _is_ours(module: str) -> bool:
 
 
 def _variable(text: str, view: _View) -> str:
-    """A variable that is set here and withheld."""
+    """A variable that is set here and hidden from the program."""
     about = re.search(r"KeyError|environ|variable|not set|unset|undefined|getenv", text)
     words = set(re.findall(r"\w{2,}", text)) if about else set()
     name = min(words & view.withheld, default="")
@@ -136,7 +136,7 @@ _READ_ONLY = re.compile(r"read-?only file ?system|EROFS", re.IGNORECASE)
 
 
 def _file(text: str, view: _View) -> str:
-    """A file or folder that is there, or the folder of one that may have been to be made."""
+    """A file or folder that exists, or the folder in which the program perhaps wanted to make a file."""
     named = list(view.paths(text)) if _ABSENT.search(text) else []
     hidden = next((path for path in named if view.hides(path)), "")
     if not hidden:
@@ -149,7 +149,7 @@ def _file(text: str, view: _View) -> str:
 
 
 def _library(text: str, _: _View) -> str:
-    """A library that the system's loader did not find; it names no folder."""
+    """A library that the system's loader did not find; its message names no folder."""
     match = re.search(r"(\S+): cannot open shared object file", text)
     shown = "show the folder by --see"
     return (
@@ -158,7 +158,7 @@ def _library(text: str, _: _View) -> str:
 
 
 def _write(text: str, view: _View) -> str:
-    """A folder that this account may write to; without a view of its own, the program is told that it is denied."""
+    """A folder that this account may write to. Without namespaces the program's error is that permission was denied."""
     if _READ_ONLY.search(text):
         named = list(view.paths(text)) or [os.path.join(view.folder, "file")]
     elif _DENIED.search(text) and not view.isolation.means.namespaces:
@@ -190,14 +190,14 @@ def _network(text: str, _: _View) -> str:
 
 
 def _space(text: str, view: _View) -> str:
-    """More than fits the scratch folder, where no limit of this system is as narrow."""
+    """More data than the scratch folder can hold, if no limit of this system is as narrow."""
     full = view.isolation.means.namespaces and re.search(r"No space left|ENOSPC|StorageFull", text)
     long = re.search(r"File too large|EFBIG|FileTooLarge", text) and _unlimited(resource.RLIMIT_FSIZE, SCRATCH_BYTES)
     return f"and its scratch folder has {SCRATCH_BYTES >> 20} MiB; {_TRUST}" if full or long else ""
 
 
 def _processes(text: str, view: _View) -> str:
-    """More processes than isolation allows, where this system allows more."""
+    """More processes than isolation allows, if this system allows more."""
     sign = re.search(r"Resource temporarily unavailable|EAGAIN|can't start new thread|WouldBlock", text)
     if not (sign and view.isolation.means.namespaces and _unlimited(resource.RLIMIT_NPROC, THREADS)):
         return ""
@@ -210,13 +210,13 @@ def _unlimited(limit: int, most: int) -> bool:
 
 
 def _card(text: str, _: _View) -> str:
-    """A graphics card that is there."""
+    """A graphics card that exists."""
     sign = re.search(r"CUDA|cudaError|\bhip[A-Z]|OpenCL|Vulkan|NVIDIA|\bGPU\b", text)
     return f"and sees no graphics card; {_TRUST}" if sign and any(glob(pattern) for pattern in _CARDS) else ""
 
 
 def _call(text: str, _: _View) -> str:
-    """A system call that was refused; which one is not said, and others are refused without isolation too."""
+    """A system call that was refused. The text does not name it, and some calls are refused without isolation too."""
     if not re.search(r"Operation not permitted|EPERM|Function not implemented|ENOSYS", text):
         return ""
     return f"which refuses sockets, memory in no file and some other system calls, and may be why; {_TRUST}"
@@ -225,4 +225,5 @@ def _call(text: str, _: _View) -> str:
 _CAUSES: tuple[Callable[[str, _View], str], ...] = (
     *(_hypcheck, _variable, _file, _library, _rights, _write, _network, _space, _processes, _card, _call),
 )
-"""What isolation takes away; each gives the end of the sentence, or nothing. The first that holds is said."""
+"""Things that isolation takes away; each function gives the end of a sentence, or an empty text. The first sentence is
+shown."""

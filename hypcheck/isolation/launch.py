@@ -1,8 +1,8 @@
 """Starts a foreign program, isolated as far as this system allows, and ends it with everything that it started.
 
-Isolated, it sees only some folders and files, and some environment variables, by exact names: a prefix would let
-through what nobody thought of, since GOOGLE_PIN begins like GOPATH, REDIS_URL like R_HOME. In texts of the program the
-secrets of our environment are masked.
+An isolated program sees only some folders and files, and some environment variables, by exact names: a prefix would
+also allow unexpected variables, since GOOGLE_PIN begins like GOPATH, and REDIS_URL like R_HOME. In texts of the program
+the secrets of our environment are masked.
 """
 
 from __future__ import annotations
@@ -67,11 +67,11 @@ GEM_HOME GEM_PATH BUNDLE_GEMFILE R_HOME R_LIBS R_LIBS_SITE R_LIBS_USER R_ENVIRON
 """
 
 VARIABLES = frozenset(_NAMES.split())
-"""Environment variables that the system, languages and numerical libraries read, as their manuals list them; those are
-left out in which addresses with passwords or options of package managers stand."""
+"""Environment variables that the system, languages and numerical libraries read, as their manuals list them, except
+those that may contain addresses with passwords or options of package managers."""
 
 MARK = re.compile(r"HYPCHECK_[0-9a-f]{32}")
-"""The variable by which memory.py knows the processes of a program."""
+"""The variable by which memory.py recognises the processes of a program."""
 
 
 def environment_of(environment: Mapping[str, str], scratch: str, passed: Sequence[str] = ()) -> dict[str, str]:
@@ -91,17 +91,17 @@ _KNOWN = re.compile(
     r"\b(?:gh[a-z]_|github_pat_|glpat-|npm_|pypi-|xox[a-z]-|sk-|AKIA|ASIA|AIza|hf_)[\w-]{12,}"
     r"|\beyJ[\w-]{10,}\.[\w-]{10,}\.[\w-]*|-----BEGIN [A-Z ]*PRIVATE KEY-----[\s\S]*?(?:KEY-----|\Z)"
 )
-"""Keys and tokens that show what they are: of code hosts, package indexes, clouds; signed tokens; private keys."""
+"""Keys and tokens with a recognisable form: of code hosts, package indexes, clouds; signed tokens; private keys."""
 
 _SHORTEST, _SHORTEST_NAMED = 8, 5
-"""Characters of a value that is masked where it stands in a text; a shorter one stands in too many."""
+"""Least length of a value that is masked in a text; a shorter one occurs in too many texts by chance."""
 
 
 def masked(text: str) -> str:
-    """The text of a program, with MASK for what looks like a secret.
+    """The text of a program, in which MASK replaces each part that looks like a secret.
 
-    That is the value of a variable of this process that is not one of VARIABLES and looks like one, a password in an
-    address, and a key or token that shows what it is. A program that wants to tell a secret can write it otherwise.
+    These are values of variables of this process that are not in VARIABLES and look like secrets, passwords in
+    addresses, and keys or tokens of a known form. A program can still reveal a secret if it writes it in another form.
     """
     for secret in sorted(_secrets(os.environ), key=len, reverse=True):
         text = text.replace(secret, MASK)
@@ -140,7 +140,7 @@ VARIABLE = "HYPCHECK_ISOLATE"
 
 
 def usual_mode() -> str:
-    """The mode where none is given."""
+    """The default mode."""
     return os.environ.get(VARIABLE) or "auto"
 
 
@@ -171,7 +171,7 @@ class Isolation:
 
     @property
     def means(self) -> Means:
-        """What isolates them here. Raises NotIsolatedError if the mode is "on" and something is missing."""
+        """The means that isolate programs here. Raises NotIsolatedError if the mode is "on" and one is missing."""
         return means_of(self.mode, self.here)
 
 

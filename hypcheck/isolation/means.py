@@ -1,8 +1,8 @@
 """What this system offers to isolate a program, and the answer to `--isolate`: auto, on or off.
 
-The launcher (launcher.c) is a program in C, compiled with the package: what it does happens between the start of a
-process and that of the program, where a Python would take five times as long. No library on the package index does all
-of it; bubblewrap, the nearest program, is on few machines, and knows neither Landlock nor a filter of its own.
+The launcher (launcher.c) is a C program that is compiled with the package: it runs between the start of a process and
+that of the program, and Python would take five times as long there. No library on the package index does all of this;
+bubblewrap, the most similar program, is on few machines, and supports neither Landlock nor a filter of its own.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ class NotIsolatedError(HypcheckError):
 
 @dataclass(frozen=True, slots=True)
 class Means:
-    """What isolates programs here, and what is missing.
+    """The means that isolate programs here, and those that are missing.
 
     namespaces: user, PID, network, IPC, host name and mount namespaces.
     landlock: the version of Landlock, 0 where there is none.
@@ -69,7 +69,7 @@ def isolation_word(means: Sequence[str]) -> str:
 def isolation_text(means: Sequence[str], missing: Sequence[str]) -> str:
     """The end of "it is": isolated or partly isolated, by these means, and why others are missing.
 
-    What is missing comes first where it leaves a program partly isolated.
+    If a program is only partly isolated, the missing means come first.
     """
     word, reasons = isolation_word(means), "; ".join(missing)
     by = f"by {', '.join(means[:-1])}{' and ' if means[1:] else ''}{means[-1]}" if means else ""
@@ -99,7 +99,7 @@ def means_of(mode: str, here: Means | None = None) -> Means:
 
 @lru_cache
 def available() -> Means:
-    """What this system allows. It is tried once: of a system call that exists, only using it tells."""
+    """The means that this system allows; tried once, since only a trial shows whether a system call is allowed."""
     if sys.platform != "linux":
         return Means(missing=(f"{sys.platform} has no namespaces, no Landlock and no seccomp",))
     if not os.access(LAUNCHER, os.X_OK):

@@ -1,7 +1,8 @@
-"""What an isolated program sees of the files: the system's, its own, and those of its interpreter and packages.
+"""The files that an isolated program sees: the system's, its own, and those of its interpreter and packages.
 
-It does not see the rest: other people's folders, caches, and what holds the answers that it is judged by. That is this
-package and its vectors, the checkout of it and what was built there, its repository, and other copies of the package.
+It does not see the rest: other people's folders, caches, and the files that contain the answers by which it is judged.
+These are this package and its vectors, its checkout with the build folders, its repository, and other copies of the
+package.
 """
 
 from __future__ import annotations
@@ -59,7 +60,7 @@ _IN_CHECKOUT = (".git", "build", "dist", "cases")
 
 
 def needed_paths(words: Sequence[str], environment: Mapping[str, str], also: Iterable[str] = ()) -> tuple[str, ...]:
-    """What the program of these words needs to see, wherever it is: outer folders first, none twice.
+    """The folders and files that the program of these words needs: outer folders first, none twice.
 
     These are the working directory with the repository that it is in, the folders of the files that its words name,
     those of its interpreter and of this Python with their packages, those of PATH and the like, and `also`.
@@ -84,14 +85,14 @@ def needed_paths(words: Sequence[str], environment: Mapping[str, str], also: Ite
 
 
 def _project(folder: str) -> str:
-    """The top of the repository that a folder is in; the folder where it is in none, or in one of a whole home."""
+    """The top folder of a folder's repository; the folder itself if it has none, or if that is a whole home."""
     tops = (outer for outer in _upwards(folder) if os.path.exists(os.path.join(outer, ".git")))
     top = next(tops, folder)
     return folder if top in {*TEMPORARY, "/", _home()} else top
 
 
 def _links(folder: str) -> Iterator[str]:
-    """What the links in a folder lead to: packages may be installed once, and linked into each environment."""
+    """The targets of the links in a folder: packages may be installed once, and linked into each environment."""
     try:
         with os.scandir(folder) as entries:
             yield from (os.path.realpath(entry.path) for entry in entries if entry.is_symlink())
@@ -100,7 +101,7 @@ def _links(folder: str) -> Iterator[str]:
 
 
 def _of_file(path: str, environment: Mapping[str, str]) -> Iterator[str]:
-    """The folders of a file, of what it is a link to, and of the interpreter that its first line names."""
+    """The folders of a file, of the target if it is a link, and of the interpreter that its first line names."""
     for place in (path, os.path.realpath(path)):
         yield from _installation(_folder_of(place))
     interpreter = _interpreter(path, environment)
@@ -110,13 +111,13 @@ def _of_file(path: str, environment: Mapping[str, str]) -> Iterator[str]:
 
 
 def _folder_of(path: str) -> str:
-    """The folder of a file, or the file alone where that folder is one for everybody's files; a folder itself."""
+    """The folder of a file, or only the file if many users share that folder; for a folder, the folder itself."""
     folder = path if os.path.isdir(path) else os.path.dirname(path)
     return path if folder in (*TEMPORARY, "/", _home()) else folder
 
 
 def _installation(folder: str) -> tuple[str, ...]:
-    """The folder, or of one named bin what is installed with it: its libraries are beside it."""
+    """The folder; for a folder named bin its parent, which has the libraries too."""
     outer = os.path.dirname(folder)
     if os.path.basename(folder) not in {"bin", "sbin", "shims"}:
         return (folder,)
@@ -138,10 +139,10 @@ def _interpreter(path: str, environment: Mapping[str, str]) -> str | None:
 
 
 def private_folders(needed: Iterable[str]) -> tuple[str, ...]:
-    """Folders that are seen empty but for what is needed in them; TEMPORARY first, none within another.
+    """Folders of which only the needed parts are visible; TEMPORARY first, none within another.
 
-    They are those of the root that are not the system's, and the home folder. One that is needed as a whole, as the
-    working directory may be, is none.
+    They are the folders of the root that do not belong to the system, and the home folder. A folder that is needed as a
+    whole, as the working directory may be, is not among them.
     """
     needed = set(needed)
     folders = [*TEMPORARY, *(path for path in sorted(_entries("/")) if os.path.basename(path) not in _SYSTEM)]
@@ -155,7 +156,7 @@ def private_folders(needed: Iterable[str]) -> tuple[str, ...]:
 
 
 def hidden_paths(also: Iterable[str], needed: Sequence[str] = (), seen: Sequence[str] = ()) -> tuple[str, ...]:
-    """What is seen empty, although it is in a folder that is seen.
+    """Files and folders that appear empty, although they are in a visible folder.
 
     This package with its vectors, and `also`; and, but for what is in `seen`, repositories, copies of this package and
     what was built of them, the checkout of the action of GitHub, and files with keys and tokens. A folder in which the
@@ -174,9 +175,9 @@ def hidden_paths(also: Iterable[str], needed: Sequence[str] = (), seen: Sequence
 
 @lru_cache(maxsize=8)
 def _copies(roots: Sequence[str]) -> tuple[str, ...]:
-    """This package, and copies of it where Python would look for one and in the folders `roots` and those in them.
+    """This package, and its copies in Python's usual folders, in the folders `roots` and one level below these.
 
-    What has answers in their checkouts follows.
+    The folders with answers in the checkouts of these copies follow.
     """
     packages = "lib/python3*/[ds]*-packages/hypcheck"
     patterns = [f"{outer}/{packages}" for outer in ("/usr", "/usr/local", "/opt/*", "/opt/hostedtoolcache/*/*/*")]

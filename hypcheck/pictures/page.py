@@ -1,7 +1,7 @@
 """A scene, and a flight through it, as one HTML page in three dimensions that needs nothing but a browser.
 
-three.js draws it (three/README.md), packed into the page. Numbers are float32 from the middle of the picture: enough
-for eyes, and what is said in words comes from float64. What is shown was decided elsewhere: a picture decides nothing.
+three.js draws it (three/README.md), packed into the page. Numbers are float32 from the middle of the picture: precise
+enough for the eye; numbers in text come from float64. The page shows decisions and makes none.
 """
 
 from __future__ import annotations
@@ -80,7 +80,7 @@ class ScenePage:
         Path(path).write_text(self.html, encoding="utf-8")
 
     def _repr_html_(self) -> str:
-        """What a notebook shows: a frame with the page."""
+        """The HTML for a notebook: a frame with the page."""
         return f'<iframe srcdoc="{html.escape(self.html)}" width="100%" height="640" style="border:0"></iframe>'
 
 
@@ -102,7 +102,7 @@ def page_of(model: SceneModel, flight: ShownFlight | None = None) -> str:
 
 
 def drawn_bodies(model: SceneModel, flight: ShownFlight | None) -> Numbers:
-    """α, γ, heights, centres, axes, solid, touched: (n, 12). What has no end is drawn as far as the others reach."""
+    """α, γ, heights, centres, axes, solid, touched: (n, 12). Endless bodies are drawn as far as others reach."""
     touched = set() if flight is None else {contact.index for contact in flight.contacts}
     rows = []
     for number, body in enumerate(model.hyperboloids):
@@ -123,7 +123,7 @@ def drawn_bodies(model: SceneModel, flight: ShownFlight | None) -> Numbers:
 
 
 def _view(bodies: Numbers, flight: ShownFlight | None) -> tuple[dict[str, Any], Numbers]:
-    """What the camera shows first, in numbers from the middle of the picture, and that middle."""
+    """The first view of the camera, relative to the middle of the picture, and that middle."""
     tall = np.abs(bodies[:, 2:4]).max(axis=1)
     wide = np.maximum(bodies[:, 0] * np.sqrt(1 + (tall / bodies[:, 1]) ** 2), tall)[:, None]
     low, high = (bodies[:, 4:7] - wide).min(axis=0), (bodies[:, 4:7] + wide).max(axis=0)
