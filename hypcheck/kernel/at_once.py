@@ -1,8 +1,9 @@
-"""hypcheck.classify and hypcheck.classify_scene: C answers ordinary calls alone, Python all others.
+"""hypcheck.classify and hypcheck.classify_scene: C answers ordinary calls without Python, Python all others.
 
 An ordinary call has numbers, lists and numpy's arrays of any strides and most types of numbers, all rows valid, no
-heights and no margin, and no more rows than one thread answers. C leaves any other to the functions of classify.py,
-which convert what can be converted and say what is wrong with the rest. Where nothing is compiled they take all calls.
+heights and no margin, and no more rows than one thread answers. C passes any other call to the functions of
+classify.py, which convert other types, or raise an error that says what is wrong. Without the compiled kernel they take
+all calls.
 """
 
 from __future__ import annotations

@@ -37,10 +37,7 @@ class KernelChoice:
 
 @cache
 def choice() -> KernelChoice:
-    """The choice that all calls of this process follow.
-
-    Raises InputError where an environment variable asks for what is not there.
-    """
+    """The choice for all calls of this process. Raises InputError if a variable asks for a missing part."""
     wanted = os.environ.get("HYPCHECK_KERNEL", "")
     if wanted not in ("", *KERNELS):
         raise InputError(f"HYPCHECK_KERNEL is {wanted!r}; it must be {' or '.join(KERNELS)}, or unset")

@@ -44,13 +44,13 @@ ROWS_AT_A_TIME = 1 << 22
 
 @dataclass(frozen=True)
 class Prepared:
-    """One spheroid beside one hyperboloid, prepared once: it stands for the sizes in any number of calls.
+    """One spheroid beside one hyperboloid, prepared once; it replaces the sizes in any number of calls.
 
-    `classify_scene(Prepared(sizes), x, y, z)` answers as `classify_scene(sizes, x, y, z)`; what can be computed before
-    centres are known is kept, which saves most in batches of 64 to some thousand centres. `axis` (3,) is the spheroid's
-    as in classify_scene. `like`, three columns x, y, z, are centres like those to come: they change no answer, but how
-    many centres the first stage decides. Without them heights about the waist are taken. Raises InputError for sizes or
-    an axis that are not valid.
+    `classify_scene(Prepared(sizes), x, y, z)` answers as `classify_scene(sizes, x, y, z)`; it keeps everything that
+    does not depend on the centres, which saves most in batches of 64 to some thousand centres. `axis` (3,) is the
+    spheroid's as in classify_scene. `like`, three columns x, y, z, are centres similar to those you will ask: they
+    change no answer, only how many centres the first stage decides. Without them, heights near the waist are assumed.
+    Raises InputError for sizes or an axis that are not valid.
     """
 
     sizes: Sizes
@@ -72,7 +72,7 @@ class Prepared:
             object.__setattr__(self, name, value)
 
     def __reduce__(self) -> tuple[type[Prepared], tuple[Sizes, Axis | None]]:
-        """Sizes and axis: what is kept means something to the build that made it alone, so a copy prepares anew."""
+        """Sizes and axis: prepared data are valid only for the build that made them, so a copy prepares them again."""
         return Prepared, (self.sizes, self.axis)
 
 
@@ -146,7 +146,7 @@ def classify(
 ) -> Answers:
     """The exact position of every pair: +1 exterior, 0 contact (tangency included), −1 interior; int8 (n,).
 
-    One pair of numbers is answered by an int, an array by an array. Pairs are written in any of these ways, with
+    For one pair the answer is an int, for arrays an array. Pairs are written in any of these forms, with
     lengths in one unit; numbers and columns (n,) are broadcast, `points` are one point (3,) or many (n, 3):
 
         classify(rows)                             (n, 7): alpha, gamma, b, d, x, y, z; (n, 10), (n, 13) with more
@@ -154,18 +154,18 @@ def classify(
         classify((alpha, gamma, b, d), points)     or (…), x, y, z
         classify(alpha, gamma, b, d, points)       or …, x, y, z, or alpha=2, …, center=points
 
-    `axis`, axis_x, axis_y, axis_z, is any finite vector ≠ 0 along the spheroid's axis of revolution, whose length and
-    sign mean nothing: (3,) for all, or (n, 3); without it the spheroid is upright, as with 0, 0, 1. The hyperboloid
-    ends at the heights `z_min` and `z_max`; with `solid`, flat ends belong to it. `margin`, a length: what is not
-    proved to be at least so far away is contact. float64 is not copied, and no number is rounded.
+    `axis`, axis_x, axis_y, axis_z, is any finite vector ≠ 0 along the spheroid's axis of revolution; its length and
+    sign have no effect: (3,) for all, or (n, 3); without it the spheroid is upright, as with 0, 0, 1. The hyperboloid
+    ends at the heights `z_min` and `z_max`; with `solid`, flat ends belong to it. `margin`, a length: a spheroid that
+    is not proved to be at least so far away counts as contact. float64 is not copied, and no number is rounded.
 
     `out`, int8 (n,), is filled and returned in place of a new array; it may overlap the input. `question` "exterior",
     "interior" or "contact" asks for 1 (yes) or 0 (no) instead. `threads` is how many threads share the work; by default
     one, and more for millions of rows (HYPCHECK_THREADS limits them).
 
     A row is valid when its sizes are finite and > 0, its centre finite, its axis finite and not 0, z_min < z_max (they
-    may be infinite) and solid 0 or 1. The first that is not raises InputError (its index counted from 0) and `out` is
-    left alone; with on_invalid="flag" such rows are marked 127.
+    may be infinite) and solid 0 or 1. The first invalid row raises InputError (its index counted from 0) and `out` is
+    not changed; with on_invalid="flag" such rows are marked 127.
 
     >>> classify((2, 17.8, 0.25, 0.15), [[0, 0, 5], [3, 0, 5]])
     array([-1,  1], dtype=int8)
@@ -230,12 +230,11 @@ def classify_scene(
 ) -> Positions:
     """The exact position of one spheroid at many centres; int8 (n,) always, numbers and options as in classify.
 
-    `sizes` are alpha, gamma, b, d; `x`, `y`, `z` are float64 (n,) each, or single numbers that stand for every centre;
-    or `x` alone are points, (n, 3) or (3,). `axis` is the spheroid's axis as in classify: (3,) for all centres, or
-    (n, 3); without it the spheroid is upright. The first centre or axis that is not valid raises InputError (its index
-    counted from 0) and `out` is left alone; with on_invalid="flag" such centres are marked 127, all of them where the
-    one axis is not valid. Sizes that are not valid are always refused. In the place of `sizes` may be
-    Prepared(sizes, axis), with no other axis.
+    `sizes` are alpha, gamma, b, d; `x`, `y`, `z` are float64 (n,) each, or single numbers for all centres; or `x` alone
+    are points, (n, 3) or (3,). `axis` is the spheroid's axis as in classify: (3,) for all centres, or (n, 3); without
+    it the spheroid is upright. The first centre or axis that is not valid raises InputError (its index counted from 0)
+    and `out` is not changed; with on_invalid="flag" such centres are marked 127, all of them if the one axis is not
+    valid. Sizes that are not valid are always refused. `sizes` may also be Prepared(sizes, axis), with no other axis.
     """
     number = required(question, threads, on_invalid)
     if isinstance(sizes, Prepared):
@@ -323,7 +322,7 @@ def _sizes(sizes: Sizes) -> Sizes:
 
 
 def _not_finite(columns: Columns) -> InputError:
-    """What is wrong with the first centre that is not finite, of which there is one."""
+    """What is wrong with the first centre that is not finite; there must be one."""
     index = int(np.argmin(np.isfinite(columns).all(axis=0)))
     trouble = trouble_with_row([float(column[index]) for column in columns], CENTER)
     return InputError(f"row {index}: {trouble}")

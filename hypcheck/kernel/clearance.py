@@ -1,9 +1,9 @@
 """The public function: clearances, distances and nearest points of many pairs, each between two proved numbers.
 
 Beside hyperboloids that end, rows (n, 13), exact decisions of truth/exact.py enclose the clearance. A spheroid scaled
-about its centre by 1 + clearance just touches wall, rim or disc. Let c be the clearance of a clear pair. Whatever is
-nearer than c min(b, d) lies in the scaled spheroid, and the point that it touches is c max(b, d) from the spheroid at
-most: the distance lies between, and of a sphere it is known.
+about its centre by 1 + clearance just touches wall, rim or disc. Let c be the clearance of a clear pair. Every point
+nearer than c min(b, d) lies in the scaled spheroid, and the point that it touches is at most c max(b, d) from the
+spheroid: the distance lies between the two, and for a sphere they are equal.
 """
 
 from __future__ import annotations
@@ -71,11 +71,11 @@ def clearances(queries: Rows, threads: int | None = None) -> Clearance:
 
 
 def _ended_clearances(rows: Rows, threads: int | None = None) -> Clearance:
-    """What clearance() says of valid rows (n, 13): of those without ends as there, of the others one by one.
+    """The result of clearance() for valid rows (n, 13): rows with infinite ends together, the others one by one.
 
     `touch` is then the point of wall, rim or disc that the scaled spheroid touches, as far as floats know it, and so is
-    `nearest` where no shorter gap was measured. Nothing is proved of their error.
-    Invalid rows are left as rows of which nothing is known.
+    `nearest` where no shorter gap was measured. Their errors have no proved bound. Invalid rows keep the values for
+    unknown rows.
     """
     from hypcheck.truth import ended_error, exact, least, rationals  # noqa: PLC0415 - rows with heights alone need them
 

@@ -1,17 +1,17 @@
-"""Clearances, distances and nearest points of many pairs, each between two numbers that are proved.
+"""Clearances, distances and nearest points of many pairs, with proved lower and upper bounds.
 
-Floats only guess (clearance_points.py). What is returned is proved by exact decisions of the kernel about other rows:
+Floats only guess (clearance_points.py). Exact decisions of the kernel about other rows prove the returned bounds:
 
 - A spheroid f times as large, rounded outward, that is clear proves clearance ≥ f − 1; rounded inward and in contact it
-  proves clearance ≤ f − 1.
-- Let n be a unit vector and √(nᵀQn) = v the spheroid's half width along it, Q its matrix of squared semi-axes. For any
-  v > 0 and δ > 0 the spheroid with the semi-axes √((v + δ)(b²/v + δ)) and √((v + δ)(d²/v + δ)) contains all points
-  within δ of the given one: its matrix is (1 + δ/v) Q + (1 + v/δ) δ² I, and (p + q)² ≤ (1 + t) p² + (1 + 1/t) q² for
-  the support functions p and q and any t > 0. If it is clear, the distance is at least δ. Along n nothing is lost.
-- A point of the hyperboloid and one of the spheroid are no nearer than their bodies, but for the rounding below.
-- Between the two measures: clearance · min(b, d) ≤ distance ≤ clearance · max(b, d).
+proves clearance ≤ f − 1. - Let n be a unit vector and √(nᵀQn) = v the spheroid's half width along it, Q its matrix of
+squared semi-axes. For any v > 0 and δ > 0 the spheroid with the semi-axes √((v + δ)(b²/v + δ)) and √((v + δ)(d²/v + δ))
+contains all points within δ of the given one: its matrix is (1 + δ/v) Q + (1 + v/δ) δ² I, and (p + q)² ≤ (1 + t) p² +
+(1 + 1/t) q² for the support functions p and q and any t > 0. If it is clear, the distance is at least δ. In the
+direction n it is no larger than necessary. - A point of the hyperboloid and one of the spheroid are no nearer than
+their bodies, but for the rounding below. - Between the two measures: clearance · min(b, d) ≤ distance ≤ clearance ·
+max(b, d).
 
-Where a guess cannot be proved, the same decisions halve the interval. No bound of a rounding error decides but these:
+Where a guess cannot be proved, the same decisions halve the interval. Only these bounds of rounding errors are used:
 
 Points. Each coordinate of an end of the gap takes fewer than 16 roundings of terms below |X| or |C| + max(b, d), where
 an axis is tilted times (max/min of b, d)²; _POINTS = 2⁻⁴⁶ holds that for both ends, and for |X − Y|. _OUTWARD covers
@@ -70,7 +70,7 @@ Question = Callable[[Indices, Floats], Mask]
 
 @dataclass(frozen=True)
 class Clearance:
-    """What clearance() says of n rows; every array is of shape (n,), or (n, 3) for points. One pair alone has numbers.
+    """The result of clearance() for n rows; every array is of shape (n,), or (n, 3) for points. One pair has numbers.
 
     `position`: the exact position, as classify has it; `contact` says where that is contact.
 
@@ -79,15 +79,15 @@ class Clearance:
 
     `nearest`: a point of the hyperboloid whose distance from the spheroid is `distance_upper` at most, but for the
     rounding of its coordinates; where no gap could be measured it is `touch`. `normal`: the unit vector from there to
-    the spheroid, which is the gradient of the distance with respect to the centre; NaN in contact; nothing is proved of
-    its error. `tie`: another point is as near, by a symmetry of both bodies; then `nearest` is one of them.
+    the spheroid, which is the gradient of the distance with respect to the centre; NaN in contact; its error has no
+    proved bound. `tie`: another point is as near, by a symmetry of both bodies; then `nearest` is one of them.
 
     `lower` ≤ clearance ≤ `upper`: the clearance in spheroid radii. The spheroid, 1 + clearance times as large about its
     centre, first touches the hyperboloid; it is negative in contact, 0 in a tangency, −1 for a centre on the surface.
     The signs agree with `position`: lower ≥ 0 where it is clear, upper ≤ 0 in contact.
 
-    `touch`: the place where that spheroid first touches, of several the one towards +x or +z. The exact place is not
-    farther than `touch_error` away; that is inf where nothing is proved.
+    `touch`: the place where that spheroid first touches; if there are several, the one towards +x or +z. The exact
+    place is at most `touch_error` away, which is inf if there is no proved bound.
     """
 
     position: Positions
@@ -133,7 +133,7 @@ class Clearance:
 
     @property
     def one(self) -> Clearance:
-        """The first row alone, with numbers in the place of arrays (n,)."""
+        """The first row, with numbers instead of arrays (n,)."""
         first = {name: getattr(self, name)[0] for name in _MEASURED}
         numbers: dict[str, Any] = {name: value if np.ndim(value) else value.item() for name, value in first.items()}
         return replace(self, **numbers | {"rows": self.rows[:1]})
@@ -143,7 +143,7 @@ _MEASURED = tuple(part.name for part in fields(Clearance) if part.name != "rows"
 
 
 def clearances_without_ends(queries: Rows, threads: int | None = None) -> Clearance:
-    """What clearance() says of rows (n, 7) or (n, 10); invalid ones have the position 127 and NaN everywhere."""
+    """The result of clearance() for rows (n, 7) or (n, 10); invalid ones have the position 127 and NaN everywhere."""
     upright = not PAIRS.has_axis(queries)
     compiled = upright and choice().kernel == "compiled"
     result = _compiled(queries, threads) if compiled else Clearance.empty(queries)
@@ -184,7 +184,7 @@ def _fill_ties(result: Clearance, queries: Rows, threads: int | None) -> None:
 
 
 def _compiled(rows: Rows, threads: int | None) -> Clearance:
-    """What the compiled kernel says of rows (n, 7), by the same steps; touch_error is inf where it knows less."""
+    """The result of the compiled kernel for rows (n, 7), by the same steps; touch_error is inf if it has no bound."""
     from hypcheck.kernel import compiled_kernel  # noqa: PLC0415 - only where it is there
 
     position, numbers = compiled_kernel.near_rows(rows, threads)
@@ -294,7 +294,7 @@ def _factors(rows: Rows, position: Positions, guess: Floats, threads: int | None
 
 
 def _halve(rows: Rows, low: Floats, high: Floats, clear: Question, meets: Question) -> None:
-    """Halve what is wider than WIDTH, in logarithms where it spans more than a factor of 2, until nothing is proved."""
+    """Halve intervals wider than WIDTH, in logarithms if they span more than a factor of 2, until no half is proved."""
     largest = np.minimum(np.finfo(np.float64).max / rows[:, 2:4].max(axis=1) / 2, 2.0**1000)
     some = np.arange(len(rows))
     for _ in range(_HALVINGS):

@@ -51,7 +51,7 @@ def answer_rows(rows: Rows, question: Question, threads: int | None = None) -> t
 
 
 def _by_row(ask: Callable[..., int], rows: Rows, outputs: Sequence[NDArray[Any]], threads: int | None) -> int:
-    """Ask about rows, and fill arrays, one place for each row, with what is told; the sum of what `ask` returns."""
+    """Call `ask` for parts of the rows, which fills arrays with one place for each row; the sum of its results."""
     aligned = rows if rows.flags.aligned else rows.copy()
 
     def part(start: int, stop: int) -> int:
@@ -89,9 +89,9 @@ def fill_scene(
 def fill_valid_scene(
     sizes: Sizes, columns: Columns, out: Positions, threads: int | None = None, axis: Axis | None = None
 ) -> bool:
-    """Fill a contiguous array with positions if all centres are valid, or leave it alone and return False.
+    """Fill a contiguous array with positions if all centres are valid, or leave it unchanged and return False.
 
-    It must not overlap the columns. What a thread decides is kept as bits until all threads have ended.
+    It must not overlap the columns. The answers of a thread are kept as bits until all threads have ended.
     """
     core, own_axis = extension(), () if axis is None else (axis,)
     kept: NDArray[np.int8] = np.empty(-(-len(out) // BLOCK) * KEPT, dtype=np.int8)
@@ -129,7 +129,7 @@ NEAR_NUMBERS = 11
 
 
 def near_rows(rows: Rows, threads: int | None = None) -> tuple[Positions, Floats]:
-    """Positions (n,), 127 for invalid ones, and what hypcheck_clearance says of contiguous rows (n, 7): (n, 11)."""
+    """Positions (n,), 127 for invalid ones, and the results (n, 11) for contiguous rows (n, 7)."""
     positions, numbers = np.empty(len(rows), dtype=np.int8), np.empty((len(rows), NEAR_NUMBERS))
     _by_row(compiled().clearance, rows, (positions, numbers), threads)
     return positions, numbers
@@ -138,7 +138,7 @@ def near_rows(rows: Rows, threads: int | None = None) -> tuple[Positions, Floats
 def in_parts(part: Callable[[int, int], int], count: int, threads: int | None) -> int:
     """The sum of part(start, stop) over equal parts, the first in this thread and each other in one of its own.
 
-    What a part raises is raised here, once all have ended.
+    An exception of a part is raised here after all parts have ended.
     """
     number = 1
     if threads is not None:

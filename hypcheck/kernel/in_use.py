@@ -1,4 +1,4 @@
-"""The kernel in use: what a module that answers rows has, and the one that choice.py names."""
+"""The kernel in use: the functions of a module that answers rows, and the module that choice.py chooses."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from hypcheck.kernel.choice import Question, choice
 
 
 class Kernel(Protocol):
-    """What a module that answers has. The first two return answers, 127 for invalid rows, and how many those are."""
+    """The functions of a kernel. The first two return answers, 127 for invalid rows, and the number of invalid rows."""
 
     def fill_valid_scene(
         self, sizes: Sizes, columns: Columns, out: Positions, threads: int | None = None, axis: Axis | None = None
@@ -24,7 +24,7 @@ class Kernel(Protocol):
         """
 
     def prepared(self, sizes: Sizes, like: Columns, axis: Axis | None = None) -> bytes:
-        """What is kept of valid sizes, a valid axis and centres like those to come; of no meaning elsewhere."""
+        """Data prepared from valid sizes, a valid axis and sample centres; only the same kernel can use them."""
 
     def answer_rows(self, rows: Rows, question: Question, threads: int | None = None) -> tuple[Positions, int]:
         """Answers for C-contiguous rows, (n, 7) or (n, 10); `threads` None is as many as are worth it."""
@@ -42,12 +42,12 @@ class Kernel(Protocol):
     def answer_sweeps(self, rows: Rows) -> tuple[Positions, Floats]:
         """Contact on sweeps, C-contiguous rows (n, 10), (n, 13) or (n, 16) as geometry.rows.SWEEPS has them.
 
-        Hits, int8 (n,): 1 and 0 are exact, 2 is said where bounds do not tell, 127 of an invalid row. Times, float64
-        (n,): no contact comes before them; NaN where there is no hit, or where bounds do not tell when.
+        Hits, int8 (n,): 1 and 0 are exact, 2 means that bounds do not decide, 127 is an invalid row. Times, float64
+        (n,): no contact comes before them; NaN if there is no hit, or if bounds do not give its time.
         """
 
     def answer_ended(self, rows: Rows, threads: int | None = None) -> Positions:
-        """Exact positions for C-contiguous rows (n, 13); 2 where bounds do not tell, 127 of an invalid row."""
+        """Exact positions for C-contiguous rows (n, 13); 2 if bounds do not decide, 127 for an invalid row."""
 
 
 def kernel() -> Kernel:

@@ -2,8 +2,8 @@
 
 **Upright**, the coefficient rule for all regimes. The lengths may be in any unit (pair.Lengths); everything is
 multiplied by N = b² d² > 0, or by a power of it, so that nothing is divided. The rule is the program "coefficients" of
-derivation/formulas.py, whose ring condition is here the equal one that no sign of Δ is asked for: z = 0, g'(B) = 0 and
-the remaining root below B.
+derivation/formulas.py, but with an equivalent ring condition that does not need the sign of Δ: z = 0, g'(B) = 0 and the
+remaining root below B.
 
 **Tilted.** With p, q, s, t the squares of α, b, γ, d, with the axis v and w = v·v, and λ the multiplier of the pencil
 S + λH,
@@ -69,7 +69,7 @@ def upright_position_of_squares(p: int, q: int, s: int, t: int, radius: int, hei
 
 @dataclass(frozen=True, slots=True)
 class QuarticWithPoles:
-    """F's coefficients, lowest first, and what its poles are made of: −p/q and the roots of k0 + k1 λ − k2 λ²."""
+    """F's coefficients, lowest first, and the numbers that give its poles: −p/q and the roots of k0 + k1 λ − k2 λ²."""
 
     f: tuple[int, int, int, int, int]
     p: int
@@ -80,10 +80,10 @@ class QuarticWithPoles:
 
 @dataclass(frozen=True, slots=True)
 class Squares:
-    """What a pair's position depends on: integers, all lengths in one unit and both axes in another.
+    """The integers that determine a pair's position: all lengths in one unit and both axes in another.
 
-    p, q, s, t are α², b², γ², d². Along the hyperboloid's axis (`upward`, `height`) and across it (`level`, `radius`)
-    stand the squares of the parts of the spheroid's axis v and of the centre C. `cross` and `along` are the squares of
+    p, q, s, t are α², b², γ², d². `upward` and `level` are the squares of the parts of the spheroid's axis v along and
+    across the hyperboloid's axis, `height` and `radius` those of the centre C. `cross` and `along` are the squares of
     the part of v × C along the hyperboloid's axis, and of v·C.
     """
 
@@ -118,7 +118,7 @@ def squares(row: Sequence[float]) -> Squares:
 def squares_between_axes(
     sizes: Sequence[float], centre: Sequence[Fraction | float], axis: Sequence[float], other: Sequence[float]
 ) -> Squares:
-    """The same beside a tilted hyperboloid: `centre` is the spheroid's, from the hyperboloid's, `other` its axis w.
+    """The squares for a tilted hyperboloid with axis `other`, w; `centre` is the spheroid's, from the hyperboloid's.
 
     Nothing is rotated: with W = w·w, C·w and v·w the parts along w are (C·w)²/W and (v·w)²/W, and those across are what
     is left of C·C and v·v; the part of v × C along w is det(v, C, w)²/W. All are multiplied by as many W as they need.
@@ -139,7 +139,7 @@ def _dot(a: Sequence[int], b: Sequence[int]) -> int:
 
 
 def quartic(of: Squares) -> QuarticWithPoles:
-    """The quartic of a pair whose axes are not parallel, and whose spheroid is no sphere."""
+    """The quartic of a pair whose axes are not parallel, and whose spheroid is not a sphere."""
     p, q, s, t = of.p, of.q, of.s, of.t
     w = of.level + of.upward
     E = (t - q) * (s + p) * of.cross

@@ -1,9 +1,9 @@
-"""Positions with a margin: what is not proved to be at least so far away is contact.
+"""Positions with a margin: a spheroid that is not proved to be at least so far away counts as contact.
 
 Two proofs are tried. The spheroid with the semi-axes √((v + δ)(b²/v + δ)) and √((v + δ)(d²/v + δ)) contains all points
 within δ of the given one, for any v > 0 (clearance_bounds.py says why): if it is clear, so is the given one, on the
-same side, and its distance is at least δ. Here v is b, for which the wider semi-axis is b + δ. What that leaves is
-decided by the distance's lower bound. _OUTWARD covers the twelve roundings of a semi-axis, for lengths in 2^±300.
+same side, and its distance is at least δ. Here v is b, for which the wider semi-axis is b + δ. If that proves nothing,
+the lower bound of the distance decides. _OUTWARD covers the twelve roundings of a semi-axis, for lengths in 2^±300.
 """
 
 from __future__ import annotations
@@ -38,7 +38,8 @@ def checked_margin(margin: object) -> float:
 def enlarged(b: ArrayLike, d: ArrayLike, margin: ArrayLike, half: ArrayLike | None = None) -> tuple[Floats, Floats]:
     """Semi-axes of spheroids that contain all points within `margin` of those given, (n,) each; inf where unknown.
 
-    They are no larger than they must be in the directions in which the given ones are `half` (n,) wide: b without.
+    They are no larger than necessary in the directions in which the given ones are `half` (n,) wide; `half` is b by
+    default.
     """
     b, d, margin = (np.asarray(numbers, np.float64) for numbers in (b, d, margin))
     margin = np.maximum(margin, _RANGE[0])

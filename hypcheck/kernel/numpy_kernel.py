@@ -164,7 +164,7 @@ def answer_ended(rows: Rows, threads: int | None = None) -> Positions:
 
 
 def answer_sweeps(rows: Rows) -> tuple[Positions, Floats]:
-    """As classify.Kernel has it, by the positions at both ends alone: it cannot say where these are clear and alike.
+    """As in_use.Kernel.answer_sweeps, but only from the ends: the answer is 2 if both are clear and equal.
 
     Through an opening a sweep may change its side without contact.
     """
@@ -204,7 +204,7 @@ class Buffers(Generic[Number]):
 
 
 def by_lines(lines: SceneLines, columns: Columns, result: Positions) -> Indices:
-    """Fill in what the scene's half planes prove, and return the places of the rest."""
+    """Fill in the answers that the scene's half planes prove, and return the places of the other rows."""
     numbers, truths = chunks.PLANE_BUFFERS[0] + chunks.PARALLEL_LINES_BUFFERS[0], chunks.PARALLEL_LINES_BUFFERS[1]
     singles = Buffers((numbers, truths), LINES_CHUNK, np.float32)
     doubles = Buffers(chunks.TWO_LINES_BUFFERS, LINES_CHUNK, np.float64)
@@ -226,7 +226,7 @@ def by_lines(lines: SceneLines, columns: Columns, result: Positions) -> Indices:
 def by_parallel_lines(
     constants: dict[str, float], columns: Columns, buffers: Buffers[np.float32], result: Positions
 ) -> Indices | None:
-    """The same for one chunk, in single precision; None, and nothing is filled in, where a centre has no room in it."""
+    """As by_lines for one chunk, in single precision; None, with nothing filled in, if a centre is too large."""
     numbers, truths = buffers.of(len(result))
     R, T = chunks.plane(*columns, numbers[: chunks.PLANE_BUFFERS[0]])
     if not (np.maximum.reduce(T) <= constants["reach"] and np.maximum.reduce(R) < CAP_OF_SINGLES):  # so with NaN
@@ -238,14 +238,14 @@ def by_parallel_lines(
 def by_two_lines(
     constants: dict[str, float], columns: Columns, buffers: Buffers[np.float64], result: Positions
 ) -> Indices:
-    """What two lines a side leave, in double precision; fills the answers that they prove."""
+    """Fill in the answers that two lines a side prove, in double precision, and return the places of the other rows."""
     sums, exterior, interior, decided = chunks.two_lines(*columns, constants, *buffers.of(len(result)))
     rest = _filled_in(exterior, interior, decided, result)
     return rest if sums.max() < CAP else np.arange(len(result))  # so with NaN
 
 
 def _filled_in(exterior: Mask, interior: Mask, decided: Mask, result: Positions) -> Indices:
-    """Fill in what floats decide of a chunk, and return the places of the rest; `decided` is changed."""
+    """Fill in the answers that floats decide in a chunk, and return the places of the other rows; changes `decided`."""
     np.subtract(exterior.view(np.int8), interior.view(np.int8), out=result)
     return np.flatnonzero(np.logical_not(decided, out=decided))
 

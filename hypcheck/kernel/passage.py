@@ -52,19 +52,19 @@ def passage(
     solid: Argument = False,
     **columns: Argument,
 ) -> swept.Passage | Passages:
-    """Whether a spheroid that goes straight from one centre to another meets contact, its two ends included, and when.
+    """Whether a spheroid that moves straight from one centre to another has contact, also at its two ends, and when.
 
     Sweeps are written (sizes, start, end) or (alpha, gamma, b, d, start, end): sizes are numbers or columns (n,), start
     and end are points (3,) or (n, 3) from the hyperboloid's centre, in one unit, and each may be named; or rows (n,
     10), (n, 13), (n, 16), or a table of columns: alpha, gamma, b, d, x, y, z at the start, x1, y1, z1 at the end.
-    `axis`, (3,) or (n, 3), is any vector along the spheroid's axis of revolution, which keeps its direction all
-    along; it is vertical without. The hyperboloid ends at the heights `z_min` and `z_max` along its axis; with
+    `axis`, (3,) or (n, 3), is any vector along the spheroid's axis of revolution, which keeps its direction during the
+    sweep; by default it is vertical. The hyperboloid ends at the heights `z_min` and `z_max` along its axis; with
     `solid`, flat ends belong to it.
 
     The answer has `.hit`, `.first_lower` and `.first_upper`, floats between which the time of the first contact lies, 0
     at the start and 1 at the end, NaN where there is none, and `.first`, the same as exact fractions or None; for many
     sweeps these are arrays. One sweep may have fractions for numbers, and an `upward`, any vector along the
-    hyperboloid's axis; its answer has `.start`, `.end`, `.grazes` besides. Exact for every valid value; where the
+    hyperboloid's axis; its answer also has `.start`, `.end`, `.grazes`. Exact for every valid value; where the
     hyperboloid ends, a miss by less than 2^−240 of the spheroid's size counts as contact. Raises InputError where a
     size is not finite and > 0, a coordinate not finite, an axis without direction, or z_min not less than z_max.
 
@@ -93,7 +93,7 @@ def passage(
 def _by_position(
     ways: tuple[Argument, ...], columns: dict[str, Argument]
 ) -> tuple[tuple[Argument, ...], dict[str, Argument]]:
-    """What is given by name in its place, where that is all sizes, a start and an end."""
+    """Named arguments in order of position, if these are all sizes, a start and an end."""
     places = ((), ("start", "end"), ("end",))  # what is missing behind no, one, or two arguments
     names = (*SIZES, "start", "end")[len(ways) :] if len(ways) in (0, 4, 5) else places[min(len(ways), 2)]
     if set(columns) != set(names):
@@ -102,7 +102,7 @@ def _by_position(
 
 
 def _has_rows(value: object) -> bool:
-    """Whether a value is no number and no sequence of numbers: one that stands for many sweeps."""
+    """Whether a value contains many sweeps: neither a number nor a sequence of numbers."""
     dimensions = getattr(value, "ndim", None)
     if dimensions is not None:
         return bool(dimensions > 1)

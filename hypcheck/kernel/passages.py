@@ -42,9 +42,9 @@ First = tuple[tuple[Fraction, Fraction], int]
 
 @dataclass(frozen=True, eq=False)
 class Passages:
-    """What happens on n straight sweeps; every array is (n,). One sweep alone has numbers.
+    """The results for n straight sweeps; every array is (n,). For one sweep they are numbers.
 
-    `hit`: whether there is contact somewhere on the sweep, its two ends included. It is exact, as everything here.
+    `hit`: whether there is contact somewhere on the sweep, its two ends included. It is exact, as are all results here.
     """
 
     hit: Mask | bool
@@ -104,7 +104,7 @@ def passages(
     axis: ArrayLike | None,
     heights: Sequence[Argument],
 ) -> Passages:
-    """What happens on sweeps, written as hypcheck.passage takes them. Raises InputError."""
+    """The results for sweeps in a form that hypcheck.passage accepts. Raises InputError."""
     given, single = _rows_of(sweeps, columns, axis, heights)
     rows = np.ascontiguousarray(given)
     require_valid(rows, layout=_LAYOUT)
@@ -156,7 +156,7 @@ _NEW = dict(zip(START, CENTER, strict=True))
 
 
 def _hits(rows: Rows) -> Mask:
-    """By bounds, and what these leave exactly. What is clear of a whole hyperboloid is clear of an open wall of it."""
+    """Hits, by bounds and else exactly. A sweep that is clear of an infinite hyperboloid is clear of its open wall."""
     width = len(SWEEPS.tilted)
     whole = np.ascontiguousarray(rows[:, :width])
     answers = kernel().answer_sweeps(whole)[0]

@@ -30,7 +30,7 @@ if TYPE_CHECKING:  # it loads numpy, and one pair does without
 
 
 class PositionFunction(Protocol):
-    """What hypcheck.position is: the function below, or the compiled one that answers the same."""
+    """The type of hypcheck.position: the function below, or the compiled one with the same answers."""
 
     @overload
     def __call__(
@@ -159,12 +159,12 @@ def _looked_at(
 ) -> Answers:
     """The exact position of one pair: +1 exterior, 0 contact (tangency included), −1 interior.
 
-    position(alpha, gamma, b, d, x, y, z) are the semi-axes and the centre, in one unit; it loads no numpy. `axis`
-    is any finite vector ≠ 0 along the spheroid's axis of revolution, of any length; without it the spheroid is
-    upright. The hyperboloid ends at the heights `z_min` and `z_max`; with `solid`, flat ends belong to it.
-    `margin`, a length: what is not proved to be at least so far away is contact. All other forms that classify
-    takes are answered as there: many pairs by an array. Raises InputError naming a number that is no float64 or not
-    finite, a semi-axis that is not greater than 0, what is no axis, or heights that are none.
+    position(alpha, gamma, b, d, x, y, z) are the semi-axes and the centre, in one unit; it loads no numpy. `axis` is
+    any finite vector ≠ 0 along the spheroid's axis of revolution, of any length; without it the spheroid is upright.
+    The hyperboloid ends at the heights `z_min` and `z_max`; with `solid`, flat ends belong to it. `margin`, a length: a
+    spheroid that is not proved to be at least so far away counts as contact. All other forms that classify takes are
+    answered as there: many pairs by an array. Raises InputError that names a number that is not a float64 or not
+    finite, a semi-axis that is not greater than 0, an invalid axis, or invalid heights.
 
     >>> position(1, 2, 1, 1, 2.5, 0, 0)
     1

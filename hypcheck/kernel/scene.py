@@ -1,7 +1,7 @@
-"""A scene prepared once, then asked again and again: exact answers about the mover, wherever it stands in the scene.
+"""A scene that is prepared once and asked many times: exact answers about the mover at any place in the scene.
 
 The answer about a whole scene: contact with any hyperboloid is contact; else inside any is interior; else exterior.
-Parts of the mover are asked where the mover itself is in contact: an answer that all parts share is then the answer.
+If the mover itself is in contact, its parts are tested: if all parts have the same position, that is the answer.
 scene_pairs.py, scene_ends.py and scene_sweeps.py give the answer of each hyperboloid.
 """
 
@@ -104,11 +104,11 @@ class Scene(PreparedScene):
         """The exact answer to the scene's question for centres in the scene's coordinates; int8 (n,), an int for one.
 
         `x`, `y`, `z` are (n,) each or single numbers, or `x` alone are points, (n, 3) or (3,); `heading` is the mover's
-        direction in degrees, which places its parts. `axis`, (3,) or (n, 3), is the mover's where the scene says that
-        it is free, any vector ≠ 0 along its axis of revolution. Positions are +1, 0, −1, and other questions are
-        answered 1 yes, 0 no. Offsets between centres are taken exactly; a part stands where its rounded centre is.
-        `margin`, a length: what is not proved to be at least so far from all hyperboloids is contact. Raises InputError
-        for numbers that are not finite, and for an axis where the scene fixes it.
+        direction in degrees, which places its parts. `axis`, (3,) or (n, 3), is the mover's if the scene says that it
+        is free, any vector ≠ 0 along its axis of revolution. Positions are +1, 0, −1, and other questions are answered
+        1 yes, 0 no. Offsets between centres are exact; the place of a part is its rounded centre. `margin`, a length: a
+        mover that is not proved to be at least so far from all hyperboloids counts as contact. Raises InputError for
+        numbers that are not finite, and for an axis if the scene fixes it.
         """
         center = points_or_columns(x, y, z)
         positions = self._positions(center, heading, axis)
@@ -187,15 +187,15 @@ class Scene(PreparedScene):
     def passage(
         self, start: ArrayLike, end: ArrayLike, heading: ArrayLike = 0.0, *, axis: ArrayLike | None = None
     ) -> Passages:
-        """Whether the mover meets contact on each straight sweep, its ends included, when first, and with what.
+        """Whether the mover has contact on each straight sweep, also at its ends, when first, and with what.
 
         `start` and `end` are (n, 3) or (3,), in the scene's coordinates; `heading`, (n,) or a number, and `axis`, as in
         classify, are the same all along. `.hit` says exactly whether there is contact on the sweep, whatever the
         scene's question is; `.first_lower` ≤ first time ≤ `.first_upper`, 0 at the start and 1 at the end, `.index` is
         the hyperboloid, and `.first` has the times as fractions; they are found when they are asked for, a millisecond
-        a hit. A part goes straight from where it stands at the start to where it stands at the end; it is asked where
-        the mover has contact. Beside an end of a hyperboloid, a miss by less than 2^−240 of the sweep or the sizes
-        counts as contact. Raises InputError for numbers that are not finite, and for an axis where the scene fixes it.
+        a hit. A part moves straight from its place at the start to its place at the end; it is tested if the mover has
+        contact. Beside an end of a hyperboloid, a miss by less than 2^−240 of the sweep or the sizes counts as contact.
+        Raises InputError for numbers that are not finite, and for an axis where the scene fixes it.
         """
         hit = self._hit_at_once(start, end, heading) if axis is None else None
         if hit is not None:
@@ -215,7 +215,7 @@ class Scene(PreparedScene):
         `path` is (T, 3), or many: (k, T, 3), or a list of points (T, 3), in the scene's coordinates. `heading` and
         `axis` are as in passage, the same all along or one for each segment, of all paths one after the other. `.hit`,
         `.segment` and the first contact's `.time_lower` ≤ time ≤ `.time_upper`, `.index`, the hyperboloid's, and
-        `.center` are decided as by passage. `.least` has the least distance of the mover itself, its parts left aside:
+        `.center` are decided as by passage. `.least` has the least distance of the mover itself, without its parts:
         `.distance_lower`, `.distance_upper`, `.segment`, `.time`, `.index`, `.center`. Times and `.least` are found
         when they are asked for. Raises InputError for numbers that are not finite and for a path without points.
 
@@ -283,7 +283,7 @@ class Scene(PreparedScene):
         return swept
 
     def _hit_at_once(self, start: object, end: object, heading: object) -> bool | None:
-        """Whether the mover has contact on one sweep, where everything is upright and bounds tell; else None."""
+        """Whether the mover has contact on one sweep, if everything is upright and bounds decide; else None."""
         here, there = point_at_once(start), point_at_once(end)
         if here is None or there is None or self._is_tilted or not (isinstance(heading, float) and isfinite(heading)):
             return None
@@ -298,7 +298,7 @@ class Scene(PreparedScene):
         return self._measure(self._swept(start, end, heading, None))(sweep)
 
     def _measure(self, swept: Swept, *, parts: bool = True) -> Callable[[int], First]:
-        """What finds the first contact of a sweep that has one: of the parts, or of the mover itself."""
+        """The function that finds the first contact of a sweep that has one: of the parts, or of the mover itself."""
         hits = swept.hits if parts else swept.own
 
         def measure(sweep: int) -> First:
@@ -335,10 +335,10 @@ class Scene(PreparedScene):
         """Which hyperboloid is nearest to the mover, its distance between proved numbers, nearest point and normal.
 
         `x`, `y`, `z` are (n,) each or single numbers, or `x` alone are points, (n, 3) or (3,); one centre is answered
-        by numbers. The distance is Euclidean, from the mover itself, not its parts, to what stands of the surface, and
-        to flat ends where they belong to it, wherever the mover is, whatever the scene's question is; it is 0 in
-        contact, and only there. `axis` is as in classify. Raises InputError for numbers that are not finite, and for an
-        axis where the scene fixes it.
+        by numbers. The distance is Euclidean, from the mover itself, not its parts, to the real surface between its
+        ends, and to flat ends if they belong to it. It does not depend on the scene's question; it is 0 if and only if
+        there is contact. `axis` is as in classify. Raises InputError for numbers that are not finite, and for an axis
+        where the scene fixes it.
 
         >>> scene = Scene.from_arrays([2, 1], 17.8, [[0, 0, 0], [9, 0, 0]], mover=(0.25, 0.25))
         >>> near = scene.nearest((5, 0, 0))
@@ -363,7 +363,7 @@ class Scene(PreparedScene):
         return self._answer(_OF_RANK[max((_RANK[position] for position in replies), default=0)])
 
     def _tilted_reply(self, index: int, centre: Point, heading: float, axis: list[float]) -> int:
-        """What a hyperboloid says about one centre."""
+        """The position of one centre beside one hyperboloid."""
         mover = self.model.mover
         reply = self._of_one(index, (mover.b, mover.d), centre, axis)
         return self._of_parts(index, centre, heading, axis) if reply == CONTACT and mover.parts else reply
@@ -384,7 +384,7 @@ class Scene(PreparedScene):
         centre: Sequence[float],
         axis: Sequence[float],
     ) -> int:
-        """The same from the position beside the whole hyperboloid."""
+        """The position beside a hyperboloid that ends, from that beside the infinite one."""
         bodies, body = self._bodies, self.model.hyperboloids[index]
         upward, span = bodies.axes[index].tolist(), bodies.spans[index].tolist()
         sizes = (body.alpha, body.gamma, *semi_axes)
@@ -417,7 +417,7 @@ class Scene(PreparedScene):
     def _replies(
         self, query: Indices, body: Indices, centres: Floats, heading: Floats, movers: Floats | None
     ) -> Positions:
-        """What each hyperboloid says about its centre; `movers` are the mover's axes where something is tilted."""
+        """The position of each centre beside its hyperboloid; `movers` are the mover's axes if something is tilted."""
         bodies, mover = self._bodies, self.model.mover
         level, (low, high, inner_low, inner_high) = centres[query, 2], self._limits[body].T
         beyond, between = (level < low) | (level > high), (level >= inner_low) & (level <= inner_high)

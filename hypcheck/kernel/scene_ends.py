@@ -12,9 +12,9 @@ Of a mover that reaches over an end, in the hyperboloid's frame:
   its own height it reaches b across the axis, or its shorter semi-axis at least, and e above or below, where both are
   upright, b √(1 − e²/d²).
 
-What is left is asked of the kernel, about a spheroid that is a little larger and one that is smaller, where the
-hyperboloid is vertical, and then decided by truth/exact.py. Heights and distances from an axis are those of
-along_and_across, with a bound of their error; ρ is wrong by α/γ of the error of the height and MARGIN of itself.
+If these do not decide and the hyperboloid is vertical, the kernel answers about a slightly larger and a slightly
+smaller spheroid; truth/exact.py decides the rest. Heights and distances from an axis are those of along_and_across,
+with a bound of their error; ρ is wrong by α/γ of the error of the height and MARGIN of itself.
 """
 
 from __future__ import annotations
@@ -104,7 +104,7 @@ class _Place:
 
 
 def meets_for_sure(least: Floats, shapes: Rows, spans: Rows, places: Rows, lost: Floats) -> Mask:
-    """Whether bounds show that movers meet walls at their own heights, (n,): `places` (n, 3) in the walls' frames.
+    """Whether bounds prove that movers touch walls at their own heights, (n,): `places` (n, 3) in the walls' frames.
 
     `least` (n,) are their shorter semi-axes. Each coordinate of a place is `lost` (n,) off at most, besides a few
     roundings.
@@ -156,7 +156,7 @@ def positions_with_ends(
 
 
 def _by_kernel(rows: Rows, centres: Rows, origins: Rows, inner: Mask, outer: Mask) -> Positions:
-    """Positions beside vertical hyperboloids by the kernel, 2 where it does not tell; rows lack the centres' columns.
+    """Positions beside vertical hyperboloids by the kernel, 2 if it does not decide; rows lack the centres' columns.
 
     It is asked about a spheroid that contains the exact one, and about one within it. What is clear of the wall lies on
     the side of its centre, which counts where it is surely between the ends (`inner`), or beyond one (`outer`).

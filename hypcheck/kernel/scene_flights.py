@@ -114,12 +114,12 @@ def _points(name: str, path: ArrayLike) -> Rows:
 
 @dataclass(frozen=True, eq=False)
 class LeastDistance:
-    """The least distance of the mover along each of k flights; every array is (k,). One flight alone has numbers.
+    """The least distance of the mover along each of k flights; every array is (k,). One flight has numbers.
 
-    `distance_lower` ≤ distance ≤ `distance_upper`, in the scene's unit; both are 0 where the mover itself, its parts
-    left aside, meets contact. `segment` and `time` are where the upper bound is reached, from hyperboloid `index`; the
-    mover's centre is then at `center`, (k, 3). The bounds are 2⁻²⁶ of the distance and the mover's size apart, where
-    no rounding of large coordinates is in the way.
+    `distance_lower` ≤ distance ≤ `distance_upper`, in the scene's unit; both are 0 if the mover itself, without its
+    parts, has contact. The upper bound is reached at `segment` and `time`, from hyperboloid `index`; the mover's centre
+    is then at `center`, (k, 3). The bounds are 2⁻²⁶ of the distance and the mover's size apart, where no rounding of
+    large coordinates is in the way.
     """
 
     distance_lower: Floats
@@ -132,10 +132,10 @@ class LeastDistance:
 
 @dataclass(frozen=True, eq=False)
 class FirstContact:
-    """The first contact on each of k flights; every array is (k,). One flight alone has numbers.
+    """The first contact on each of k flights; every array is (k,). One flight has numbers.
 
-    `hit`: whether there is contact anywhere on the flight; `segment`: the first segment that has it, from 0, −1 where
-    there is none. Both are exact.
+    `hit`: whether there is contact anywhere on the flight; `segment`: the first segment that has contact, counted from
+    0; −1 if there is none. Both are exact.
     """
 
     hit: Mask | bool

@@ -6,14 +6,13 @@ heights z − d … z + d and reaches b from its centre. The surface is nowhere 
 in floats with eight roundings at most, on positive terms: OUTWARD, far more than 8u, covers them, and the rounding of a
 distance that is compared with it; LEAST covers what underflows.
 
-A tilted spheroid lies in the ball of its longer semi-axis r, which takes the place of b and d. A hyperboloid that
-is tilted and ends h from its centre lies in the ball of radius √(h² + ρ²) about that, with ρ = α √(1 + (h/γ)²); what
-touches it is r farther away at most.
-
-Each cell of the grid has the hyperboloids that can be touched from within it. Cells share the places of a table by a
-hash (Teschner et al. 2003, "Optimized spatial hashing for collision detection"): a hyperboloid that falls into a place
-from elsewhere is asked in vain, and none is left out. A hyperboloid that reaches over too many cells, or has no end, is
-kept aside and always asked: one tower among many trees.
+A tilted spheroid lies in the ball of its longer semi-axis r, which takes the place of b and d. A hyperboloid that is
+tilted and ends h from its centre lies in the ball of radius √(h² + ρ²) about that, with ρ = α √(1 + (h/γ)²); a mover
+that touches it is at most r farther away. Each cell of the grid has the hyperboloids that can be touched from within
+it. Cells share the places of a table by a hash (Teschner et al. 2003, "Optimized spatial hashing for collision
+detection"): a hyperboloid from another cell may share the place, which costs a useless test, but none is left out. A
+hyperboloid that reaches over too many cells, or has no end, is stored separately and always tested: for example one
+tower among many trees.
 
 **Sweeps.** A sweep is cut into pieces no longer than a cell of the grid, and the hyperboloids of all cells that
 the box of a piece overlaps are candidates. Those whose axis the sweep passes beyond their reach are left out. Floats
@@ -207,7 +206,7 @@ class PlaneGrid:
 
 
 def _counted(counts: Indices) -> Indices:
-    """0, 1, 2, … anew for each of the counts, one after the other."""
+    """0, 1, 2, … for each of the counts, one after the other."""
     return np.asarray(np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts))
 
 
@@ -283,7 +282,7 @@ AT_A_TIME = 1 << 15
 def near_sweeps(
     bodies: Bodies, mover: Mover, region: Span | None, grid: PlaneGrid, reach: Floats, starts: Rows, ends: Rows
 ) -> tuple[Indices, Indices]:
-    """The hyperboloids that have to be asked about sweeps (n, 3): sorted pairs of a sweep's number and a hyperboloid's.
+    """The hyperboloids that must be tested for sweeps (n, 3): sorted pairs of a sweep's number and a hyperboloid's.
 
     `grid` and `reach` are those of the bodies for centres in this span of z.
     """

@@ -7,8 +7,9 @@ Scene.position decides it: the upper bound is 0 in contact, and only there.
 
 The distance to a whole hyperboloid is a lower bound of that to the wall between its ends; it is the same where the
 nearest point lies between them. Else a point P at the near end gives an upper bound: with f the factor by which the
-spheroid reaches P, its point on the way to P is (1 − 1/f) |P − C| away. An end disc is no nearer than its plane. Pairs
-that may be the nearest by these bounds are then asked for what stands of the hyperboloid (scene_gaps.py).
+spheroid reaches P, its point on the way to P is (1 − 1/f) |P − C| away. An end disc is no nearer than its plane. For
+pairs that may be the nearest by these bounds, scene_gaps.py then finds the distance to the real surface between the
+ends.
 
 **A tilted hyperboloid** is asked in a frame of its own, whose rows are a unit vector along its axis and two across.
 So the offset is off by TURNING of its size, and the spheroid, by its axis, by TURNING of its longer semi-axis: both are
@@ -42,16 +43,16 @@ _LEAST = 2.0**-1060
 
 @dataclass(frozen=True, slots=True)
 class Nearest:
-    """What Scene.nearest says of n centres.
+    """The result of Scene.nearest for n centres.
 
     `index` (n,): the number of the nearest hyperboloid in the scene's order, from 0. `tied` (n,): another one may be as
-    near, as their distances are equal, both are in contact, or the bounds do not tell them apart. `contact` (n,):
+    near, as their distances are equal, both are in contact, or the bounds do not separate them. `contact` (n,):
     whether there is contact.
     `distance_lower` ≤ distance ≤ `distance_upper` (n,): the Euclidean distance from the mover to the nearest of all.
     `point` (n, 3): a point of that hyperboloid whose distance is `distance_upper` at most, but for its rounding; NaN
     where the centres are so far apart that their difference overflows, of which only contact is known. `normal`
     (n, 3): the unit vector from there to the mover, which is the gradient of the distance with respect to the centre;
-    NaN in contact; nothing is proved of its error. One centre alone has numbers, and vectors (3,).
+    NaN in contact; its error has no proved bound. One centre has numbers, and vectors (3,).
     """
 
     index: Indices
@@ -69,7 +70,7 @@ class Nearest:
 
 
 def first_of(result: Nearest) -> Nearest:
-    """What is said of the first centre alone, with numbers in the place of arrays (n,)."""
+    """The result for the first centre, with numbers instead of arrays (n,)."""
     first = [getattr(result, part.name)[0] for part in fields(Nearest)]
     return Nearest(*(value if np.ndim(value) else value.item() for value in first))
 
@@ -183,7 +184,7 @@ class _Pairs:
     """Movers beside hyperboloids, `body` (n,) of `bodies`: in the scene, and in frames of the hyperboloids.
 
     `rows` are those of clearance, in these frames; `rounded` (n,) bounds how far they are off. `beyond` (n,) are those
-    whose difference of centres overflows: of them nothing is known but whether there is contact.
+    whose difference of centres overflows: for them only contact is known.
     """
 
     bodies: Bodies
@@ -198,7 +199,7 @@ class _Pairs:
 
     @property
     def spans(self) -> Floats:
-        """Between which heights the hyperboloids stand, (n, 2)."""
+        """The heights at which the hyperboloids end, (n, 2)."""
         return self.bodies.spans[self.body]
 
     @property
@@ -255,7 +256,7 @@ def _to_wholes(pairs: _Pairs) -> tuple[Floats, Floats, Floats, Mask]:
 
 
 def _to_what_stands(pairs: _Pairs, bounds: tuple[Floats, Floats, Floats], some: Indices) -> None:
-    """Replace the bounds and points of some pairs by those of the walls between their ends, and of end discs."""
+    """Replace the bounds and points of some pairs by those of walls between their ends, and of end discs."""
     if not len(some):
         return
     low, high, point = bounds
@@ -271,7 +272,7 @@ def _to_what_stands(pairs: _Pairs, bounds: tuple[Floats, Floats, Floats], some: 
 
 
 def _decide_contact(pairs: _Pairs, low: Floats, high: Floats) -> None:
-    """Decide exactly of those that bounds leave open whether there is contact: the upper bound is 0 there alone."""
+    """Decide contact exactly for pairs that bounds leave undecided: the upper bound is 0 only in contact."""
     some = np.flatnonzero((low == 0) | pairs.beyond)
     bodies, body, mover = pairs.bodies, pairs.body[some], pairs.mover
     sizes = np.concatenate([bodies.shapes[body], np.tile((mover.b, mover.d), (len(some), 1))], axis=1)

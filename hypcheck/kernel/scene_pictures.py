@@ -1,4 +1,4 @@
-"""What a picture of a flight shows, asked of the scene: contacts, and the least distance on each piece of it."""
+"""The data of a picture of a flight, computed by the scene: contacts, and the least distance on each piece of it."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _MOST_CONTACTS = 100
 
 
 class Asked(Protocol):
-    """What is asked of a Scene."""
+    """The methods of a Scene that a picture needs."""
 
     @property
     def model(self) -> SceneModel:
@@ -50,7 +50,7 @@ def shown_flight(
     axis: ArrayLike | None = None,
     count_of_pieces: int = PIECES,
 ) -> ShownFlight:
-    """What a picture of one flight shows, with a least distance on each of so many pieces.
+    """The data of a picture of one flight, with the least distance on each of `pieces` pieces.
 
     Raises InputError as first_contact, and for more flights than one.
     """

@@ -1,7 +1,7 @@
-"""What a scene is made from, what is prepared of it, and scenes with one hyperboloid more, less or elsewhere.
+"""Scenes with their prepared data, made from files or arrays, or from a scene by a change of one hyperboloid.
 
-Of a changed scene what was prepared is copied and patched, not made anew. Numbers of hyperboloids are places in the
-scene: one that is added is the last, and those behind one that is removed move up.
+For a changed scene the prepared data are copied and patched, not computed again. Numbers of hyperboloids are places in
+the scene: an added hyperboloid is the last, and after a removal the numbers of all later ones are lower by one.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class PreparedScene:
-    """A scene with what is prepared when it is first needed: columns of its hyperboloids, and their grid."""
+    """A scene with data that are prepared at their first use: columns of its hyperboloids, and their grid."""
 
     model: SceneModel
 
@@ -126,7 +126,7 @@ class PreparedScene:
         return self._changed(others, place, bodies_of([body]), added=False)
 
     def without(self, which: int | str) -> Self:
-        """The scene without one hyperboloid, by its number or its name; those behind it move up by one."""
+        """The scene without one hyperboloid, by number or name; the numbers of all later ones are lower by one."""
         place, model = self._place(which), self.model
         model = replace(model, hyperboloids=(*model.hyperboloids[:place], *model.hyperboloids[place + 1 :]))
         grid = grid_without(self._grid, place, renumbered=True)
@@ -153,7 +153,7 @@ class PreparedScene:
         return self._with(replace(self.model, hyperboloids=others), bodies, patched)
 
     def _with(self, model: SceneModel, bodies: Bodies, grid: PlaneGrid | None) -> Self:
-        """The scene of a model, with what is prepared of it already."""
+        """The scene of a model, with data that are already prepared."""
         scene = type(self)(model)
         scene.__dict__["_bodies"] = bodies
         if grid is not None:
@@ -161,7 +161,7 @@ class PreparedScene:
         return scene
 
     def _enlarged(self, margin: float) -> Self | None:
-        """The scene with a mover that contains all within the margin of this one; None where it leaves float64."""
+        """The scene with a mover that contains all points within the margin of this one; None if it overflows."""
         if margin not in self._of_margins:
             mover = self.model.mover
             b, d = enlarged(mover.b, mover.d, margin)
@@ -184,7 +184,7 @@ class PreparedScene:
         return self._grid.near(x, y)
 
     def _pairs(self, centres: Floats) -> tuple[Indices, Indices]:
-        """Which hyperboloids have to be asked about which centres."""
+        """The pairs of hyperboloids and centres that must be decided."""
         height = self.model.region.z
         if height is None or ((centres[:, 2] >= height.low) & (centres[:, 2] <= height.high)).all():
             return self._grid.near_each(centres[:, 0], centres[:, 1])
@@ -193,7 +193,7 @@ class PreparedScene:
         return np.repeat(np.arange(len(centres)), counts), np.array(list(chain.from_iterable(near)), np.int64)
 
     def _body(self, index: int) -> tuple[Body, float, float, float, float]:
-        """A hyperboloid's numbers, and its limits, without arrays; each is kept once it was asked."""
+        """A hyperboloid's numbers, and its limits, without arrays; each is kept after its first use."""
         prepared = self._asked.get(index)
         if prepared is None:
             of = self._bodies

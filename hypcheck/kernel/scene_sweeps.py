@@ -1,11 +1,11 @@
 """Sweeps of one mover beside one hyperboloid, straight motions in the scene's coordinates: contact or none, exactly.
 
-The kernel's answer about sweeps (core/parts/sweeps.h) is asked twice: about a larger and about a smaller spheroid,
-by what the rounding of the difference of two centres may be in radii, as for positions (scene_pairs.py).
-The larger one clear is clear, the smaller one in contact is contact. What is left is decided from the exact differences
-by truth/swept.py. Nowhere else does the kernel ask that room: no other exact decision about sweeps is known. Beside a
-tilted hyperboloid both ends and the mover's axis are turned into its frame (scene_queries.py), and the roundings of
-that are added.
+The kernel's answer about sweeps (core/parts/sweeps.h) is asked twice: about a larger and about a smaller spheroid, by
+what the rounding of the difference of two centres may be in radii, as for positions (scene_pairs.py). The larger one
+clear is clear, the smaller one in contact is contact. What is left is decided from the exact differences by
+truth/swept.py. No other exact decision about sweeps is known, so the kernel uses that of truth/.
+Beside a tilted hyperboloid both ends and the mover's axis are turned into its frame (scene_queries.py), and the
+roundings of that are added.
 
 Where the hyperboloid ends, what is clear of the whole one is clear of its wall. A mover that reaches beyond an end, and
 no other, is asked about the ends as well: those decide where it may hit, and of a solid one always.
@@ -58,7 +58,7 @@ def hits_beside(
 def bounded_hits(
     bodies: Bodies, body: Indices, semi_axes: Rows, starts: Rows, ends: Rows, axes: Rows | None = None
 ) -> tuple[Mask, Mask]:
-    """The same by bounds alone, and which sweeps these do not decide, (n,) each."""
+    """Hits by bounds only, and which sweeps these do not decide, (n,) each."""
     origins, shapes, spans = bodies.origins[body], bodies.shapes[body], bodies.spans[body]
     with np.errstate(all="ignore"):
         (start, lost_start), (end, lost_end) = two_sum(starts, -origins), two_sum(ends, -origins)
@@ -114,7 +114,7 @@ def _in_frames(
 
 @dataclass(frozen=True, slots=True)
 class Sweep:
-    """Where a spheroid goes straight, in the scene's coordinates, and its axis."""
+    """The straight motion of a spheroid, in the scene's coordinates, and its axis."""
 
     start: Sequence[float | Fraction]
     end: Sequence[float | Fraction]
@@ -260,7 +260,7 @@ def point_at_once(given: object) -> Place | None:
 
 
 def hit_at_once(grid: PlaneGrid, near: Callable[[int], Near], mover: Mover, start: Place, end: Place) -> bool | None:
-    """Whether the mover itself has contact on its sweep, and None where bounds do not tell."""
+    """Whether the mover itself has contact on its sweep; None if bounds do not decide."""
     candidates = grid.near_sweep(start[0], start[1], end[0], end[1])
     if candidates is None:
         return None
@@ -289,7 +289,7 @@ def hit_at_once(grid: PlaneGrid, near: Callable[[int], Near], mover: Mover, star
 
 
 def _hits(beside: Sequence[tuple[tuple[float, float], tuple[float, ...]]], mover: Mover, scale: float) -> list[int]:
-    """What the kernel says of the mover, larger or smaller by a factor, beside each."""
+    """The kernel's answers for the mover, larger or smaller by a factor, beside each hyperboloid."""
     semi_axes = mover.b * scale, mover.d * scale
     rows = np.array([(*shape, *semi_axes, *ends) for shape, ends in beside])
     hits: list[int] = kernel().answer_sweeps(rows)[0].tolist()
