@@ -81,19 +81,20 @@ WORKLOADS = completing.Names(completing.workloads, many=True)
 def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> None:  # noqa: ANN401  click's options
     """Compare methods by error and by run time, on the same rows.
 
-    Every method is judged by how far from right the rows it answers wrongly are, then timed in fresh processes, in
-    rounds of all methods. A SPEC (builtin:NAME, python:…, library:path.so, command:…) is measured beside them.
+    Every method is judged by the distance of its wrong answers from a right answer, then timed in fresh processes, in
+    rounds of all methods. A SPEC (builtin:NAME, python:…, library:path.so, command:…) is measured too.
 
-    With --question passage each row is a sweep, and missed and false contacts are set against the time of a sweep.
-    With --tilted the spheroids are tilted, and the methods are those that can be asked so: the workloads are others,
-    and ratios of positions are to another reference. So it is with a scene whose mover is tilted; the kernel that
-    `hypcheck emit` writes for it can be a SPEC.
+    With --question passage each row is a sweep, and missed and false contacts are shown over the time of a sweep. With
+    --tilted the spheroids are tilted, only methods for tilted spheroids take part, the workloads differ, and ratios of
+    positions are to another reference. The same holds for a scene whose mover is tilted; the kernel that `hypcheck
+    emit` writes for it can be a SPEC.
 
     With --baseline, times relative to the reference method are compared with those of an earlier record, of this
     machine or another; with --kernel, times of the fast path with its targets. Without them no time fails the run.
 
-    Ends with 0 if all held, 1 if a method that promises to be exact erred, or a method answered differently while it
-    was timed, 3 if one is slower than allowed, 4 if the machine was too noisy to tell, 5 if a SPEC could not start.
+    Ends with 0 if nothing failed, 1 if a method that promises to be exact was wrong, or a method answered differently
+    while it was timed, 3 if one is slower than allowed, 4 if the machine was too noisy to decide, 5 if a SPEC could not
+    start.
     """
     from dataclasses import replace
     from tempfile import TemporaryDirectory

@@ -17,9 +17,9 @@ from hypcheck.tables.streams import FORMATS, route
 
 _HELP = """Give the position of a spheroid relative to a hyperboloid: exterior, contact (with tangency) or interior.
 
-Exact for every valid pair: decimals are rounded to the nearest float64 and taken as exact from there on. Lengths are in
-one unit of your choice, and so is the distance of the two. Clearance is in spheroid radii: 1 + clearance is the factor
-by which the spheroid, scaled about its centre, would just touch the hyperboloid.
+Exact for every valid pair: decimals are first rounded to the nearest float64, and these values count as exact. Lengths
+and distances are in one unit of your choice. Clearance is in spheroid radii: 1 + clearance is the factor by which the
+spheroid, scaled about its centre, would just touch the hyperboloid.
 
 \b
 One pair:  hypcheck classify --alpha 1 --gamma 2 --b 1 --d 1 --center 2.5 0 0
@@ -28,22 +28,23 @@ A sweep:   hypcheck classify --alpha 1 --gamma 2 --b 1 --d 1 --center 4 0 0 --en
 It ends:   hypcheck classify --alpha 1 --gamma 2 --b 1 --d 1 --center 2 0 4 --z-max 3 --solid
 A table:   hypcheck classify --input pairs.csv --output answers.csv
 
-A sweep is the straight motion of the centre to --end. The answer is contact or none on the sweep, both ends included,
-and between which two numbers the time of the first contact lies, from 0 at the start to 1 at the end.
+A sweep is the straight motion of the centre to --end. The answer says whether there is contact on the sweep, both ends
+included, and gives a lower and an upper bound of the time of the first contact, from 0 at the start to 1 at the end.
 
-The hyperboloid ends at --z-min and --z-max. Without --solid its wall alone is there: contact is contact with the wall,
-and a spheroid without contact is interior if its centre lies within the wall and between the ends. With --solid flat
-ends belong to it, as to a trunk.
+The hyperboloid ends at --z-min and --z-max. Without --solid it is only a wall: contact means contact with the wall, and
+a spheroid without contact is interior if its centre lies within the wall and between the ends. With --solid it also has
+flat ends, like a trunk.
 
-With --margin the position is said a second time, where all that is not proved to be at least so far away is contact.
+With --margin the answer has a second position: a spheroid that is not proved to be at least so far away counts as
+contact.
 
-A table has the columns (or keys) alpha, gamma, b, d, x, y, z in any order, and axis_x, axis_y, axis_z where spheroids
-are tilted; all others are passed through, and position (+1, 0, -1), label, tangent and clearance are added,
-with --margin position_with_margin too. With x1, y1, z1, the end of a sweep, hit (1 or 0), label, first_lower and
-first_upper are. z_min, z_max and solid (0 or 1) say where the hyperboloid ends; one of them is enough. A .npy file is
-float64 (n, 7), (n, 10), the axis behind, or (n, 13), z_min, z_max and solid behind the axis; as output it is int8 (n,),
-positions, with the margin if one is given. A file appears when it is complete, or not at all; standard output is
-written as the rows come.
+A table has the columns (or keys) alpha, gamma, b, d, x, y, z in any order, and axis_x, axis_y, axis_z for tilted
+spheroids; all other columns are copied. The output adds position (+1, 0, -1), label, tangent and clearance, with
+--margin position_with_margin too. For sweeps, whose end is x1, y1, z1, it adds hit (1 or 0), label, first_lower and
+first_upper. z_min, z_max and solid (0 or 1) say where the hyperboloid ends; one of them is enough. A .npy file is
+float64 (n, 7), or (n, 10) with the axis last, or (n, 13) with z_min, z_max and solid after the axis; as output it is
+int8 (n,), positions, with the margin if one is given. A file appears when it is complete, or not at all; standard
+output is written as the rows come.
 """
 
 
@@ -51,14 +52,14 @@ written as the rows come.
 @click.option("--alpha", metavar="NUMBER", help="Radius of the hyperboloid's waist.")
 @click.option("--gamma", metavar="NUMBER", help="Its semi-axis along z.")
 @click.option("--b", metavar="NUMBER", help="Radius of the spheroid's equator.")
-@click.option("--d", metavar="NUMBER", help="Its semi-axis along its axis, which is z's direction without --axis.")
+@click.option("--d", metavar="NUMBER", help="Its semi-axis along its axis; without --axis that is the z axis.")
 @click.option("--center", nargs=3, metavar="X Y Z", help="Centre of the spheroid; the hyperboloid's is the origin.")
 @click.option("--axis", nargs=3, metavar="X Y Z", help="The spheroid's axis, of any length; without it, upright.")
 @click.option("--end", nargs=3, metavar="X Y Z", help="Where the centre moves to, straight; without it, no motion.")
-@click.option("--z-min", metavar="NUMBER", help="Height where the hyperboloid ends below; without it, it does not.")
-@click.option("--z-max", metavar="NUMBER", help="Height where it ends above.")
+@click.option("--z-min", metavar="NUMBER", help="Height of the hyperboloid's lower end; without it, infinite.")
+@click.option("--z-max", metavar="NUMBER", help="Height of its upper end; without it, infinite.")
 @click.option("--solid", is_flag=True, help="Flat ends belong to it.")
-@click.option("--margin", metavar="LENGTH", help="Also say the position where nearer than this is contact.")
+@click.option("--margin", metavar="LENGTH", help="Also give the position if nearer than this counts as contact.")
 @click.option("--json", "as_json", is_flag=True, help="Answer with one JSON object, its proof in exact numbers.")
 @click.option(
     "--input", "source", metavar="FILE", help="A table of pairs: .csv, .jsonl, .npy, or - for standard input."

@@ -20,16 +20,16 @@ if TYPE_CHECKING:
 _FLIGHT_HELP = """Find the first contact on flights through SCENE, and their least distance, exactly.
 
 SCENE is a file (docs/scenes.md) or a shipped scene. PATH is a CSV file of corners of the mover's centre, which goes
-straight from each to the next: columns x, y, z, and if you like heading (degrees) and axis_x, axis_y, axis_z of the
-segment that begins there, and flight, where several are in the file. Standard input is - .
+straight from each to the next: columns x, y, z; optional are heading (degrees) and axis_x, axis_y, axis_z for the
+segment that begins there, and flight, if the file has several. Standard input is - .
 
 \b
 hypcheck flight tower path.csv
 hypcheck flight forest.toml flights.csv --json
 
-The answer is the first segment with contact, counted from 0, between which two numbers the time within it lies, and the
-hyperboloid; or that the flight is clear. The least distance is that of the mover itself, its parts left aside, at all
-times; it lies between the two numbers. The exit code is 0, whether there is contact or not.
+The answer is the first segment with contact, counted from 0, bounds of the time within it, and the hyperboloid; or that
+the flight is clear. The least distance is that of the mover itself, without its parts, at all times, given as two
+bounds. The exit code is 0 with contact and without.
 """
 
 

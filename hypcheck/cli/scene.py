@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from hypcheck.scene.model import SceneModel
 
 
-_PLAN_HELP = """Show what SCENE needs of the mathematics, what is left out, why that is allowed, and what it saves.
+_PLAN_HELP = """Show which computations SCENE needs, which are left out, why that is allowed, and what it saves.
 
 SCENE is a file (docs/scenes.md) or a shipped scene; `hypcheck emit` writes the kernel that the plan describes.
 
@@ -91,13 +91,13 @@ LANGUAGES = ("c", "cpp", "rust", "javascript", "python")
 _EMIT_HELP = """Generate source code: a kernel with only what a scene needs, or a method for one pair of any sizes.
 
 With --method exact the file answers every float64 row rightly: floats where a proved bound allows, whole numbers for
-the rest, without dependencies. With --method certified it has the floats alone, and says 2 where they cannot say;
-so do dual and local-maximum, which prove the answer by a concave function instead of the discriminant. With tilted the
-spheroid has an axis; clearance gives bounds of its clearance besides, and passage says whether it has contact on a
-straight sweep, and up to when it has none.
+the rest, without dependencies. With --method certified it has only the floats, and answers 2 if they cannot decide; so
+do dual and local-maximum, which prove the answer by a concave function instead of the discriminant. With tilted the
+spheroid has an axis; clearance also gives bounds of its clearance; passage says whether it has contact on a straight
+sweep, and gives a time before which it has none.
 
 SCENE is a file (docs/scenes.md) or a shipped scene. Its sizes and constant heights are folded in, and only its question
-is answered; `hypcheck plan` shows what is left out and why. The head of the kernel says what is proved about it.
+is answered; `hypcheck plan` shows what is left out and why. The first comment of the kernel states the proved bounds.
 
 \b
 hypcheck emit --scene tower --language c --output kernel.c
@@ -109,11 +109,12 @@ C, C++ and Rust have the names and the signature that `verify library:` expects;
 `python:kernel.py:classify`; the JavaScript module takes the place of predicate.mjs in the adapter of
 `hypcheck init --language javascript`.
 
-With --sweeps the file answers about the mover's straight motions in the whole scene, and up to when one is clear.
+With --sweeps the file says whether a straight motion of the mover has contact in the whole scene, and gives a time
+before which it has none.
 
 With --whole the kernel also has the hyperboloids' places and heights and the mover's parts, in tables of any length,
-and one function more: hypcheck_whole(n, x, y, z, heading, answers), in JavaScript and Python whole(x, y, z, heading),
-the answer about the scene for the mover's centre in the scene's coordinates.
+and one more function: hypcheck_whole(n, x, y, z, heading, answers), in JavaScript and Python whole(x, y, z, heading),
+which answers the scene's question for the mover's centre in the scene's coordinates.
 
 Kernels that are linked into one program, or beside hypcheck.h, need different names: with `--prefix tower` the
 functions are tower_classify, tower_classify_scene and tower_describe (C, C++, Rust). `verify library:` asks for the

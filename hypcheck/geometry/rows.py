@@ -328,7 +328,7 @@ class FixedSizes:
         return self.x, self.y, self.z
 
     def holds(self, rows: Rows, layout: Layout = PAIRS) -> Mask:
-        """A mask (n,) of the rows with these sizes, this axis and the centre, of a sweep both ends, in the spans."""
+        """A mask (n,) of the rows with these sizes, this axis and the centre (of a sweep both centres) in the spans."""
         inside = (rows[:, :4] == self.sizes).all(axis=1)
         if not inside.any():  # the usual case where a scene has many sizes
             return np.asarray(inside)
