@@ -131,16 +131,16 @@ def section(figures: Figures) -> str:
         for why in dict.fromkeys(map(reason, figures["gaps"]))
     )
     return f"""\
-clang compiles `hypcheck.h` with `-fcoverage-mcdc`. It is asked the frozen vectors, scenes made of them, rows and scenes
-at the borders, all in several rounding modes, and each guard at its limit (`tests/tools/evidence/battery/`), on the
-instruction sets {", ".join(figures["levels"])}. What is printed for several instruction sets
-is counted for each.
+clang compiles `hypcheck.h` with `-fcoverage-mcdc`. The inputs are the frozen vectors, scenes made of them, rows and
+scenes at the borders, all in several rounding modes, and each guard at its limit (`tests/tools/evidence/battery/`), on
+the instruction sets {", ".join(figures["levels"])}. Code that is printed for several instruction
+sets is counted for each.
 
 | | count | reached | share |
 | --- | --- | --- | --- |
 {rows}
 
-What is not reached, and why ({figures["count"]} of {len(figures["gaps"])} are not explained):
+Code that no input reaches, with the reason ({figures["count"]} of {len(figures["gaps"])} have none yet):
 
 {gaps}
 """

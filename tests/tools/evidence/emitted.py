@@ -122,17 +122,17 @@ def section(figures: Figures) -> str:
         for why in dict.fromkeys(map(reason, figures["gaps"]))
     )
     return f"""\
-{len(figures["texts"])} texts: kernels of scenes and of whole scenes, in both precisions, for movers that stand and
-that are tilted; every method; the adapters in C and C++ with each of their stubs. Kernels are asked frozen and drawn
-rows, the families of their sizes, other sizes and axes, and rows at, beside and beyond the limits of each stage;
-answers are judged as those of any implementation, one in seven of those at the limits. Adapters are
-told questions, and lines and ends of input that are none (`tests/tools/evidence/emitted*.py`).
+{len(figures["texts"])} texts are compiled: kernels of scenes and of whole scenes, in both precisions, for upright and
+tilted movers; every method; the adapters in C and C++ with each of their stubs. Kernels answer frozen and drawn rows,
+the families of their sizes, other sizes and axes, and rows at, beside and beyond the limits of each stage. The answers
+are judged like those of any implementation, at the limits one in seven of them. Adapters get questions, and also
+invalid lines and ends of input (`tests/tools/evidence/emitted*.py`).
 
 | | count | reached | share |
 | --- | --- | --- | --- |
 {rows}
 
-What is not reached, and why ({figures["count"]} of {len(figures["gaps"])} are not explained):
+Code that no input reaches, with the reason ({figures["count"]} of {len(figures["gaps"])} have none yet):
 
 {gaps}
 """

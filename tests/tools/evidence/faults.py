@@ -55,15 +55,15 @@ def section(figures: Figures) -> str:
     kinds = ", ".join(f"{count} {name}" for name, count in calls.items())
     text = f"""\
 A small run of `hypcheck verify`, which writes its progress at every step, makes {sum(calls.values())} calls to the
-system that change its folder: {kinds}. For each n the run was made again
-with its n-th call failing: that call alone, with "no space left" or an error of the disk; a disk that is full from then
-on, with half of the data written; a disk that fails from then on; the process killed in that call; of a write, only
-half of the data taken, which is no error. Half of the runs began in the folder of an earlier run.
+system that change its folder: {kinds}. For each n the run was repeated with a fault in its n-th
+call: only that call fails, with "no space left" or a disk error; the disk is full from then on, after half of the data
+was written; the disk fails from then on; the process is killed in that call; or a write takes only half of the data,
+which is not an error. Half of the runs began in the folder of an earlier run.
 
-{figures["cases"]} runs failed so; {figures["wrong"]} were not as they must be: exit code 2, one sentence with the
-reason and the file, no traceback; the record readable but for a last line that is cut off; the earlier record there
-until the new one is complete; and then the same command, with `--resume` where something was kept, comes to the result
-of an unbroken run, byte for byte but for times.
+There were {figures["cases"]} such runs, and {figures["wrong"]} of them broke a rule. The rules are: exit code 2, one
+sentence with the reason and the file, no traceback; the record is readable except for a last line that is cut off; the
+earlier record exists until the new one is complete; and the same command, with `--resume` if something was kept, then
+gives the result of an uninterrupted run, byte for byte except for times.
 """
     found = [f"- {each['fault']} at call {each['number']}: {each['said']}" for each in figures["findings"]]
     return "\n".join([text, *found])

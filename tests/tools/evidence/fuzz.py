@@ -128,15 +128,15 @@ def section(figures: Figures) -> str:
     return f"""\
 libFuzzer (clang) makes inputs from the frozen vectors and from a kept corpus (`fuzzing/corpus.txt`):
 rows of 7 and of 10, scenes, sweeps and clearances, for every instruction set, rounding mode and question. The header is
-compiled with address and undefined-behaviour sanitizers. Its answers are compared with an oracle that is in the fuzzer
-and shares nothing with the kernel: det(S + λH) from the two matrices in GMP's whole numbers, its roots separated by
-Sturm's sequence, and Sylvester's criterion between them. Of a sweep seven places are decided so, and the place of the
-hit; of a clearance both bounds are, on a spheroid grown by them.
+compiled with address and undefined-behaviour sanitizers. Its answers are compared with an oracle in the fuzzer that
+shares nothing with the kernel: det(S + λH) from the two matrices in GMP's integers, its roots separated by Sturm's
+sequence, and Sylvester's criterion between them. For a sweep this oracle decides seven places and the place of the hit.
+For a clearance it decides the spheroids that are scaled by each of the two bounds.
 
 {ran}
 
-Scenes, sweeps and clearances whose exponents lie over 400 apart are left to the frozen vectors: the integers of one
-such row take milliseconds.
+Only the frozen vectors test scenes, sweeps and clearances whose exponents differ by more than 400, because the integers
+of one such row take milliseconds.
 """
 
 

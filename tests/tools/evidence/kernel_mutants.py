@@ -100,22 +100,22 @@ def section(figures: Figures) -> str:
     places = ", ".join(f"`{name}` {count}" for name, count in counts.most_common())
     return f"""\
 Every comparison, junction, guard and float constant of `hypcheck.h` is changed, {figures["mutants"]} changes in all:
-`<` to `<=`, `&&` to `||`, a condition to 0, a constant to half and twice, a whole number by 1. Loops, what chooses an
-instruction set, and functions that only guess where a proof is looked for are left alone. The plain level is asked
-about each guard at its limit and about frozen vectors, in all rounding modes (`tests/tools/evidence/battery/`).
+`<` to `<=`, `&&` to `||`, a condition to 0, a constant to half and twice, an integer by 1. Loops, the choice of an
+instruction set, and functions that only guess where to look for a proof are not changed. The plain level answers frozen
+vectors and rows at the limit of each guard, in all rounding modes (`tests/tools/evidence/battery/`).
 
-| told by | mutants |
+| detected by | mutants |
 | --- | --- |
-| a wrong answer, or a guard that says other than it should | {by.get("wrong", 0)} |
+| a wrong answer, or a wrong decision of a guard | {by.get("wrong", 0)} |
 | a crash | {by.get("crash", 0)} |
-| no end | {by.get("endless", 0)} |
+| a run without end | {by.get("endless", 0)} |
 | right answers, and stages that decide more or fewer of them | {by.get("counts", 0)} |
 | the rule of a program for all signs, or its limits, in exact arithmetic | {by.get("rule", 0)} |
 | the derivation of a constant | {by.get("derivation", 0)} |
-| nothing, and it is explained | {figures["explained"]} |
-| nothing | {len(figures["living"])} |
+| nothing, with an explanation | {figures["explained"]} |
+| nothing, without one | {len(figures["living"])} |
 
-Explained are those that no row can tell, each with its reason in `explained_kernel_mutants.json`:
+No row can detect the explained mutants; `explained_kernel_mutants.json` has the reasons:
 
 {_reasons()}
 {_not_sorted(places) if figures["living"] else ""}"""
@@ -128,7 +128,7 @@ def _reasons() -> str:
 
 def _not_sorted(places: str) -> str:
     return f"""\
-What nothing tells and nobody has explained asks for a test; `figures.json` lists it. By function:
+A mutant that is neither detected nor explained needs a test; `figures.json` lists them. By function:
 {places}.
 """
 

@@ -12,13 +12,13 @@ from tests.tools.evidence.parts import PAGE, PARTS, TABLES, Figures, part
 OPENING = """\
 # Evidence about our own code
 
-For those who change `hypcheck`, or ask how well its own code is tested.
+For those who change `hypcheck`, or ask how well its own code is tested. Afterwards you know which code no test runs,
+and which faults no test finds.
 
-The suite judges implementations by mutants, by fuzzing and by proofs. This page says what the same means find in
-our own code; long lists are tables beside it (docs/evidence/). `make evidence` measures every figure anew and prints
-them; one part alone is
-`python -m tests.tools.evidence PART --write`. Continuous integration asks cheap forms of them, and does not let a
-figure fall below its floor (`tests/tools/evidence/floors.py`).
+Mutants, fuzzing, coverage and injected faults test our own code. This page has the results; long lists are tables in
+docs/evidence/. `make evidence` measures every figure again and writes the page;
+`python -m tests.tools.evidence PART --write` measures one part. Continuous integration runs short forms of them, and
+fails if a figure falls below its floor (`tests/tools/evidence/floors.py`).
 """
 
 MOST = 20

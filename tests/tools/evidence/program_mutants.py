@@ -137,9 +137,9 @@ def measure() -> Figures:
 
 def section(figures: Figures) -> str:
     """What was changed, and what no test told."""
-    living = "".join(f"- `{each}`\n" for each in figures["living"]) or "None lives.\n"
+    living = "".join(f"- `{each}`\n" for each in figures["living"]) or "None survives.\n"
     return f"""\
-A bound has room to spare: a smaller one may answer every row right that anyone asks. Such constants are told by their
-derivation: a test counts the roundings that the program has and compares the constant with them. {figures["mutants"]}
-constants and rules of `hypcheck/kernel/programs/` are changed one at a time. The tests of `tests/kernel/` tell
-{figures["told"]}. {living}"""
+A bound is larger than any error in practice, so a smaller constant may still give a right answer for every tested row.
+Such constants are tested by their derivation: a test counts the roundings of the program and compares the constant with
+the count. {figures["mutants"]} constants and rules of `hypcheck/kernel/programs/` are changed one at a time. The tests
+of `tests/kernel/` detect {figures["told"]}. {living}"""

@@ -252,16 +252,14 @@ def section(figures: Figures) -> str:
     thorough = {name.removesuffix("-thorough") for name in left} - whole
     but = f", without those of {', '.join(sorted(whole - part))}" if whole - part else ""
     but += f", without the thorough ones of {', '.join(sorted(thorough - part))}" if thorough - part else ""
-    but += f", with a part alone of those of {', '.join(sorted(whole & part))}" if whole & part else ""
-    but += (
-        f", with a part alone of the thorough ones of {', '.join(sorted(thorough & part))}" if thorough & part else ""
-    )
+    but += f", with only some of those of {', '.join(sorted(whole & part))}" if whole & part else ""
+    but += f", with only some of the thorough ones of {', '.join(sorted(thorough & part))}" if thorough & part else ""
     text = f"""\
-All tests, the thorough ones too{but},
+All tests, including the thorough ones{but},
 run {lines} % of the {figures["statements"]} statements and {branches} % of the {figures["branches"]} branches of the
-package, {both} % of both together; processes that the tests start count, but for those that are isolated. What is
-under `[tool.coverage]` in `pyproject.toml` does not count. What is left, as of {figures["as of"]}: lines, and lines
-from which a branch is not taken.
+package, {both} % of both together. Processes that the tests start are counted, except isolated ones. Code excluded
+under `[tool.coverage]` in `pyproject.toml` is not counted. The table lists the lines that no test runs, and the lines
+with a branch that no test takes, as of {figures["as of"]}.
 
 | file | function | lines | branches | reason |
 | --- | --- | --- | --- | --- |

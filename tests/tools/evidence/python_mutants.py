@@ -262,12 +262,12 @@ def section(figures: Figures) -> str:
 
 
 OPENING = """\
-An operator, a comparison, a constant or a condition is changed, or a statement left out, in a function that is loaded;
-the tests that run its line judge it: at first those that run the fewest lines, then long ones against what survives.
+A mutant changes an operator, a comparison, a constant or a condition, or leaves out a statement, in a loaded function.
+The tests that run the changed line judge it: first those that run the fewest lines, then longer ones for the survivors.
 Of {mutants} mutants, drawn by a checksum of their text, {killed} were killed ({share} %): a test failed, or took
 several times as long. {explained} survivors have an explanation; {left} have none yet. Functions that run only when a
-module is loaded, and `strict=` of zip, are not changed. The tests are chosen among the {tests} of which coverage has
-kept what they run; others, as most of `make thorough`, were not asked.
+module is loaded, and `strict=` of zip, are not changed. Only the {tests} tests whose lines coverage has recorded can
+judge; others, such as most of `make thorough`, were not run.
 
 | code | mutants | killed | share | explained | left |
 | --- | --- | --- | --- | --- | --- |"""
