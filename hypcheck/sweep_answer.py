@@ -105,7 +105,7 @@ def sweep_as_text(answer: SweepAnswer) -> str:
     return "\n".join([*lines, f"proof      {proof[0]}", *(f"{'':11}{line}" for line in proof[1:])])
 
 
-_BESIDE_ENDS = "none is written where the hyperboloid ends: the times are decided in integers (docs/motion.md)."
+_BESIDE_ENDS = "none is written if the hyperboloid ends: the times are decided in integers (docs/motion.md)."
 
 _MOST_PIECES = 4
 """The text shows so many pieces of a proof."""
@@ -113,7 +113,7 @@ _MOST_PIECES = 4
 
 def _proof_lines(certificate: PassageCertificate | None) -> Iterator[str]:
     if certificate is None:
-        yield "none in rational numbers: the surfaces touch at an irrational time alone"
+        yield "none in rational numbers: the surfaces touch only at an irrational time"
         return
     for at, end in certificate.pieces[:_MOST_PIECES]:
         yield f"λ {equals_text(at)} proves the sweep clear up to the time {readable_text(end)};"

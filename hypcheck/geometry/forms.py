@@ -197,5 +197,5 @@ def points_or_columns(x: ArrayLike, y: ArrayLike | None, z: ArrayLike | None) ->
     if y is None and z is None:
         x, y, z = named_points("the centre", x).values()
     if y is None or z is None:
-        raise InputError(f"{'y' if y is None else 'z'} is not given; there must be x, y and z, or points (n, 3) alone")
+        raise InputError(f"{'y' if y is None else 'z'} is not given; there must be x, y and z, or only points (n, 3)")
     return x, y, z

@@ -167,7 +167,7 @@ def _write(text: str, view: _View) -> str:
         return ""
     if not any(os.access(os.path.dirname(path), os.W_OK) for path in named if not os.path.isdir(path)):
         return ""
-    return f"and writes to its scratch folder alone, which TMPDIR names; {_TRUST}"
+    return f"and can write only to its scratch folder, which TMPDIR names; {_TRUST}"
 
 
 def _rights(text: str, view: _View) -> str:

@@ -177,7 +177,7 @@ def classify(
         return classify_scene(prepared, *center, **{"out": out, "axis": axis} | options)
     call = pairs_of(pairs, columns, axis, (z_min, z_max, solid))
     if call.single and out is not None:
-        raise InputError("out is given, and one pair is answered by a number; it goes with rows alone")
+        raise InputError("out is given, but the answer to one pair is a number; give out only with rows")
     if call.scene and not margin:
         result = _of_scene(call.columns, out, on_invalid, question, number)
         return int(result[0]) if call.single else result

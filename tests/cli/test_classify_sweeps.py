@@ -58,7 +58,7 @@ def test_sweep_without_a_rational_certificate_has_bounds_and_no_proof(capsys, mo
     assert (said["hit"], said["grazes"], said["proof"]) == (1, True, None)
     assert said["first"][0] <= 0.5 <= said["first"][1]
     assert main(["classify", *sweep]) == 0
-    assert "none in rational numbers: the surfaces touch at an irrational time alone" in capsys.readouterr().out
+    assert "none in rational numbers: the surfaces touch only at an irrational time" in capsys.readouterr().out
 
 
 def test_sweep_whose_proof_does_not_hold_ends_with_6(capsys, monkeypatch):

@@ -23,7 +23,7 @@ OWN = (
     "; it runs isolated, and does not see hypcheck; 'hypcheck emit --method exact --language python' writes a file "
     "that needs nothing else, and --isolate off runs code that you trust without"
 )
-WRITES = "it runs isolated, and writes to its scratch folder alone, which TMPDIR names; --isolate off runs code"
+WRITES = "it runs isolated, and can write only to its scratch folder, which TMPDIR names; --isolate off runs code"
 
 
 def function_that(tmp_path, *lines: str) -> str:

@@ -202,7 +202,7 @@ def test_an_isolated_implementation_that_does_not_start_gets_a_hint_about_isolat
     code = "open('/forged', 'w')"
     if not HERE.names:
         pytest.skip(f"a program here is {SAID}")
-    with pytest.raises(StartError, match=r"isolated, and writes to its scratch folder alone, .*without$"):
+    with pytest.raises(StartError, match=r"isolated, and can write only to its scratch folder, .*without$"):
         open_implementation("command:" + json.dumps([sys.executable, "-I", "-S", "-c", code]), isolated(HERE))
 
 

@@ -162,7 +162,7 @@ def test_heights_may_be_columns():
         ((SIZES, POINTS), {"center": POINTS}, "x is given twice; it must be given once"),
         ((ROWS,), {"x": 3}, "x is given twice"),
         ((SIZES, POINTS), {"out": [1]}, "out is of type list"),
-        (([1, 2, 1, 1, 2.5, 0, 0],), {"out": np.zeros(1, np.int8)}, "one pair is answered by a number"),
+        (([1, 2, 1, 1, 2.5, 0, 0],), {"out": np.zeros(1, np.int8)}, "the answer to one pair is a number"),
         ((SIZES, [9, 0, np.nan]), {}, "z is nan; it must be finite"),
         (([1, 2, 1, -1, 2.5, 0, 0],), {}, "^d is -1.0; a semi-axis must be greater than 0"),
         ((SIZES, POINTS), {"z_min": 2, "z_max": 1}, "z_min must be less than z_max"),
