@@ -246,6 +246,11 @@ class Link:
     cites: str = ""
 
     @property
+    def because(self) -> str:
+        """The kind of the reason, with the theorem that it cites."""
+        return f"{self.reason}: {self.cites}" if self.cites else self.reason
+
+    @property
     def holds(self) -> bool:
         """Whether there is something to check and all of it holds."""
         return bool(self.parts) and all(part.holds for part in self.parts)

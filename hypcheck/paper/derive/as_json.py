@@ -31,13 +31,13 @@ def document(chosen: Selection) -> dict[str, Any]:
     """The object; a part that was not asked for is missing."""
     parts: dict[str, Any] = {}
     if "derivation" in chosen.parts:
-        parts["derivation"] = [_chain(section) for section in chosen.sections]
+        parts["derivation"] = list(map(_chain, chosen.sections))
     if "propositions" in chosen.parts or chosen.claim is not None:
-        parts["propositions"] = [_chain(chain) for chain in chosen.chains]
+        parts["propositions"] = list(map(_chain, chosen.chains))
     if "ledger" in chosen.parts or chosen.claim is not None:
-        parts["ledger"] = [_entry(entry) for entry in chosen.entries]
+        parts["ledger"] = list(map(_entry, chosen.entries))
     if "costs" in chosen.parts:
-        parts["costs"] = [_cost(cost) for cost in chosen.costs]
+        parts["costs"] = list(map(_cost, chosen.costs))
     failing = list(chosen.failing)
     return {
         "hypcheck": VERSION,
@@ -49,24 +49,21 @@ def document(chosen: Selection) -> dict[str, Any]:
     }
 
 
-def _chain(chain: Chain) -> dict[str, Any]:
+def _fields(value: object, *names: str) -> dict[str, Any]:
+    """The fields of those names: a tuple as a list, an empty text as null."""
+    fields = {name: getattr(value, name) for name in names}
     return {
-        "name": chain.name,
-        "statement": chain.statement,
-        "needs": list(chain.needs),
-        "holds": chain.holds,
-        "links": [_link(link) for link in chain.links],
+        name: list(field) if isinstance(field, tuple) else field or None if isinstance(field, str) else field
+        for name, field in fields.items()
     }
+
+
+def _chain(chain: Chain) -> dict[str, Any]:
+    return {**_fields(chain, "name", "statement", "needs", "holds"), "links": list(map(_link, chain.links))}
 
 
 def _link(link: Link) -> dict[str, Any]:
-    return {
-        "statement": link.statement,
-        "reason": link.reason,
-        "cites": link.cites or None,
-        "holds": link.holds,
-        "parts": [_part(part) for part in link.parts],
-    }
+    return {**_fields(link, "statement", "reason", "cites", "holds"), "parts": list(map(_part, link.parts))}
 
 
 def _part(part: Part) -> dict[str, Any]:
@@ -80,31 +77,18 @@ def _part(part: Part) -> dict[str, Any]:
 
 
 def _entry(entry: LedgerEntry) -> dict[str, Any]:
+    named = ("number", "section", "statement", "verdict", "confirmed", "why", "proved_by", "printed", "correction")
     return {
-        "number": entry.number,
-        "section": entry.section,
-        "statement": entry.statement,
-        "verdict": entry.verdict,
-        "confirmed": entry.confirmed,
-        "why": entry.why,
-        "proved_by": list(entry.proved_by),
-        "printed": entry.printed or None,
-        "correction": entry.correction or None,
-        "harmless": entry.harmless or None,
-        "faults": list(entry.faults),
-        "follows": entry.follows,
-        "evidence": [_evidence(evidence) for evidence in entry.evidence],
+        **_fields(entry, *named, "harmless", "faults", "follows"),
+        "evidence": list(map(_evidence, entry.evidence)),
     }
 
 
 def _evidence(evidence: Evidence) -> dict[str, Any]:
     return {
-        "kind": evidence.kind,
-        "text": evidence.text,
-        "holds": evidence.holds,
-        "chain": evidence.chain or None,
-        "witnesses": [_witness(witness) for witness in evidence.witnesses],
-        "leaning": [_leaning(witness) for witness in evidence.leaning],
+        **_fields(evidence, "kind", "text", "holds", "chain"),
+        "witnesses": list(map(_witness, evidence.witnesses)),
+        "leaning": list(map(_leaning, evidence.leaning)),
     }
 
 
@@ -138,9 +122,7 @@ def _leaning(witness: LeaningWitness) -> dict[str, Any]:
 
 def _cost(cost: Cost) -> dict[str, Any]:
     return {
-        "name": cost.name,
-        "title": cost.title,
-        "source": cost.source,
+        **_fields(cost, "name", "title", "source"),
         "scene": _operations(cost.scene),
         "query": _operations(cost.query),
         "query_divisions_by_fixed": cost.by_fixed,

@@ -10,18 +10,9 @@ import re
 from collections.abc import Iterable, Iterator
 
 from hypcheck.derivation.formulas import Cost
-from hypcheck.derivation.links import Chain, Identity, Link, Part
-from hypcheck.paper.derive import PARTS
-from hypcheck.paper.derive.selection import (
-    CHECKED,
-    COST_COLUMNS,
-    COSTS_EXPLAINED,
-    FAILS,
-    Selection,
-    cost_cells,
-    details,
-    verdict,
-)
+from hypcheck.derivation.links import Chain, Part
+from hypcheck.paper.derive import PARTS, selection
+from hypcheck.paper.derive.selection import Selection
 from hypcheck.paper.derive.text import broken
 from hypcheck.paper.ledger.entry import LedgerEntry
 
@@ -212,20 +203,16 @@ def _chain(chain: Chain, *, numbered: bool) -> Iterator[str]:
     for number, link in enumerate(chain.links, 1):
         yield ""
         before = rf"\textbf{{{number}.}} " if numbered else ""
-        yield before + sentence(link.statement) + (f" [{_reason(link)}]" if numbered else "")
+        yield before + sentence(link.statement) + (f" [{sentence(link.because)}]" if numbered else "")
         yield from map(_display, link.parts)
-
-
-def _reason(link: Link) -> str:
-    return sentence(f"{link.reason}: {link.cites}" if link.cites else link.reason)
 
 
 def _display(part: Part) -> str:
     """A formula on its own, with its check as its tag; one that is too long in several lines."""
-    tag = rf"\tag*{{{CHECKED if part.holds else FAILS}}}"
-    if isinstance(part, Identity) and part.text.endswith("]"):
-        name, _, inside = part.text.partition(" = ")
-        rows = (" & ".join(map(formula, row.split(", "))) for row in inside.strip("[]").split("; "))
+    tag = rf"\tag*{{{selection.remark(part.holds)}}}"
+    if (named := selection.matrix_of(part)) is not None:
+        name, cells = named
+        rows = (" & ".join(map(formula, row)) for row in cells)
         body = formula(name) + r" = \begin{pmatrix} " + r" \\ ".join(rows) + r" \end{pmatrix}"
     else:
         first, *others = map(formula, broken(part.text, _ROOM))
@@ -241,17 +228,17 @@ def _ledger(entries: tuple[LedgerEntry, ...]) -> Iterator[str]:
     yield _heading("ledger")
     yield r"\begin{description}"
     for entry in entries:
-        yield rf"\item[{{{plain(entry.number)}}}] \textbf{{{verdict(entry)}.}} {sentence(entry.statement)}"
-        for title, text in details(entry):
+        yield rf"\item[{{{plain(entry.number)}}}] \textbf{{{selection.verdict(entry)}.}} {sentence(entry.statement)}"
+        for title, text in selection.details(entry):
             yield rf"\\ \emph{{{title}:}} {sentence(text)}"
     yield r"\end{description}"
 
 
 def _costs(costs: tuple[Cost, ...]) -> Iterator[str]:
-    yield sentence(COSTS_EXPLAINED)
+    yield sentence(selection.COSTS_EXPLAINED)
     yield r"\medskip\par\small"
-    yield rf"\begin{{tabular}}{{l{'r' * len(COST_COLUMNS)}}}"
-    yield " & ".join(["", *map(sentence, COST_COLUMNS)]) + r" \\ \hline"
+    yield rf"\begin{{tabular}}{{l{'r' * len(selection.COST_COLUMNS)}}}"
+    yield " & ".join(["", *map(sentence, selection.COST_COLUMNS)]) + r" \\ \hline"
     for cost in costs:
-        yield " & ".join([cost.name, *cost_cells(cost)]) + r" \\"
+        yield " & ".join([cost.name, *selection.cost_cells(cost)]) + r" \\"
     yield r"\end{tabular}"

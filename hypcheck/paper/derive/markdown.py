@@ -2,27 +2,15 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 
 from hypcheck.derivation.formulas import Cost
 from hypcheck.derivation.links import Chain
-from hypcheck.paper.derive import PARTS
-from hypcheck.paper.derive.selection import (
-    CHECKED,
-    COSTS_EXPLAINED,
-    FAILS,
-    QUERY_COLUMNS,
-    SCENE_COLUMNS,
-    Selection,
-    cost_cells,
-    details,
-    faults_in_words,
-    verdict,
-)
+from hypcheck.paper.derive import PARTS, selection
+from hypcheck.paper.derive.selection import Selection
 from hypcheck.paper.ledger.book import coverage, faults_with_entries, sentences
 from hypcheck.paper.ledger.book import entries as whole_ledger
-from hypcheck.paper.ledger.entry import HOLDS, VERDICTS, LedgerEntry
+from hypcheck.paper.ledger.entry import LedgerEntry
 from hypcheck.report.markdown import table_lines
 
 _INTRODUCTION = """# The paper, claim by claim
@@ -74,18 +62,17 @@ def _heading(part: str) -> Iterator[str]:
 def _chain(chain: Chain) -> Iterator[str]:
     yield from ("", f"### {chain.name}", "", chain.statement, "")
     for number, link in enumerate(chain.links, 1):
-        yield f"{number}. {link.statement} *({link.reason}{f': {link.cites}' if link.cites else ''})*"
+        yield f"{number}. {link.statement} *({link.because})*"
         for part in link.parts:
-            yield f"   - `{part.text}` {CHECKED if part.holds else FAILS}"
+            yield f"   - `{part.text}` {selection.remark(part.holds)}"
 
 
 def _ledger(entries: tuple[LedgerEntry, ...]) -> Iterator[str]:
-    counts = Counter(entry.verdict for entry in entries)
-    yield from ("", f"{len(entries)} statements: {', '.join(f'{counts[name]} {name}' for name in VERDICTS)}.")
+    yield from ("", selection.tally(entries))
     if entries == whole_ledger():
         yield from ("", coverage())
         yield from _faults()
-    brief = [entry for entry in entries if entry.why == HOLDS and entry.confirmed]
+    brief = list(filter(selection.is_brief, entries))
     if brief:
         yield from ("", "Formulas that hold as printed, right − left = 0:", "")
         rows = ((entry.number, entry.statement, entry.verdict, entry.follows) for entry in brief)
@@ -94,19 +81,19 @@ def _ledger(entries: tuple[LedgerEntry, ...]) -> Iterator[str]:
         if entry not in brief:
             yield from (
                 "",
-                f"### {entry.number}: {verdict(entry)}",
+                f"### {entry.number}: {selection.verdict(entry)}",
                 "",
                 entry.statement,
                 "",
             )
-            yield from (f"- *{title}*: {text}" for title, text in details(entry))
+            yield from (f"- *{title}*: {text}" for title, text in selection.details(entry))
     if entries == whole_ledger():
         yield from _sentences()
 
 
 def _faults() -> Iterator[str]:
     """The faults, and the statements that each makes false."""
-    yield from ("", f"{faults_in_words()}:", "")
+    yield from ("", f"{selection.faults_in_words()}:", "")
     rows = ((name, what, "; ".join(numbers)) for name, what, numbers in faults_with_entries())
     yield from _table(("fault", "what it is", "statements"), rows)
 
@@ -127,9 +114,9 @@ def _table(head: Sequence[str], rows: Iterable[Sequence[str]], numbers: Iterable
 
 
 def _costs(costs: tuple[Cost, ...]) -> Iterator[str]:
-    yield from ("", COSTS_EXPLAINED, "")
-    head = ("", *(f"scene {name}" for name in SCENE_COLUMNS), *QUERY_COLUMNS)
-    yield from _table(head, ((f"`{cost.name}`", *cost_cells(cost)) for cost in costs), range(1, len(head)))
+    yield from ("", selection.COSTS_EXPLAINED, "")
+    head = ("", *(f"scene {name}" for name in selection.SCENE_COLUMNS), *selection.QUERY_COLUMNS)
+    yield from _table(head, ((f"`{cost.name}`", *selection.cost_cells(cost)) for cost in costs), range(1, len(head)))
     yield ""
     for cost in costs:
         yield f"- `{cost.name}`: {cost.title} ({cost.source})"

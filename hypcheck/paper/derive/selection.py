@@ -5,16 +5,17 @@ A selection is whole parts (PARTS), or one claim of the paper with all that its 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections import Counter
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 from hypcheck.derivation.chain_book import chains
 from hypcheck.derivation.formulas import Cost, costs
-from hypcheck.derivation.links import Chain
+from hypcheck.derivation.links import Chain, Identity, Part
 from hypcheck.derivation.walk import walk
 from hypcheck.paper.ledger.book import entries, entries_of, faults
-from hypcheck.paper.ledger.entry import FALSE, LedgerEntry
+from hypcheck.paper.ledger.entry import FALSE, HOLDS, VERDICTS, LedgerEntry
 
 
 @dataclass(frozen=True)
@@ -69,6 +70,31 @@ def _with_needs(name: str) -> tuple[str, ...]:
 
 
 CHECKED, FAILS = "checked", "FAILS"
+
+
+def remark(holds: bool) -> str:
+    """The remark at a formula or at a reason."""
+    return CHECKED if holds else FAILS
+
+
+def matrix_of(part: Part) -> tuple[str, list[list[str]]] | None:
+    """The name and the rows of the matrix that "H = [a, b; c, d]" says; None where a part is about no matrix."""
+    if not (isinstance(part, Identity) and part.text.endswith("]")):
+        return None
+    name, _, inside = part.text.partition(" = ")
+    return name, [row.split(", ") for row in inside.strip("[]").split("; ")]
+
+
+def tally(entries: Sequence[LedgerEntry]) -> str:
+    """How many statements there are, and of each verdict how many."""
+    counts = Counter(entry.verdict for entry in entries)
+    return f"{len(entries)} statements: {', '.join(f'{counts[name]} {name}' for name in VERDICTS)}."
+
+
+def is_brief(entry: LedgerEntry) -> bool:
+    """Whether an entry needs one line: a formula that holds as it is printed."""
+    return entry.why == HOLDS and entry.confirmed
+
 
 SCENE_COLUMNS = ("+ −", "×", "÷", "√")
 QUERY_COLUMNS = ("+ −", "×", "÷", "√", "cos", "<", "rounded")

@@ -5,31 +5,18 @@ from __future__ import annotations
 import re
 import textwrap
 import unicodedata
-from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 
 import sympy
 
 from hypcheck.derivation.formulas import Cost
-from hypcheck.derivation.links import Chain, Identity, Link, Part
+from hypcheck.derivation.links import Chain, Part
 from hypcheck.geometry.pair import CENTER, SIZES, Pair
-from hypcheck.paper.derive import PARTS
-from hypcheck.paper.derive.selection import (
-    CHECKED,
-    COST_COLUMNS,
-    COSTS_EXPLAINED,
-    FAILS,
-    QUERY_COLUMNS,
-    SCENE_COLUMNS,
-    Selection,
-    cost_cells,
-    details,
-    faults_in_words,
-    verdict,
-)
+from hypcheck.paper.derive import PARTS, selection
+from hypcheck.paper.derive.selection import Selection
 from hypcheck.paper.ledger.book import coverage, faults_with_entries
 from hypcheck.paper.ledger.book import entries as whole_ledger
-from hypcheck.paper.ledger.entry import HOLDS, VERDICTS, Evidence, LedgerEntry, described
+from hypcheck.paper.ledger.entry import Evidence, LedgerEntry, described
 from hypcheck.proof_text import proof_lines
 
 WIDTH = 100
@@ -43,7 +30,7 @@ def lines(chosen: Selection) -> Iterator[str]:
     if "derivation" in chosen.parts:
         yield from _heading("derivation")
         yield from paragraph(
-            f"Each formula marked {CHECKED} was held against what sympy {sympy.__version__} makes of the two "
+            f"Each formula marked {selection.CHECKED} was held against what sympy {sympy.__version__} makes of the two "
             "surfaces, now."
         )
         for number, section in enumerate(chosen.sections, 1):
@@ -83,39 +70,34 @@ def _chain(chain: Chain) -> Iterator[str]:
     yield from paragraph(chain.statement, 4)
     for number, link in enumerate(chain.links, 1):
         yield ""
-        yield from paragraph(f"{link.statement} [{_reason(link)}]", 4, f"{number}.")
+        yield from paragraph(f"{link.statement} [{link.because}]", 4, f"{number}.")
         yield from _parts(link.parts, 8)
-
-
-def _reason(link: Link) -> str:
-    return f"{link.reason}: {link.cites}" if link.cites else link.reason
 
 
 def _parts(parts: Iterable[Part], indent: int) -> Iterator[str]:
     for part in parts:
-        remark = CHECKED if part.holds else FAILS
-        if isinstance(part, Identity) and part.text.endswith("]"):
-            yield from matrix(part.text, indent, remark)
+        named = selection.matrix_of(part)
+        if named is not None:
+            yield from matrix(*named, indent, selection.remark(part.holds))
         else:
-            yield from formula(part.text, indent, remark)
+            yield from formula(part.text, indent, selection.remark(part.holds))
 
 
 def _ledger(entries: tuple[LedgerEntry, ...]) -> Iterator[str]:
     yield from _heading("ledger")
-    counts = Counter(entry.verdict for entry in entries)
     yield from paragraph(
-        f"{len(entries)} statements: {', '.join(f'{counts[verdict]} {verdict}' for verdict in VERDICTS)}. Formulas "
-        "without a reason have right − left = 0. a = α/b, c = γ/d, C is the centre in the scaled space; A.n is the "
+        f"{selection.tally(entries)} Formulas without a reason have right − left = 0. a = α/b, c = γ/d, C is the "
+        "centre in the scaled space; A.n is the "
         "n-th display of Appendix A. `hypcheck derive --claim NUMBER` shows one with its proof."
     )
     yield from paragraph(coverage())
     if entries == whole_ledger():
-        yield from ("", *paragraph(f"{faults_in_words()}:"))
+        yield from ("", *paragraph(f"{selection.faults_in_words()}:"))
         for name, what, numbers in faults_with_entries():
             yield from paragraph(f"{what} ({'; '.join(numbers)})", _NUMBER, f"    {name}")
     before = False
     for entry in entries:
-        brief = entry.why == HOLDS and entry.confirmed
+        brief = selection.is_brief(entry)
         if not (brief and before):
             yield ""
         yield from _entry(entry, brief=brief)
@@ -124,12 +106,12 @@ def _ledger(entries: tuple[LedgerEntry, ...]) -> Iterator[str]:
 
 def _entry(entry: LedgerEntry, *, brief: bool) -> Iterator[str]:
     """One line for a formula that holds as printed, a few for all else."""
-    head = padded(entry.number, _NUMBER) + padded(verdict(entry), _VERDICT - _NUMBER)
+    head = padded(entry.number, _NUMBER) + padded(selection.verdict(entry), _VERDICT - _NUMBER)
     if brief:
         yield from paragraph(f"{entry.statement}; {entry.follows}", _VERDICT, head)
         return
     yield from paragraph(entry.statement, _VERDICT, head)
-    yield from _details(details(entry), 4)
+    yield from _details(selection.details(entry), 4)
 
 
 def _details(titled: Iterable[tuple[str, str]], start: int) -> Iterator[str]:
@@ -141,9 +123,9 @@ def _in_full(chosen: Selection) -> Iterator[str]:
     """Claims one by one, with their evidence; then the chains, each once."""
     for entry in chosen.entries:
         yield ""
-        yield from paragraph(f"{entry.number} (section {entry.section}) — {verdict(entry).upper()}")
+        yield from paragraph(f"{entry.number} (section {entry.section}) — {selection.verdict(entry).upper()}")
         yield from paragraph(entry.statement, 4)
-        yield from _details(details(entry, in_full=True), 4)
+        yield from _details(selection.details(entry, in_full=True), 4)
         for evidence in entry.evidence:
             yield from _evidence(evidence)
     for chain in chosen.chains:
@@ -155,15 +137,15 @@ def _evidence(evidence: Evidence) -> Iterator[str]:
     """A reason and whether it holds; witnesses as rows that can be asked about, each with its certificate."""
     indent = 4 + _TITLE
     if not (evidence.witnesses or evidence.leaning):
-        yield from formula(f"{evidence.kind}: {evidence.text}", indent, CHECKED if evidence.holds else FAILS)
+        yield from formula(f"{evidence.kind}: {evidence.text}", indent, selection.remark(evidence.holds))
     for witness in evidence.witnesses:
-        yield from formula(described(witness.facts), indent, CHECKED if evidence.holds and witness.holds else FAILS)
+        yield from formula(described(witness.facts), indent, selection.remark(evidence.holds and witness.holds))
         yield from paragraph(witness.shows, indent + 4)
         yield f"{'':{indent + 4}}{_command(witness.facts.point.pair)}"
         for line in proof_lines(witness.facts.point.pair, witness.certificate):
             yield from paragraph(line, indent + 4)
     for leaning in evidence.leaning:
-        yield from formula(leaning.text, indent, CHECKED if evidence.holds and leaning.holds else FAILS)
+        yield from formula(leaning.text, indent, selection.remark(evidence.holds and leaning.holds))
         yield from paragraph(leaning.shows, indent + 4)
         axis = " ".join(f"{number:g}" for number in leaning.pair.axis)
         yield f"{'':{indent + 4}}{_command(leaning.upright)} --axis {axis}"
@@ -181,13 +163,13 @@ def _command(pair: Pair) -> str:
 
 
 def _costs(costs: tuple[Cost, ...]) -> Iterator[str]:
-    yield from paragraph(COSTS_EXPLAINED)
+    yield from paragraph(selection.COSTS_EXPLAINED)
     yield ""
-    left = 6 * len(SCENE_COLUMNS)
-    yield f"{'':22}{'a scene':>{left}}   {'a position':>{6 * len(QUERY_COLUMNS) + 2}}"
-    yield f"{'':22}{_cells(COST_COLUMNS)}"
+    left = 6 * len(selection.SCENE_COLUMNS)
+    yield f"{'':22}{'a scene':>{left}}   {'a position':>{6 * len(selection.QUERY_COLUMNS) + 2}}"
+    yield f"{'':22}{_cells(selection.COST_COLUMNS)}"
     for cost in costs:
-        yield f"{cost.name:22}{_cells(cost_cells(cost))}"
+        yield f"{cost.name:22}{_cells(selection.cost_cells(cost))}"
     yield ""
     for cost in costs:
         yield from paragraph(f"{cost.title} ({cost.source})", 22, cost.name)
@@ -195,7 +177,7 @@ def _costs(costs: tuple[Cost, ...]) -> Iterator[str]:
 
 def _cells(cells: Sequence[str]) -> str:
     """Numbers, or their titles, in columns; a gap parts those of a scene from those of a position."""
-    scene, query = cells[: len(SCENE_COLUMNS)], cells[len(SCENE_COLUMNS) :]
+    scene, query = cells[: len(selection.SCENE_COLUMNS)], cells[len(selection.SCENE_COLUMNS) :]
     return f"{''.join(f'{cell:>6}' for cell in scene)}   {''.join(f'{cell:>6}' for cell in query[:-1])}{query[-1]:>8}"
 
 
@@ -255,10 +237,8 @@ def _terms(text: str, depth: int) -> Iterator[str]:
     yield text[start:]
 
 
-def matrix(text: str, indent: int, remark: str) -> Iterator[str]:
-    """The matrix that "H = [a, b; c, d]" says, a row a line; the remark stands at the last."""
-    name, _, inside = text.partition(" = ")
-    rows = [row.split(", ") for row in inside.strip("[]").split("; ")]
+def matrix(name: str, rows: Sequence[Sequence[str]], indent: int, remark: str) -> Iterator[str]:
+    """A matrix, a row a line; the remark stands at the last."""
     widths = [max(map(columns, column)) for column in zip(*rows, strict=True)]
     last = len(rows) - 1
     for number, row in enumerate(rows):
