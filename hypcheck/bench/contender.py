@@ -20,7 +20,7 @@ from hypcheck.geometry.rows import CANNOT_SAY, PAIRS, Layout, Rows
 from hypcheck.implementations.description import QUESTIONS
 from hypcheck.implementations.domain import claimed
 from hypcheck.implementations.meshes import height_of, rows_by_sizes
-from hypcheck.implementations.method import Answers, ByScene, Method, MethodClaims
+from hypcheck.implementations.method import Answers, Method, MethodClaims
 from hypcheck.runs.timing import Clocked, clocked
 
 Answering = Callable[[Rows], Answers]
@@ -277,14 +277,12 @@ class Contender(MethodClaims):
         return claimed(rows, self.domain, self.precision, layout=QUESTIONS[self.question].layout)[: self.judged]
 
 
-def of_method(
-    method: Method,
-    tier: str,
-    kind: str,
-    *,
-    scene: ByScene | None = None,
-    **fields: Any,  # noqa: ANN401 - of a contender
-) -> Contender:
+def of_method(method: Method, tier: str, kind: str, **fields: Any) -> Contender:  # noqa: ANN401 - of a contender
     """A built-in method as a contender; `fields` are all that differ from the method's own, and from the defaults."""
     given: dict[str, Any] = {claim.name: getattr(method, claim.name) for claim in dataclasses.fields(MethodClaims)}
-    return Contender(tier=tier, kind=kind, **{"load": partial(InPython, method.answer, scene), **given, **fields})
+    return Contender(tier=tier, kind=kind, **{"load": partial(in_python, method), **given, **fields})
+
+
+def in_python(method: Method) -> InPython:
+    """A built-in method, loaded."""
+    return InPython(method.answer, None if method.scene is None else method.scene())

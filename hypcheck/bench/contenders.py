@@ -7,31 +7,24 @@ tilted spheroids and runs about sweeps have contenders of their own.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import Any
 
-import numpy as np
-
+import hypcheck
 from hypcheck.bench import foreign
 from hypcheck.bench.c_library import InC, bodies
 from hypcheck.bench.c_source import FAST
-from hypcheck.bench.contender import Contender, InEngine, InPython, InScalars, of_method
+from hypcheck.bench.contender import Contender, InEngine, InScalars, of_method
 from hypcheck.bench.plan import PASSAGE, TILTED_REFERENCE, BenchPlan, chosen_names
-from hypcheck.derivation.formulas import FORMULAS
-from hypcheck.geometry.pair import Pair
-from hypcheck.geometry.rows import SWEEPS, Rows
-from hypcheck.implementations import alternatives, builtin
-from hypcheck.implementations.domain import EVERYWHERE, Domain
+from hypcheck.geometry.rows import SWEEPS
+from hypcheck.implementations import builtin
+from hypcheck.implementations.domain import Domain
 from hypcheck.implementations.meshes import COAL, FCL, PAIRINGS, MeshLibrary, scene_mesh
-from hypcheck.implementations.method import Answers, ByScene, Method, by_scene, on_scene
+from hypcheck.implementations.method import Method
 from hypcheck.implementations.sweeps import SWEEP_SOLVERS, height_of_sweeps, sweep_mesh
-from hypcheck.kernel import numpy_kernel
 from hypcheck.kernel.choice import choice
-from hypcheck.truth import float_filter
-from hypcheck.truth.nearest import nearest
 
 ALGEBRAIC = ("coefficients", "hessian", "shared", "local-maximum", "dual")
 PRECISIONS = ("float32", "float64")
@@ -41,6 +34,8 @@ THIRTEEN = "the way that the paper attributes to its [13]"
 BISECTED = "its multiplier is found by plain bisection, which nothing was done to make fast"
 CERTIFIED = "where its bound cannot tell, integers do"
 _UNSAID = "what does not converge is not said"
+_TELLS = "tells the distance too"
+_OTHER_SHAPE = "another shape in the spheroid's place"
 _QUICK_DIGITS = "-15"
 
 Methods = dict[str, Method]
@@ -65,7 +60,6 @@ def _formulas(methods: Methods) -> Iterable[Contender]:
             methods[f"{formula}-{format_name}"],
             "numpy",
             "paper" if paper else "algebraic",
-            scene=_scene_of_formula(formula, format_name),
             accuracy_only=format_name == "float16",
             note=PAPER if paper else BISECTED if formula == "dual" else "",
             timed=4096 if formula == "dual" else None,
@@ -73,17 +67,12 @@ def _formulas(methods: Methods) -> Iterable[Contender]:
         )
 
 
-def _scene_of_formula(name: str, format_name: str) -> ByScene:
-    return on_scene(alternatives.dual(format_name)) if name == "dual" else by_scene(FORMULAS[name], format_name)
-
-
 def _fast(methods: Methods) -> Iterable[Contender]:
     """The numpy path, the compiled one if it runs here, and one call of hypcheck.position for each row."""
-    load = partial(InPython, numpy_kernel.positions, numpy_kernel.positions_of_scene)
-    yield of_method(methods["fast-numpy"], "numpy", "certified", load=load, timed=8192, note=CERTIFIED)
+    yield of_method(methods["fast-numpy"], "numpy", "certified", timed=8192, note=CERTIFIED)
     if choice().kernel == "compiled":
         # Only a batch: one call at a time is position-python from Python, and fast-c from C.
-        yield of_method(methods["fast"], "C", "certified", scene=builtin.fast_scene, note=_as_installed(), singles=0)
+        yield of_method(methods["fast"], "C", "certified", note=_as_installed(), singles=0)
     yield of_method(
         methods["fast"], "python", "certified", name="position-python", title="hypcheck.position, one call a row",
         load=_position, timed=1024, singles=1024, note=CERTIFIED,
@@ -95,15 +84,12 @@ def _as_installed() -> str:
 
 
 def _position() -> InScalars:
-    from hypcheck.kernel.scalar import position  # noqa: PLC0415 - chooses the kernel where it is loaded
-
-    return InScalars(position)
+    return InScalars(hypcheck.position)  # the kernel is chosen where it is loaded
 
 
 def _roots(methods: Methods) -> Iterable[Contender]:
     for precision in PRECISIONS:
-        scene = on_scene(alternatives.trigonometric_roots(precision))
-        yield of_method(methods[f"trigonometric-{precision}"], "numpy", "roots", scene=scene, note=THIRTEEN)
+        yield of_method(methods[f"trigonometric-{precision}"], "numpy", "roots", note=THIRTEEN)
     yield of_method(methods["numpy-roots"], "python", "roots", judged=2000, timed=96, note="one call a row")
     for name in (name for name in methods if name.startswith("mpmath-roots-")):
         quick = name.endswith(_QUICK_DIGITS)
@@ -113,18 +99,12 @@ def _roots(methods: Methods) -> Iterable[Contender]:
 def _exact(methods: Methods) -> Iterable[Contender]:
     yield of_method(methods["exact-integers"], "python", "exact", judged=3000, timed=192)
     yield of_method(methods["exact-oracle"], "python", "exact", judged=3000, timed=192)
-    yield of_method(
-        methods["nearest-point"], "numpy", "exact", judged=3000, timed=512, singles=16, note="tells the distance too"
-    )
+    yield of_method(methods["nearest-point"], "numpy", "exact", judged=3000, timed=512, singles=16, note=_TELLS)
 
 
 def _shapes(methods: Methods) -> Iterable[Contender]:
-    scenes: dict[str, ByScene] = {
-        "bounding-sphere": alternatives.bounding_sphere_scene,
-        "bounding-cylinder": on_scene(alternatives.bounding_cylinder),
-    }
-    for name, scene in scenes.items():
-        yield of_method(methods[name], "numpy", "bounding", scene=scene, note="another shape in the spheroid's place")
+    for name in ("bounding-sphere", "bounding-cylinder"):
+        yield of_method(methods[name], "numpy", "bounding", note=_OTHER_SHAPE)
 
 
 _KINDS = {
@@ -224,60 +204,22 @@ ELLIPSOID = "ellipsoid"
 
 def tilted_contenders() -> Iterable[Contender]:
     """All of them, including the reference."""
-    if choice().kernel == "compiled":
-        title, note = "the fast path, as installed", _as_installed()
-        yield _ours("fast", "C", "certified", title, builtin.fast_positions, builtin.fast_scene, note=note)
-    yield _ours(
-        "fast-numpy", "numpy", "certified", "the fast path in numpy",
-        numpy_kernel.positions, numpy_kernel.positions_of_scene, note=CERTIFIED, timed=8192,
-    )  # fmt: skip
-    yield _ours("exact-oracle", "python", "exact", _ORACLE, float_filter.positions, judged=3000, timed=96)
-    yield _ours("nearest-point", "python", "exact", _NEAREST, _nearest, judged=240, timed=16, note=_TELLS)
-    yield _ours(
-        TILTED_REFERENCE, "numpy", "algebraic", "eigenvectors by numpy.linalg.eigh, then the dual function, float64",
-        alternatives.by_eigenvectors, alternatives.by_eigenvectors_scene, timed=4096,
-        note="its multiplier is found by plain bisection",
-    )  # fmt: skip
-    yield _ours("roots", "numpy", "roots", _ROOTS, alternatives.by_roots, timed=4096)
-    shapes = "another shape in the spheroid's place"
-    yield _ours(
-        "upright", "C" if choice().kernel == "compiled" else "numpy", "bounding", _UPRIGHT,
-        alternatives.upright, alternatives.upright_scene, note="wrong by its axis alone",
-    )  # fmt: skip
-    yield _ours(
-        "bounding-sphere", "numpy", "bounding", "the circumscribed sphere in the spheroid's place, exact",
-        alternatives.bounding_sphere, alternatives.bounding_sphere_scene, note=shapes,
-    )  # fmt: skip
+    methods, compiled = builtin.tilted_methods(), choice().kernel == "compiled"
+    if compiled:
+        yield of_method(methods["fast"], "C", "certified", note=_as_installed())
+    yield of_method(methods["fast-numpy"], "numpy", "certified", note=CERTIFIED, timed=8192)
+    yield of_method(methods["exact-oracle"], "python", "exact", judged=3000, timed=96)
+    yield of_method(methods["nearest-point"], "python", "exact", judged=240, timed=16, note=_TELLS)
+    note = "its multiplier is found by plain bisection"
+    yield of_method(methods[TILTED_REFERENCE], "numpy", "algebraic", timed=4096, note=note)
+    yield of_method(methods["roots"], "numpy", "roots", timed=4096)
+    tier = "C" if compiled else "numpy"
+    yield of_method(methods["upright"], tier, "bounding", note="wrong by its axis alone")
+    yield of_method(methods["bounding-sphere"], "numpy", "bounding", note=_OTHER_SHAPE)
     for triangles in TRIANGLES:
         yield built_once(FCL, ELLIPSOID, triangles)
     for triangles in COAL_TRIANGLES:
         yield built_once(COAL, ELLIPSOID, triangles)
-
-
-_ORACLE = "the exact oracle: the sign of a quartic between its poles, in integers"
-_NEAREST = "the nearest point, in intervals of mpmath"
-_ROOTS = "the roots of the quartic det(S + λH) by numpy.linalg.eigvals, float64"
-_UPRIGHT = "the spheroid taken for upright, exact"
-_TELLS = "tells the distance too"
-
-
-def _ours(
-    name: str,
-    tier: str,
-    kind: str,
-    title: str,
-    answer: Callable[[Rows], Answers],
-    scene: Callable[..., Answers] | None = None,
-    **more: Any,  # noqa: ANN401 - fields of a contender
-) -> Contender:
-    """One of our methods; those that promise to be exact are asked everywhere."""
-    exact = kind in ("certified", "exact")
-    method = Method(name, title, answer, domain=EVERYWHERE if exact else Domain(), exact=exact)
-    return of_method(method, tier, kind, scene=scene, **more)
-
-
-def _nearest(rows: Rows) -> Answers:
-    return np.array([nearest(Pair.from_row(row)).position for row in rows.tolist()], dtype=np.int8)
 
 
 _JUMPS = "it cannot see what lies between two of its times"

@@ -1,6 +1,7 @@
 """The built-in methods by name: each formula in each precision, the fast path, roots, exact methods, other shapes, FCL.
 
-A built-in method has the same interface as all implementations, but runs in hypcheck's own process.
+This is the one registry of what answers rows in hypcheck's own process: `verify` and `bench` ask the same methods. A
+built-in method has the same interface as all implementations.
 """
 
 from __future__ import annotations
@@ -22,13 +23,14 @@ from hypcheck.implementations.description import Description
 from hypcheck.implementations.domain import EVERYWHERE, ORDINARY, Domain
 from hypcheck.implementations.frames import LARGEST, GivenAnswers
 from hypcheck.implementations.meshes import FCL, naive_fcl
-from hypcheck.implementations.method import Answers, Method, by_rows, on_rows
+from hypcheck.implementations.method import Answers, ByRows, Method, by_rows, by_scene, on_rows, on_scene
 from hypcheck.implementations.sweeps import SWEEP_SOLVERS, SweepSolver, hits_and_times
 from hypcheck.kernel import integers, numpy_kernel
 from hypcheck.kernel.choice import choice
 from hypcheck.kernel.in_use import kernel
 from hypcheck.messages import suggestion
-from hypcheck.truth import exact, nearest_rows
+from hypcheck.truth import exact, float_filter, nearest_rows
+from hypcheck.truth.nearest import nearest
 from hypcheck.version import VERSION
 
 DIGITS = (15, 30, 50, 100)
@@ -55,9 +57,12 @@ def methods_without_meshes() -> dict[str, Method]:
 
 def _fast_methods() -> Iterator[Method]:
     in_use = "the kernel in use" if choice().kernel == "compiled" else "the kernel in use, which is numpy"
-    for name, where, answer in (("fast", in_use, fast_positions), ("fast-numpy", "in numpy", numpy_kernel.positions)):
+    for name, where, answer, scene in (
+        ("fast", in_use, fast_positions, fast_scene),
+        ("fast-numpy", "in numpy", numpy_kernel.positions, numpy_kernel.positions_of_scene),
+    ):
         title = f"the fast path, {where}: certified floats, integers where they cannot tell"
-        yield Method(name, title, answer, domain=EVERYWHERE, exact=True)
+        yield Method(name, title, answer, domain=EVERYWHERE, exact=True, scene=partial(_same, scene))
 
 
 def fast_positions(rows: Rows) -> Answers:
@@ -70,12 +75,17 @@ def fast_scene(sizes: Sizes, x: Floats, y: Floats, z: Floats, axis: Axis | None 
     return kernel().answer_scene(sizes, (x, y, z), "position", 1, axis)[0]
 
 
+def _same(scene: Callable[..., Answers]) -> Callable[..., Answers]:
+    return scene
+
+
 def _formula_method(formula: Formula, format_name: str) -> Method:
-    dual = formula.name == "dual"
+    dual = alternatives.dual(format_name) if formula.name == "dual" else None
     return Method(
         f"{formula.name}-{format_name}",
         f"{formula.title}, {format_name}",
-        on_rows(alternatives.dual(format_name)) if dual else by_rows(formula, format_name),
+        on_rows(dual) if dual else by_rows(formula, format_name),
+        scene=partial(on_scene, dual) if dual else partial(by_scene, formula, format_name),
         question=formula.question,
         precision=format_name,
         domain=Domain(regimes=formula.regimes),
@@ -89,8 +99,9 @@ def _measured_methods() -> Iterator[Method]:
             yield replace(_formula_method(FORMULAS["table-2"], format_name), precision=precision)
     for precision in PRECISIONS:
         title = f"the roots of g by the trigonometric form, {precision}"
-        answer = on_rows(alternatives.trigonometric_roots(precision))
-        yield Method(f"trigonometric-{precision}", title, answer, precision=precision)
+        roots = alternatives.trigonometric_roots(precision)
+        answer, scene = on_rows(roots), partial(on_scene, roots)
+        yield Method(f"trigonometric-{precision}", title, answer, precision=precision, scene=scene)
     yield Method("numpy-roots", "the roots of g by numpy.roots, float64", alternatives.numpy_roots, max_rows=400)
     for digits in DIGITS:
         title = f"the roots of g by mpmath.polyroots at {digits} digits"
@@ -102,11 +113,13 @@ def _measured_methods() -> Iterator[Method]:
         ("nearest-point", "the nearest point, in double-double and then in exact enclosures", _nearest),
     ):
         yield Method(name, title, answer, domain=EVERYWHERE, exact=True, max_rows=400)
-    for shape, how, answer in (
-        ("sphere", "exact", alternatives.bounding_sphere),
-        ("cylinder", "float64", on_rows(alternatives.bounding_cylinder)),
+    sphere, cylinder = partial(_same, alternatives.bounding_sphere_scene), alternatives.bounding_cylinder
+    for shape, how, answer, of_scene in (
+        ("sphere", "exact", alternatives.bounding_sphere, sphere),
+        ("cylinder", "float64", on_rows(cylinder), partial(on_scene, cylinder)),
     ):
-        yield Method(f"bounding-{shape}", f"the circumscribed {shape} in the spheroid's place, {how}", answer)
+        title = f"the circumscribed {shape} in the spheroid's place, {how}"
+        yield Method(f"bounding-{shape}", title, answer, scene=of_scene)
 
 
 def _integers(rows: Rows) -> Answers:
@@ -142,6 +155,58 @@ def builtin_methods() -> dict[str, Method]:
         for pairing, title in NAIVE_FCL.items()
     )
     return methods_without_meshes() | {method.name: method for method in naive}
+
+
+@cache
+def tilted_methods() -> dict[str, Method]:
+    """Every method about tilted spheroids that only bench uses, by its name; exact ones are asked everywhere."""
+    methods = (
+        _tilted("fast", "the fast path, as installed", fast_positions, fast_scene, exact=True),
+        _tilted(
+            "fast-numpy",
+            "the fast path in numpy",
+            numpy_kernel.positions,
+            numpy_kernel.positions_of_scene,
+            exact=True,
+        ),
+        _tilted(
+            "exact-oracle",
+            "the exact oracle: the sign of a quartic between its poles, in integers",
+            float_filter.positions,
+            exact=True,
+        ),
+        _tilted("nearest-point", "the nearest point, in intervals of mpmath", _nearest_enclosed, exact=True),
+        _tilted(
+            "eigh",
+            "eigenvectors by numpy.linalg.eigh, then the dual function, float64",
+            alternatives.by_eigenvectors,
+            alternatives.by_eigenvectors_scene,
+        ),
+        _tilted(
+            "roots",
+            "the roots of the quartic det(S + λH) by numpy.linalg.eigvals, float64",
+            alternatives.by_roots,
+        ),
+        _tilted("upright", "the spheroid taken for upright, exact", alternatives.upright, alternatives.upright_scene),
+        _tilted(
+            "bounding-sphere",
+            "the circumscribed sphere in the spheroid's place, exact",
+            alternatives.bounding_sphere,
+            alternatives.bounding_sphere_scene,
+        ),
+    )
+    return {method.name: method for method in methods}
+
+
+def _tilted(
+    name: str, title: str, answer: ByRows, scene: Callable[..., Answers] | None = None, *, exact: bool = False
+) -> Method:
+    domain = EVERYWHERE if exact else Domain()
+    return Method(name, title, answer, domain=domain, exact=exact, scene=scene and partial(_same, scene))
+
+
+def _nearest_enclosed(rows: Rows) -> Answers:
+    return np.array([nearest(Pair.from_row(row)).position for row in rows.tolist()], dtype=np.int8)
 
 
 SAMPLES = (4, 16, 64, 256)

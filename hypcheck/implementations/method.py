@@ -49,7 +49,8 @@ class Method(MethodClaims):
     `answer` maps valid rows, float64 (n, 7) or of sweeps (n, 10), to answers, int8 (n,): +1, 0, −1 for a position, 1
     and 0 for yes and no. `max_rows` limits the rows of each family for a slow one. `measured` marks a method that only
     `bench` uses: its errors are no finding of `verify`. `timed` stands in the place of `answer` where a method also
-    gives the times of hits.
+    gives the times of hits. `scene` makes the function for rows that share their sizes, and their axis if they have
+    one: it takes the sizes and the columns of the centres; without it such rows are as any others.
     """
 
     answer: Callable[[Rows], Answers] = field(repr=False)
@@ -57,6 +58,7 @@ class Method(MethodClaims):
     max_rows: int | None = None
     measured: bool = False
     timed: Callable[[Rows], tuple[Answers, Floats]] | None = field(default=None, repr=False)
+    scene: Callable[[], Callable[..., Answers]] | None = field(default=None, repr=False)
 
 
 CHUNK = 8192
