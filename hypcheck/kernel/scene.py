@@ -213,11 +213,12 @@ class Scene(PreparedScene):
         """The first contact of the mover on a flight, a polyline of its centre, and its least distance all along.
 
         `path` is (T, 3), or many: (k, T, 3), or a list of points (T, 3), in the scene's coordinates. `heading` and
-        `axis` are as in passage, the same all along or one for each segment, of all paths one after the other. `.hit`,
-        `.segment` and the first contact's `.time_lower` ≤ time ≤ `.time_upper`, `.index`, the hyperboloid's, and
-        `.center` are decided as by passage. `.least` has the least distance of the mover itself, without its parts:
-        `.distance_lower`, `.distance_upper`, `.segment`, `.time`, `.index`, `.center`. Times and `.least` are found
-        when they are asked for. Raises InputError for numbers that are not finite and for a path without points.
+        `axis` are as in passage, one for all, or one for each segment, with the segments of all paths one after the
+        other. `.hit`, `.segment` and the first contact's `.time_lower` ≤ time ≤ `.time_upper`, `.index`, the
+        hyperboloid's, and `.center` are decided as by passage. `.least` has the least distance of the mover itself,
+        without its parts: `.distance_lower`, `.distance_upper`, `.segment`, `.time`, `.index`, `.center`. Times and
+        `.least` are found when they are asked for. Raises InputError for numbers that are not finite and for a path
+        without points.
 
         """
         paths = paths_of(path)

@@ -46,8 +46,8 @@ class Paths:
 class Swept:
     """Sweeps (n,) of a mover, and pairs (m,) of them and of hyperboloids near them, sorted by sweep.
 
-    `movers` are the mover's axes, None where it is upright. `own` says which pairs have contact with the mover itself,
-    `hits` which with its parts where it has any.
+    `movers` are the mover's axes, None where it is upright. `own` marks the pairs in which the mover itself has
+    contact, `hits` those in which its parts have contact too, if it has parts.
     """
 
     starts: Rows

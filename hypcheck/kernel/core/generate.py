@@ -3,7 +3,7 @@
     python -m hypcheck.kernel.core.generate
 
 rewrites hypcheck/kernel/core/hypcheck.h; a test compares the committed file with what this prints. In a part, a line
-that is a name between two @ stands for printed text.
+with a name between two @ is replaced by printed text.
 """
 
 from __future__ import annotations
@@ -220,7 +220,7 @@ _DELTA = ("delta", "n2", "n1")
 
 
 def kilobytes() -> int:
-    """What the stack holds at most for an upright row: the integers, and what calls them."""
+    """The most stack for an upright row: the integers, and the functions that call them."""
     limbs = sum(bits // 64 + 2 for bits in integers.bits_counted(integers.INTEGERS).values())
     return -(-(8 * limbs + 24 * 70 + 16 * 1024) // 1024)
 
@@ -247,7 +247,7 @@ def pool_bits() -> tuple[int, int]:
 
 
 def tilted_kilobytes() -> int:
-    """What the stack holds at most for a row whose axis is tilted: the integers, and what calls them."""
+    """The most stack for a row whose axis is tilted: the integers, and the functions that call them."""
     bits, numbers = pool_bits()
     return -(-(bits // 8 + 16 * numbers + 24 * 1024) // 1024)
 

@@ -1,6 +1,6 @@
 """How each language writes an emitted kernel: templates, constants, conditions, answers, tables, comments, statements.
 
-In a template ${name} in a line becomes its text; alone on a line, its lines, indented as the mark was.
+In a template ${name} within a line is replaced by its text; on a line of its own, by its lines with the same indent.
 """
 
 from __future__ import annotations

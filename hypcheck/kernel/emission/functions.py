@@ -29,7 +29,7 @@ INDENT = "    "
 
 
 def answer(position: Position, question: str) -> int:
-    """What a position is answered with: itself, or 1 for yes and 0 for no."""
+    """The answer for a position: itself, or 1 for yes and 0 for no."""
     return int(position) if question == "position" else int(position is Position[question.upper()])
 
 
@@ -59,7 +59,7 @@ class _Statements:
         self._number = dialect.number_of(self._precision)
 
     def _entry(self, wanted: tuple[str, ...]) -> Iterator[str]:
-        """What the stages are asked with, out of x, y and z, and the constants that this takes."""
+        """The inputs of the stages, computed from x, y and z, and the constants that this needs."""
         program, constants = self._stages.entry, self._stages.entry_constants
         read = {name for step in needed(program, wanted) for name in step.reads}
         yield from self._constants({name: value for name, value in constants.items() if name in read})

@@ -126,7 +126,7 @@ def emitted(plan: ScenePlan, language: str, command: Sequence[str], prefix: str 
 
 
 def prologue(dialect: Dialect) -> dict[str, str]:
-    """What C and C++ begin with: headers, options that a compiler must not be given, how functions are exported."""
+    """The beginning of C and C++ files: headers, refusal of forbidden compiler options, export of functions."""
     phrases = ("includes", "linkage", "end linkage") if dialect.by_block else ()
     texts = {phrase.replace(" ", "_"): dialect.say(phrase) for phrase in phrases}
     return {"arithmetic": asked_of_compiler(dialect), **texts}
@@ -138,7 +138,7 @@ def asked_of_compiler(dialect: Dialect) -> str:
 
 
 def description(plan: ScenePlan, language: str) -> dict[str, Any]:
-    """What the kernel says of itself, as docs/protocol.md has it."""
+    """The kernel's description of itself, in the form of docs/protocol.md."""
     return {
         "protocol": 1,
         "name": f"{comment_text(plan.scene.name)} ({language}, {plan.format.name})",
@@ -168,7 +168,7 @@ def _searched(plan: ScenePlan) -> list[tuple[int, DualSearch | TiltedSearch]]:
 
 
 def _axis_parts(plan: ScenePlan, dialect: Dialect) -> dict[str, str]:
-    """What a kernel's functions say of an axis: nothing where the spheroid stands upright.
+    """The parts of a kernel's functions that concern an axis: empty if the spheroid is upright.
 
     Marks that begin with `fixed` are filled where the kernel has one axis, with `free` where it asks for any, and
     with `any` in both.

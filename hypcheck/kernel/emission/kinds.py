@@ -1,7 +1,7 @@
-"""Kinds of code for one pair: what it is asked, the routine that answers, and what a file says of both.
+"""Kinds of code for one pair: the question, the routine that answers, and the text of the file about both.
 
-A new kind is an entry of KINDS: its columns, its routine (specialise/sweeping.py), how the routine's number is an
-answer, and the numbers that the file gives besides. Nothing here is about one language but the phrases of PHRASES.
+A new kind is an entry of KINDS: its columns, its routine (specialise/sweeping.py), how the routine's number becomes an
+answer, and the numbers that the file also gives. Only PHRASES depends on the language.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from hypcheck.scene.model import SceneModel
 
 @dataclass(frozen=True)
 class Number:
-    """A number that a file gives beside the answer: the routine, and what it is where nothing is proved."""
+    """A number that a file gives beside the answer: its routine, and its value if nothing is proved."""
 
     routine: Routine
     nothing: float
@@ -297,7 +297,7 @@ def asked_of(kind: Kind) -> str:
 
 
 def columns_text(kind: Kind, dialect: Dialect, prefix: str) -> dict[str, str]:
-    """What a template says of a row: its columns, its check, its functions."""
+    """The text of a template about rows: columns, check, functions."""
     phrases, names = PHRASES[dialect.name], kind.columns
     columns, width = ", ".join(names), str(len(names))
     parameters = ", ".join(phrases.declaration.format(name=name) for name in names)

@@ -165,7 +165,7 @@ def comment_text(text: str) -> str:
 
 
 def _and_axis(plan: ScenePlan) -> str:
-    """What a query names besides, and must be the kernel's own."""
+    """The axis that a query names, which must be the kernel's own."""
     return " and the axis, number by number," if plan.axis is not None and not plan.free else ""
 
 
@@ -176,7 +176,7 @@ def _question_in_comment(question: str) -> str:
 
 
 def _no_direction(plan: ScenePlan) -> str:
-    """What a kernel for any axis answers where a query names none."""
+    """The sentence about a query with an invalid axis, for a kernel for any axis."""
     return "So is an axis that is 0, 0, 0 or not finite. " if plan.free else ""
 
 
@@ -205,7 +205,7 @@ def region(setting: Setting) -> str:
 
 
 def outside(stages: Stages) -> str:
-    """What an answer about a centre outside the region is worth, in a sentence."""
+    """A sentence that says whether an answer is right for a centre outside the region."""
     last = stages.last
     if isinstance(last, Position):
         return "Outside it the answer is worth nothing: the centre is not looked at."
@@ -265,7 +265,7 @@ Numbered = tuple[int, Stages]
 
 
 def plan_lines(plan: ScenePlan) -> Iterator[str]:
-    """The plan for people, line by line; settings that leave out the same for the same reasons stand together."""
+    """The plan for people, line by line; settings that leave out the same for the same reasons are grouped."""
     yield f"{escaped(plan.scene.name, 60)}: {_question_in_words(plan.question)}, in {plan.format.name}"
     for group in _alike(plan):
         yield ""
@@ -294,7 +294,7 @@ def plan_as_json(plan: ScenePlan) -> dict[str, Any]:
 
 
 def printed_operations() -> Operations:
-    """What Table 2 costs each centre, its constant terms taken out of the loop."""
+    """The operations of Table 2 for each centre, without its constant terms."""
     return count(hoist(FORMULAS[PRINTED].program, SIZES).inside)
 
 

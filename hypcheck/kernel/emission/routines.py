@@ -185,7 +185,7 @@ def _low_half(part: Part, next_part: Part | None) -> Half | None:
 
 
 def _broken(head: str) -> Iterator[str]:
-    """The lines of a head, one that is too long as several, each of which ends behind a comma."""
+    """The lines of a function's head; a line that is too long is broken after commas."""
     for line in head.splitlines():
         inputs = line.split(", ") if len(line) > WIDTH else [line]
         begun, *others = inputs

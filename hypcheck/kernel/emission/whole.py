@@ -153,7 +153,7 @@ def whole_plan(scene: SceneModel, precision: str = "float64") -> ScenePlan:
 
 
 def _taller(body: Hyperboloid, reach: float) -> Hyperboloid:
-    """The hyperboloid, open, where a mover that reaches so far up and down can touch what stands of it."""
+    """The open hyperboloid, longer at both ends by `reach`, which is how far the mover extends up and down."""
     if body.height is None:
         return body
     far = reach * (1 + 2.0**-40)
@@ -208,7 +208,7 @@ def _shapes(plan: ScenePlan, dialect: Dialect) -> _Shapes:
 
 
 def _used(scene: SceneModel, plan: ScenePlan) -> list[tuple[int, list[int]]]:
-    """The hyperboloids that are ever asked, and the settings of the mover and its parts beside each."""
+    """The hyperboloids that the mover can reach, and the settings of the mover and its parts beside each."""
     places = {stages.setting.sizes: place for place, stages in enumerate(plan.settings)}
     mover, used = scene.mover, []
     spheroids = [(mover.b, mover.d), *((part.b, part.d) for part in mover.parts)]

@@ -206,7 +206,7 @@ Open Scope string_scope.
 
 
 def programs() -> str:
-    """The text of PROGRAMS: every program as its listing, a semicolon behind each step."""
+    """The text of PROGRAMS: every program as its listing, with a semicolon after each step."""
     listings = {name: " ".join(f"{line_of(step)};" for step in program.steps) for name, program in _PRINTED.items()}
     definitions = (f'Definition {name} := steps_of "\n{fill(text, 118)}".\n' for name, text in listings.items())
     return "\n".join((_PROGRAMS_HEAD, *definitions))

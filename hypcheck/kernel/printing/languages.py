@@ -68,7 +68,7 @@ class Spelling:
 
 
 def literal(suffix: str = "") -> Callable[[int], str]:
-    """A writer of integers as numbers with a decimal point and the suffix; what is negative stands in parentheses."""
+    """A writer of integers as numbers with a decimal point and the suffix; a negative number is put in parentheses."""
 
     def constant(value: int) -> str:
         text = f"{abs(value)}.0{suffix}"
@@ -104,7 +104,7 @@ def declared(name: str, kind: str, value: str, spelling: Spelling) -> str:
 
 
 def value_of(step: Step, spelling: Spelling) -> str:
-    """What a step computes. Raises KeyError for an operation that the language has no template for."""
+    """The expression of a step. Raises KeyError for an operation without a template in this language."""
     return spelling.operations[step.operation].format(*(argument_of(argument, spelling) for argument in step.arguments))
 
 

@@ -106,7 +106,7 @@ def _cross(name: str, left: str, right: str) -> str:
 
 
 def _linear(of: str) -> str:
-    """What is linear in a vector: its components along and across the hyperboloid's axis and along the other two."""
+    """The linear functions of a vector: components along and across the hyperboloid's axis and along the others."""
     return (
         _cross(f"across_{of}", "n", of)
         + _dot(f"level_{of}", "n", of)

@@ -1,1 +1,1 @@
-"""What a scene needs of the mathematics, and nothing else: settings, lines, a discriminant with a bound, a search."""
+"""The computations that a scene needs, and no others: settings, lines, a discriminant with a bound, a search."""

@@ -30,7 +30,7 @@ def _quick_sum(name: str, large: str, small: str) -> tuple[Part, ...]:
 
 
 def _exact_sum(name: str, one: str, other: str) -> tuple[Part, ...]:
-    """The same of any two doubles."""
+    """The exact sum of any two doubles."""
     return steps_of(
         f"""
         {name}_high = {one} + {other}

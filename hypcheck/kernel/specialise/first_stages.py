@@ -60,7 +60,7 @@ UNSCALED = ScaledSetting(_ONE, _ONE, _ONE, _ONE, _ONE, _ONE)
 
 
 def entry(scaled: ScaledSetting) -> tuple[Program, dict[str, float]]:
-    """The program from x, y, z to R, zz and height = |z|, with the constants it takes besides them."""
+    """The program from x, y, z to R, zz and height = |z|, with the constants that it also needs."""
     constants = {
         name: float(value) for name, value in ((RADIAL, scaled.radial), (AXIAL, scaled.axial)) if value != _ONE
     }

@@ -266,7 +266,7 @@ def search_begin(pole: Fraction, steepest: Fraction, form: FloatFormat) -> Fract
 
 
 def _least_square(form: FloatFormat) -> Fraction:
-    """What A and B must not be below: 2^least beside it is far below u, and a search's first distance is normal."""
+    """The lower limit of A and B: compared with it 2^least is far below u, and a search's first distance is normal."""
     return Fraction(2) ** (form.least + form.bits + SPARE + 1)
 
 
@@ -317,7 +317,7 @@ _NOTHING = Fraction(1, 2**620)
 
 @dataclass(frozen=True)
 class TiltedSearch:
-    """What the stage holds: the frame of a fixed axis, or p, s, t and b where the axis is free, in double-double.
+    """The constants of the stage: the frame of a fixed axis, or p, s, t and b where the axis is free, in double-double.
 
     `most` is above every number of the rows times b, `omega` the bound of their errors. It answers where R ≤ `widest`
     and zz ≤ `highest`.

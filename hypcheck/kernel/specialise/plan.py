@@ -1,4 +1,4 @@
-"""What a scene needs, stage by stage, and what it does without: the plan that kernels are emitted from."""
+"""The plan from which kernels are emitted: what a scene needs, stage by stage, and what it can omit."""
 
 from __future__ import annotations
 
@@ -121,7 +121,7 @@ class ScenePlan:
 
 
 def plan_of(scene: SceneModel, precision: str = "float64", most: int = MOST_SETTINGS) -> ScenePlan:
-    """The plan for a scene's own question, of at most so many settings.
+    """The plan for a scene's own question, with at most `most` settings.
 
     Raises InputError for another format, too many or too extreme sizes, and where nothing is ever asked.
     """
@@ -222,7 +222,7 @@ def _lines(
 
 
 def _by_centre(question: str, sides: dict[str, float], form: FloatFormat, R: Floats, zz: Floats) -> Mask:
-    """A mask of the centres whose side alone answers a one-sided question."""
+    """A mask of the centres whose side already answers a one-sided question."""
     if question not in ONE_SIDED:
         return np.zeros(len(R), dtype=bool)
     (outside,) = outputs(first_stages.CENTRE, float_arithmetic(form.name), {"R": R, "zz": zz, **sides}, ("outside",))
@@ -239,7 +239,7 @@ def _shares(by_lines: Mask, by_delta: Mask) -> dict[str, float]:
 
 
 def decided_by(delta: last_stages.Discriminant, form: FloatFormat, R: Floats, zz: Floats) -> Mask:
-    """Which centres the discriminant tells: within its region, and larger than its bound."""
+    """The centres that the discriminant decides: within its region, and with an absolute value above its bound."""
     values = evaluate(delta.program, float_arithmetic(form.name), {"R": R, "zz": zz, **delta.constants})
     inside = (R <= delta.widest) & (zz <= delta.highest)
     beyond = values["delta_3"] < -delta.bound

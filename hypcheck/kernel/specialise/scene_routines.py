@@ -41,7 +41,7 @@ _POSITION_OF = {"exterior": 1, "interior": -1, "contact": 0}
 
 
 def scene_columns(scene: SceneModel, *, sweep: bool) -> tuple[str, ...]:
-    """What a row asks: the mover's centre, or both ends of its sweep, and its axis where the scene leaves it free."""
+    """The columns of a row: the mover's centre, or both ends of its sweep, and its axis if the scene leaves it free."""
     places = (*sweeps.START, *sweeps.END) if sweep else CENTER
     return (*places, *(AXIS if scene.mover.axis == FREE else ()))
 

@@ -53,7 +53,7 @@ _IS_PAST = Call("beyond", PAST_MAXIMUM, ("ar", "cz", "pole", "other", "middle", 
 
 
 def halving(times: int, mean: Program, low: tuple[str, str], high: tuple[str, str], is_past: Call = _IS_PAST) -> Loop:
-    """So many halvings between `low` and `high`, each the name of an end and of what it is at first.
+    """`times` halvings between `low` and `high`, each the name of an end and its initial value.
 
     `mean` makes `middle` of them, `is_past` makes `beyond` of that, which is compared with `beyond_half`.
     """
@@ -72,7 +72,7 @@ def halving(times: int, mean: Program, low: tuple[str, str], high: tuple[str, st
 
 
 def search_of(steps: int) -> Routine:
-    """The search of so many halvings in all."""
+    """The search with that total number of halvings."""
     parts: tuple[Part, ...] = (
         *(step for step in last_stages.START.steps),
         Call("is_interior", FALLS, ("ar", "cz", "A", "B")),
