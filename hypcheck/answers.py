@@ -149,9 +149,9 @@ def _answer_chunk(
 ) -> tuple[bytes, int]:
     """The text that is written for a chunk, and its number of rows."""
     chunk = unread()
-    if chunk.layout != PAIRS and margin is not None:
+    if chunk.layout.has_end and margin is not None:
         raise InputError("--margin is for positions; x1, y1, z1 make the rows sweeps, so leave one of them out")
-    chunk_answers = _answers_of_chunk(chunk, margin) if chunk.layout == PAIRS else _sweeps_of_chunk(chunk)
+    chunk_answers = _sweeps_of_chunk(chunk) if chunk.layout.has_end else _answers_of_chunk(chunk, margin)
     return render(chunk, chunk_answers), len(chunk.rows)
 
 

@@ -13,6 +13,7 @@ from typing import Any
 
 from hypcheck.answer import DisagreementError
 from hypcheck.geometry.pair import TILTED_SWEEP_COLUMNS, WITHOUT_ENDS
+from hypcheck.geometry.rows import SWEEPS
 from hypcheck.messages import counted
 from hypcheck.tables.numbers import equals_text, exact_text, readable_text
 from hypcheck.truth.certificate import PassageCertificate, check_passage
@@ -41,7 +42,7 @@ def sweep_answer(row: Sequence[float]) -> SweepAnswer:
 
     Raises InputError for a row that is not valid, DisagreementError if the proof does not hold.
     """
-    if len(row) > len(TILTED_SWEEP_COLUMNS):
+    if SWEEPS.has_heights(row):
         sweep = passage_of_row(row)
         return SweepAnswer(tuple(row), sweep, (sweep.first_lower, sweep.first_upper) if sweep.hit else None, None)
     try:
@@ -100,8 +101,7 @@ def sweep_as_text(answer: SweepAnswer) -> str:
         lower, upper = answer.first
         lines.append(f"first      contact between the times {lower!r} and {upper!r}; 0 is the start, 1 the end")
     lines.append(f"ends       {sweep.start.label} at the start, {sweep.end.label} at the end")
-    ended = len(answer.row) > len(TILTED_SWEEP_COLUMNS)
-    proof = [_BESIDE_ENDS] if ended else list(_proof_lines(answer.certificate))
+    proof = [_BESIDE_ENDS] if SWEEPS.has_heights(answer.row) else list(_proof_lines(answer.certificate))
     return "\n".join([*lines, f"proof      {proof[0]}", *(f"{'':11}{line}" for line in proof[1:])])
 
 

@@ -25,7 +25,7 @@ from hypcheck.bench.contender import Contender, LoadedMethod
 from hypcheck.bench.contenders import contenders
 from hypcheck.bench.plan import PASSAGE, BenchPlan, chosen_names
 from hypcheck.bench.workloads import WORKLOADS, Workload, workloads_of
-from hypcheck.geometry.rows import PAIRS, SWEEPS, Floats, Positions, Rows
+from hypcheck.geometry.rows import SWEEPS, Floats, Positions, Rows
 from hypcheck.implementations.description import QUESTIONS
 from hypcheck.implementations.method import Answers
 from hypcheck.implementations.session import Answered
@@ -96,7 +96,7 @@ def workload_truths(plan: BenchPlan, executor: Executor | None) -> Iterator[Work
         pieces = [(start, rows[start : start + _PIECE]) for start in range(0, len(rows), _PIECE)]
         exponents = np.empty(len(rows))
         truth = np.empty(len(rows), dtype=np.int8)
-        examine = _examined if workload.layout is PAIRS else _examined_sweeps
+        examine = _examined_sweeps if workload.layout.has_end else _examined
         for (start, piece), (truths, octaves) in perform(examine, pieces, executor):
             truth[start : start + len(piece)], exponents[start : start + len(piece)] = truths, octaves
         yield WorkloadTruth(workload, rows, truth, exponents)

@@ -57,8 +57,8 @@ def foreign_method(
         description = implementation.description
         if tilted and not description.tilt:
             raise InputError(f'{spec} answers rows of seven numbers alone: its description has no "tilt": true')
-        if description.asked.layout is not layout:
-            other = "with" if layout is PAIRS else "without"
+        if description.asked.layout != layout:
+            other = "without" if layout.has_end else "with"
             raise InputError(
                 f"{spec} answers the question {description.question}; it is measured {other} --question passage"
             )
@@ -72,7 +72,7 @@ def foreign_method(
 def _seconds_a_row(implementation: Implementation) -> float:
     """Seconds for a row of a batch; batches grow until one takes long enough to measure."""
     layout = implementation.description.asked.layout
-    some = (WORKLOADS["uniform"] if layout is PAIRS else SWEEP_WORKLOADS["tower"]).rows(1, _TRIED)
+    some = (SWEEP_WORKLOADS["tower"] if layout.has_end else WORKLOADS["uniform"]).rows(1, _TRIED)
     inside = some[implementation.description.domain.holds(some, layout=layout)]
     usual = [*NEAR_SCENES[0], 1.0, 0.5, 2.0, 1.0, 0.5, -2.0][: len(layout.upright)]
     some = inside if len(inside) else np.array([usual])

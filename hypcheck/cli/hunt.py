@@ -253,7 +253,7 @@ def minimise(spec: str, case: str, **subject: Any) -> None:  # noqa: ANN401
     for line in minimised_lines(run):
         click.echo(printable(line))
     row = run.last.case.row
-    if run.target.layout is SWEEPS:
+    if run.target.layout.has_end:
         click.echo("\nthe right answer")
         content = content_with(SWEEPS, ended=SWEEPS.has_heights(row))
         click.echo("\n".join(sweep_answer_lines(*labelled(content, [("", row)]))))

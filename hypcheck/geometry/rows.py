@@ -23,6 +23,7 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.pair import (
     AXIS,
     COLUMNS,
+    END,
     HEIGHTS,
     SIZES,
     SWEEP_COLUMNS,
@@ -56,7 +57,7 @@ class Layout:
     """The columns of rows: `upright` are the names of those of upright spheroids; for tilted ones, AXIS is behind.
 
     Where hyperboloids end, HEIGHTS are behind AXIS, which is there for upright spheroids too. `subjects` say in a word
-    what rows of each width are about.
+    what rows with none, one or both of these groups are about: of hyperboloids that end no cause is known.
     """
 
     upright: tuple[str, ...]
@@ -67,9 +68,23 @@ class Layout:
         """How many numbers rows have: of upright spheroids, with an axis, with an axis and heights."""
         return len(self.upright), len(self.tilted), len(self.ended)
 
-    def subject(self, width: int) -> str:
-        """The subject of rows with that number of columns."""
-        return self.subjects[self.widths.index(width)]
+    def groups(self, rows: Rows | Sequence[object]) -> int:
+        """How many groups of columns the rows, or one row, have besides: 0, 1 with an axis, 2 with heights too."""
+        return self.has_axis(rows) + self.has_heights(rows)
+
+    def subject(self, rows: Rows | Sequence[object]) -> str:
+        """The subject of the rows, or of one row."""
+        return self.subjects[self.groups(rows)]
+
+    @property
+    def has_end(self) -> bool:
+        """Whether rows have the end of a sweep."""
+        return END[0] in self.upright
+
+    @property
+    def base(self) -> tuple[str, ...]:
+        """The names of the columns before an axis and heights as tables have them: x, y, z are where a sweep begins."""
+        return COLUMNS + END if self.has_end else COLUMNS
 
     @property
     def tilted(self) -> tuple[str, ...]:
@@ -80,6 +95,10 @@ class Layout:
     def ended(self) -> tuple[str, ...]:
         """The names of the columns of rows whose hyperboloids end."""
         return self.tilted + HEIGHTS
+
+    def columns_with(self, *, axis: bool, heights: bool) -> tuple[str, ...]:
+        """The names of the columns of rows with these groups; where heights are, an axis is."""
+        return self.ended if heights else self.tilted if axis else self.upright
 
     def columns(self, width: int) -> tuple[str, ...]:
         """The names of the columns of a row with that many numbers."""

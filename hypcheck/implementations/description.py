@@ -134,7 +134,7 @@ def described(raw: object, defaults: Description, required: tuple[str, ...] = ()
         raise InputError("the description takes an axis, but its tilt is false; leave tilt out, or make it true")
     values |= {name: True for name, group in (("tilt", "axis"), ("heights", "heights")) if group in taken}
     description = replace(defaults, **values)
-    if "end" in taken and description.asked.layout is not SWEEPS:
+    if "end" in taken and not description.asked.layout.has_end:
         raise InputError(
             f"the description takes an end, but its question is {description.question!r}; the end of a straight motion "
             'belongs to the question "passage"'

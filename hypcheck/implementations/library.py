@@ -77,7 +77,7 @@ class Library:
         an empty function of hypcheck, or with ctypes of this library without rows.
         """
         room, n = _AnswerRoom(self._memory, rows, call), len(rows)
-        if _calls is None or call.layout is not PAIRS or call.columns:  # it calls functions of three arguments
+        if _calls is None or call.layout.has_end or call.columns:  # it calls functions of three arguments
             return self._seconds_by_ctypes(rows, repeat, call, room)
         address = ctypes.cast(self._entry(rows, call), ctypes.c_void_p).value or 0 if n else 0
         words = (address, rows.ctypes.data, rows.shape[1], room.answers.ctypes.data, max(1, n), repeat)
@@ -220,7 +220,7 @@ class _AnswerRoom:
     def words_at(self, place: int) -> tuple[int | None, ...]:
         """The arguments for the row at that place."""
         answers = self._answers.address + place
-        if self._call.layout is PAIRS:
+        if not self._call.layout.has_end:
             return (answers,)
         return answers, None if self._times is None else self._times.address + 8 * place
 
@@ -232,7 +232,7 @@ class _AnswerRoom:
 
     def written(self) -> GivenAnswers:
         """What was written; raises ContractError if anything was written outside."""
-        self._answers.check("position" if self._call.layout is PAIRS else "hit")
+        self._answers.check("hit" if self._call.layout.has_end else "position")
         if self._times is not None:
             self._times.check("time")
         return GivenAnswers(self.answers, None if self._times is None else self._times.values)

@@ -37,7 +37,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import COLUMNS, SWEEP_COLUMNS, Sizes
-from hypcheck.geometry.rows import CANNOT_SAY, Floats, Rows
+from hypcheck.geometry.rows import CANNOT_SAY, SWEEPS, Floats, Rows, parts_of
 from hypcheck.implementations.meshes import COAL, FCL, LARGEST, MeshGrid, MeshLibrary, grid_of, rows_by_sizes
 from hypcheck.implementations.method import Answers
 from hypcheck.kernel.in_use import kernel
@@ -119,7 +119,7 @@ def _in_radii(rows: Rows, centres: Floats) -> tuple[Floats, Floats]:
     Of a surface of revolution about the spheroid's axis the plane through the centre is enough.
     """
     alpha, gamma, b, d = rows[:, :4].T
-    if rows.shape[1] == len(SWEEP_COLUMNS):
+    if not SWEEPS.has_axis(rows):
         across = b**2 / alpha**2
         radius = np.hypot(centres[:, 0], centres[:, 1]) / b
         return (
@@ -134,7 +134,7 @@ def _in_radii(rows: Rows, centres: Floats) -> tuple[Floats, Floats]:
 
 def _along_and_across(rows: Rows, along: Floats, across: Floats) -> Floats:
     """Matrices (n, 3, 3) that multiply by `along` along the spheroid's axis, by `across` across it."""
-    axis = rows[:, len(SWEEP_COLUMNS) : len(SWEEP_COLUMNS) + 3]  # heights may follow
+    _, axis, _ = parts_of(rows, SWEEPS)
     axis = axis / np.linalg.norm(axis, axis=1, keepdims=True)
     onto: Floats = axis[:, :, None] * axis[:, None, :]
     return across[:, None, None] * (np.eye(3) - onto) + along[:, None, None] * onto
@@ -158,7 +158,7 @@ def least_distances(rows: Rows) -> Floats:
 def lengths_of(rows: Rows) -> Floats:
     """Lengths (n,) of sweeps in spheroid radii."""
     step, (b, d) = rows[:, SWEEP_ENDS] - rows[:, 4:7], rows[:, 2:4].T
-    if rows.shape[1] == len(SWEEP_COLUMNS):
+    if not SWEEPS.has_axis(rows):
         return np.asarray(np.hypot(np.hypot(step[:, 0] / b, step[:, 1] / b), step[:, 2] / d))
     return np.asarray(np.linalg.norm(_along_and_across(rows, 1 / d, 1 / b) @ step[:, :, None], axis=(1, 2)))
 

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.rows import PAIRS, Rows
+from hypcheck.geometry.rows import Rows
 from hypcheck.implementations import frames
 from hypcheck.implementations.description import LONGEST, Description, described_by_json
 from hypcheck.implementations.frames import CallForm, GivenAnswers
@@ -168,11 +168,11 @@ def _lacking(path: str, described: Description, call: CallForm) -> str:
     """That a library lacks the function that is to be called."""
     question, name = described.asked, call.entry_name(tilt=described.tilt)
     rows = f"rows{len(described.columns)}" if described.tilt and not call.columns else "rows"
-    reasons = [f'"question": "{question.name}"'] if question.layout is not PAIRS else []
+    reasons = [f'"question": "{question.name}"'] if question.layout.has_end else []
     reasons += ['"tilt": true'] if described.tilt else []
     reasons += ['"takes": ["heights"]'] if described.heights else []
     why = f", since it describes itself with {' and '.join(reasons)}" if reasons else ""
-    answers = "int8_t *positions" if question.layout is PAIRS else "int8_t *hits, double *times"
+    answers = "int8_t *hits, double *times" if question.layout.has_end else "int8_t *positions"
     width = ", size_t width" if call.columns else ""
     wanted = f"void {name}(size_t n{width}, const double *{rows}, {answers})"
     return f'{path!r} has no symbol {name}; it must export {wanted}, in C++ as extern "C"{why}'

@@ -63,7 +63,7 @@ class AnsweredRows:
     @property
     def subject(self) -> str:
         """What the rows are about."""
-        return subject_of(self.rows.shape[1], self.criterion)
+        return self.criterion.layout.subject(self.rows)
 
     def part(self, places: Sequence[int] | Indices) -> AnsweredRows:
         """The rows at these indices, as if they alone had been asked."""
@@ -91,11 +91,6 @@ class AnsweredRows:
     def numbers(self) -> Numbers:
         """The numbers of the plain formula, in float64."""
         return Numbers.of(self.rows)
-
-
-def subject_of(numbers: int, criterion: Criterion) -> str:
-    """What rows of so many numbers are about: "upright", "tilted", "ended" (of which no cause is known) or "way"."""
-    return criterion.layout.subject(numbers)
 
 
 Rule = Callable[[AnsweredRows], Answers]

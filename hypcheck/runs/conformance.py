@@ -20,7 +20,6 @@ from hypcheck.record import Recorder, RecordLine
 from hypcheck.record.lines import UNEXPLAINED, CauseLine, DriftLine, GroupLine, ImplementationLine, NotStartedLine
 from hypcheck.record.progress import Tally
 from hypcheck.runs import spread, tally
-from hypcheck.runs.causes import subject_of
 from hypcheck.runs.consistency import require_all_tallied
 from hypcheck.runs.diagnosis import causes_of, wrong_case
 from hypcheck.runs.executors import execution_here, execution_in_pool, keep_freed_memory
@@ -221,8 +220,8 @@ class ImplementationLines:
 
     def _subjects(self) -> set[str]:
         """What all families that were asked are about, as causes have it; none if only some families were asked."""
-        widths = [family.columns for family in chosen_families(self.plan, self.used)]
-        return set() if self.plan.filtered else {subject_of(len(width), self.rules.criterion) for width in widths}
+        families = () if self.plan.filtered else chosen_families(self.plan, self.used)
+        return {family.layout.subject(family.columns) for family in families}
 
     def _group(self, family: str, tallied: Tally) -> GroupLine:
         wrong_fails = self.plan.fail_on == "wrong" or tallied.dangerous > 0 or family in INVALID_CONTENTS

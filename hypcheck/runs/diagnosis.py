@@ -28,7 +28,7 @@ from hypcheck.implementations.domain import Domain, claimed
 from hypcheck.record.fields import Extended, Unsigned, numbers_of, row_fields, row_of
 from hypcheck.record.progress import Explained, Place, Tally, WorstCase
 from hypcheck.runs import judge
-from hypcheck.runs.causes import PLACES, SILENT, WIDER_ROUNDINGS, AnsweredRows, Answers, Cause, Scope, subject_of
+from hypcheck.runs.causes import PLACES, SILENT, WIDER_ROUNDINGS, AnsweredRows, Answers, Cause, Scope
 from hypcheck.runs.formula_errors import SWEEP_FORMULA_ERRORS, TILTED_FORMULA_ERRORS, UPRIGHT_FORMULA_ERRORS
 from hypcheck.runs.judge import Criterion, Mistake, Status, WrongCase
 from hypcheck.runs.root_causes import ROOT_CAUSES
@@ -260,7 +260,7 @@ def causes_of(
     for family, diagnosis in diagnoses.items():
         if diagnosis.explained:
             numbers = numbers_of(diagnosis.explained[0].worst)
-            by_subject.setdefault(subject_of(len(numbers), criterion), {})[family] = diagnosis
+            by_subject.setdefault(criterion.layout.subject(numbers), {})[family] = diagnosis
     if not by_subject:
         return []
     explaining = {int(explained.causes, 16) for diagnosis in diagnoses.values() for explained in diagnosis.explained}
@@ -283,7 +283,7 @@ def causes_of(
 def _right_answers(clean: Sequence[str], criterion: Criterion, domain: Domain) -> Iterator[AnsweredRows]:
     """Frozen vectors of these families in the domain with the right answers to them."""
     layout = QUESTIONS[criterion.question].layout
-    widths: dict[int, list[tuple[Rows, Positions]]] = {}
+    by_groups: dict[int, list[tuple[Rows, Positions]]] = {}
     for family in clean:
         if family in INVALID_CONTENTS or family not in frozen.ALL_NAMES:
             continue
@@ -291,8 +291,8 @@ def _right_answers(clean: Sequence[str], criterion: Criterion, domain: Domain) -
         inside = claimed(family_vectors.rows, domain, criterion.precision, extreme=is_extreme(family), layout=layout)
         rows = family_vectors.rows[inside][:: max(1, len(inside) // CLEAN)]
         truth = family_vectors.positions[inside][:: max(1, len(inside) // CLEAN)]
-        widths.setdefault(rows.shape[1], []).append((rows, truth))
-    for some in widths.values():
+        by_groups.setdefault(layout.groups(rows), []).append((rows, truth))
+    for some in by_groups.values():
         rows, truth = (
             np.ascontiguousarray(np.vstack([one for one, _ in some])),
             np.concatenate([one for _, one in some]),

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.rows import SWEEPS, Floats, Mask
+from hypcheck.geometry.rows import Floats, Mask
 from hypcheck.implementations.description import QUESTIONS
 from hypcheck.messages import suggestion
 from hypcheck.runs import judge
@@ -116,7 +116,7 @@ def _possible_answers(rows: Floats, truth: Any, criterion: Criterion) -> Iterato
     answered = AnsweredRows(np.ascontiguousarray(rows), truth, truth, criterion)
     for answer in (0, 1, -1) if criterion.question == "position" else (0, 1):
         yield replace(answered, given=np.full(len(rows), answer, dtype=np.int8))
-    if criterion.layout is SWEEPS:
+    if criterion.layout.has_end:
         first = np.array([passage_of(tuple(row)).first_lower for row in rows.tolist()], dtype=np.float64)
         for times in (1 - first, first + 2.0**-13, first - 2.0**-13):
             within = np.flatnonzero((first > 2.0**-10) & (first < 1 - 2.0**-10))

@@ -163,7 +163,7 @@ def strata(
 
     Those where the spheroid is tilted or the hyperboloid ends only if asked for.
     """
-    if layout is SWEEPS:
+    if layout.has_end:
         sweeps = (ENDED_SWEEP_FAMILIES | SWEEP_FAMILIES if heights else SWEEP_FAMILIES).values()
         return tuple(_of_sweeps(family) for family in sweeps if tilt or not family.tilted)
     if settings:
@@ -306,7 +306,7 @@ BROUGHT = 3
 
 def _borders(draw: Draw, rows: Rows, layout: Layout) -> tuple[Mask, Floats]:
     """The columns of each row that one factor brings to the border of contact, and that factor; NaN where none does."""
-    if layout is PAIRS:
+    if not layout.has_end:
         movers = list(_movers_of(rows.shape[1]))
         mask = columns_of(np.asarray(movers)[draw.integers(len(rows), 0, len(movers) - 1)], rows.shape[1])
         return mask, border_factors(rows, mask, draw.signs(len(rows)) > 0)
@@ -320,7 +320,7 @@ def _borders(draw: Draw, rows: Rows, layout: Layout) -> tuple[Mask, Floats]:
 def _around(climber: Climber, layout: Layout) -> Rows:
     """The row itself, its neighbours one step away, and special rows beside it."""
     row, step = climber.row, climber.step
-    moves = _MOVES[layout][layout.widths.index(len(row))]
+    moves = _MOVES[layout][layout.groups(row)]
     rows = np.repeat(np.array([row]), 1 + 2 * len(moves), axis=0)
     for number, columns in enumerate(moves):
         rows[1 + 2 * number, columns] *= 1 + step
@@ -336,7 +336,7 @@ def _at_ends(row: Row, layout: Layout) -> Rows:
     images = np.repeat(np.array([row]), 8, axis=0)
     for image, height in zip(images, (low, low - d, high, high + d), strict=False):
         image[6] = height
-        if layout is SWEEPS:
+        if layout.has_end:
             image[9] = height + row[9] - row[6]
     images[4, width - 3] = -np.inf
     images[5, width - 2] = np.inf
@@ -347,11 +347,11 @@ def _at_ends(row: Row, layout: Layout) -> Rows:
 
 def _special(row: Row, layout: Layout) -> Rows:
     """The images of a row on the four surfaces; of a sweep those on three, and special sweeps beside it."""
-    images = np.repeat(np.array([row]), 4 if layout is PAIRS else 7, axis=0)
+    images = np.repeat(np.array([row]), 7 if layout.has_end else 4, axis=0)
     *others, waist, throat, groove = images
     throat[0] = throat[2]
     groove[1] = groove[3] * np.sqrt(groove[0] / groove[2])
-    if layout is PAIRS:
+    if not layout.has_end:
         (axis,) = others
         axis[4:6], waist[6] = 0, 0
         return images

@@ -263,7 +263,7 @@ def _row_of(target: hunt.HuntTarget, case: ReplayCase) -> Row:
     trouble = trouble_with_row(case.row, target.layout.upright)
     if trouble is not None:
         raise InputError(f"{case.name}: {trouble}")
-    return tuple(np.add(case.row, 0.0).tolist()) if case.layout is SWEEPS else Pair.from_row(case.row).row
+    return tuple(np.add(case.row, 0.0).tolist()) if target.layout.has_end else Pair.from_row(case.row).row
 
 
 def _start(run: Minimised, row: Row) -> hunt.HuntFinding:

@@ -131,7 +131,7 @@ def planned_cases(plan: ConformancePlan, used: Description) -> dict[str, int]:
 
 def _asks_everything(plan: ConformancePlan, used: Description) -> bool:
     """Whether cases of other families are asked too: those that a search found, and those of fixed sizes."""
-    return not plan.filtered and used.asked.layout is PAIRS
+    return not (plan.filtered or used.asked.layout.has_end)
 
 
 def searches(plan: ConformancePlan, used: Description) -> tuple[SearchStep, ...]:
@@ -172,7 +172,7 @@ def chosen_families(plan: ConformancePlan, used: Description) -> tuple[Family, .
         for family in named
         if (used.tilt or not family.tilted)
         and (used.heights or not family.ended)
-        and family.layout is used.asked.layout
+        and family.layout == used.asked.layout
     )
 
 
@@ -205,12 +205,12 @@ def families_not_asked(plan: ConformancePlan, used: Description) -> dict[str, di
     for name, cases in _cases_of(plan, ALL.values()).items():
         if name in planned or not cases:
             continue
-        other = ALL[name].layout is not used.asked.layout
+        other = ALL[name].layout != used.asked.layout
         lacking = "heights" if ALL[name].ended and not used.heights else "tilt"
         unwanted = "filter" if plan.filtered else "extreme" if ALL[name].extreme else ""
         reason = unwanted if name not in chosen and unwanted else "question" if other else lacking
         by_reason[reason][name] = cases
-    searched = () if not plan.filtered or used.asked.layout is not PAIRS else searched_chunks()
+    searched = () if not plan.filtered or used.asked.layout.has_end else searched_chunks()
     by_reason["filter"] |= {chunk.family: len(chunk) for chunk in searched}
     return {reason: families for reason, families in by_reason.items() if families}
 
@@ -223,7 +223,7 @@ def require_named(plan: ConformancePlan, used: Description) -> None:
     rules = rules_of(plan, used)
     for name in (name for name in plan.families if name in ALL):
         family = ALL[name]
-        if family.layout is not used.asked.layout:
+        if family.layout != used.asked.layout:
             raise InputError(
                 f"--families names {name}, which has no cases for the question {used.question!r}; "
                 f"leave it out, or name an implementation whose question is {_QUESTION_ABOUT[family.layout]}"

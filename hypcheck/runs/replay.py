@@ -219,7 +219,7 @@ def replay(case: ReplayCase, implementation: Implementation, criterion: Criterio
     known = (case, str(implementation.spec), declared, used, criterion)
     if case.at_fault:
         return Replay(*known, None, _refused(case, implementation))
-    truth = passage_of(case.row) if case.layout is SWEEPS else truth_of(Pair.from_row(case.row))
+    truth = passage_of(case.row) if layout.has_end else truth_of(Pair.from_row(case.row))
     judgement = _judged(implementation, case.row, truth, criterion)
     choice, causes = None, tuple[Cause, ...]()
     if isinstance(truth, ProvedTruth) and truth.pair.is_upright and not truth.pair.has_ends:
@@ -228,7 +228,7 @@ def replay(case: ReplayCase, implementation: Implementation, criterion: Criterio
         choice = choose_formula(implementation, answered, truth.pair.row, truth.decision.position, formula)
     elif formula is not None:
         ended = isinstance(truth, ProvedTruth) and truth.pair.has_ends
-        about = "a sweep" if case.layout is SWEEPS else "a hyperboloid that ends" if ended else "a tilted spheroid"
+        about = "a sweep" if layout.has_end else "a hyperboloid that ends" if ended else "a tilted spheroid"
         raise InputError(f"--formula is {formula!r}, but {case.name} is about {about}, which no formula takes")
     return Replay(*known, truth, judgement, _skipped(case, used, criterion), choice, causes)
 
@@ -237,7 +237,7 @@ def of_question(case: ReplayCase, used: Description) -> ReplayCase:
     """The case with the layout of the question. Raises InputError if it is of another, or a given row is invalid."""
     layout = used.asked.layout
     if case.layout not in (None, layout) or len(case.row) not in layout.widths:
-        this = "a position" if layout is SWEEPS else "a sweep between two positions"
+        this = "a position" if layout.has_end else "a sweep between two positions"
         raise InputError(f"{case.name} is {this}, and {used.name} answers {used.question!r}")
     if case.layout is None and (trouble := trouble_with_row(case.row, layout.upright)) is not None:
         raise InputError(trouble)

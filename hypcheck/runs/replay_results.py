@@ -9,7 +9,7 @@ from typing import Any
 
 from hypcheck.answer import kind_as_text
 from hypcheck.geometry.pair import REFUSED, Pair, Position
-from hypcheck.geometry.rows import CANNOT_SAY, SWEEPS
+from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.implementations.description import Description
 from hypcheck.proof_text import proof_as_json, proof_lines
 from hypcheck.record import plain
@@ -32,7 +32,7 @@ def replay_as_json(done: Replay) -> str:
     """
     judgement = done.judgement
     more: dict[str, Any] = {"time": judgement.time, "radii_off": judgement.radii}
-    if done.case.layout is not SWEEPS:
+    if not done.used.asked.layout.has_end:
         causes = [_cause_json(cause, done.used.language) for cause in done.causes]
         more = {"causes": causes, "values": None if done.choice is None else _choice_json(done.choice)}
     return json.dumps(

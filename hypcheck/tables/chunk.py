@@ -269,15 +269,14 @@ def read_values(
 
 def _numbers(values: Mapping[str, Value], number_of: Callable[[str, Value], float], layout: Layout) -> list[float]:
     """The row of these values. Raises ValueError as `number_of`."""
-    base = COLUMNS if layout == PAIRS else COLUMNS + END
     numbers = {name: number_of(name, value) for name, value in values.items()}
-    row = [numbers[name] for name in base]
+    row = [numbers[name] for name in layout.base]
     ended = not frozenset(HEIGHTS).isdisjoint(numbers)
     if ended or AXIS[0] in numbers:
         row += [numbers.get(name, value) for name, value in zip(AXIS, UPRIGHT, strict=True)]
     if ended:
         row += [numbers.get(name, value) for name, value in zip(HEIGHTS, WITHOUT_ENDS, strict=True)]
-    trouble = trouble_with_row(row, base)
+    trouble = trouble_with_row(row, layout.base)
     if trouble is not None:
         raise ValueError(trouble)
     return row

@@ -19,7 +19,7 @@ import numpy as np
 
 from hypcheck.errors import InputError, NothingJudgedError
 from hypcheck.geometry.pair import AXIS, COLUMNS, END, ENDS, HEIGHTS, REFUSED, TILTED_COLUMNS
-from hypcheck.geometry.rows import PAIRS, SWEEPS, Layout, Rows, invalid
+from hypcheck.geometry.rows import PAIRS, Layout, Rows, invalid
 from hypcheck.messages import json_trouble
 from hypcheck.tables.chunk import (
     ADDED,
@@ -88,7 +88,7 @@ _REFUSED_KEYS = f', "position": {REFUSED}, "label": "{LABELS[REFUSED]}", "tangen
 
 def _object(row: list[float], layout: Layout) -> str:
     """The object of a row; null stands for a number that JSON does not have (in a refused row)."""
-    named = zip((COLUMNS if layout == PAIRS else COLUMNS + END) + AXIS + HEIGHTS, row, strict=False)
+    named = zip(layout.base + AXIS + HEIGHTS, row, strict=False)
     return json.dumps({name: _json_number(name, value) for name, value in named})
 
 
@@ -144,7 +144,7 @@ def _chunk_of_block(block: TextBlock, places: RowPlaces, layout: Layout, *, mark
 
 
 def _chunk(texts: list[str], places: RowPlaces, layout: Layout, *, mark: bool) -> TableChunk:
-    rows = _rows_if_valid(texts) if layout == PAIRS else None
+    rows = None if layout.has_end else _rows_if_valid(texts)
     if rows is not None:
         return TableChunk(rows, np.zeros(len(rows), dtype=np.bool_), texts)
     values = _values_of_layout(texts, places, layout)
@@ -155,8 +155,8 @@ def _values_of_layout(texts: Sequence[str], places: RowPlaces, layout: Layout) -
     """The values of each line by column. Raises InputError about the first that has an end where others have none."""
     for index, text in enumerate(texts):
         values = _values(text, places.of(index))
-        if (END[0] in values) != (layout == SWEEPS):
-            end = f"{'no' if layout == SWEEPS else 'an'} end {', '.join(END)}"
+        if (END[0] in values) != layout.has_end:
+            end = f"{'no' if layout.has_end else 'an'} end {', '.join(END)}"
             raise InputError(f"{places.of(index)}: {end}, unlike the first row; all rows have an end, or none has")
         yield values
 

@@ -98,8 +98,7 @@ class Family:
     @property
     def columns(self) -> tuple[str, ...]:
         """The names of the numbers of a row."""
-        layout = self.layout
-        return layout.ended if self.ended else layout.tilted if self.tilted else layout.upright
+        return self.layout.columns_with(axis=self.tilted, heights=self.ended)
 
     def block(self, seed: int, number: int) -> Rows:
         """Rows number·BLOCK to (number + 1)·BLOCK − 1 of the seed: float64 (BLOCK, len(columns)), all valid."""

@@ -58,13 +58,12 @@ class Content:
     @property
     def about_sweeps(self) -> bool:
         """Whether the rows are asked about the motion between two positions."""
-        return self.layout is SWEEPS
+        return self.layout.has_end
 
     @property
     def columns(self) -> tuple[str, ...]:
         """The names of the numbers of a row."""
-        layout = self.layout
-        return layout.ended if self.ended else layout.tilted if self.tilted else layout.upright
+        return self.layout.columns_with(axis=self.tilted, heights=self.ended)
 
     @property
     def flags(self) -> Mapping[str, FlagFacts]:

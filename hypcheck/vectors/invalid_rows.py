@@ -44,7 +44,7 @@ ENDED_INVALID = {content.layout: name for name, content in INVALID_CONTENTS.item
 """The names of those about hyperboloids that end, by layout."""
 
 INVALID_NAMES = {
-    layout: tuple(name for name, content in INVALID_CONTENTS.items() if content.layout is layout and not content.ended)
+    layout: tuple(name for name, content in INVALID_CONTENTS.items() if content.layout == layout and not content.ended)
     for layout in (PAIRS, SWEEPS)
 }
 """The names of these files by layout, of upright spheroids and of tilted ones."""

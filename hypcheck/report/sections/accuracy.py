@@ -7,7 +7,6 @@ from collections.abc import Iterator, Sequence
 
 from msgspec import UNSET
 
-from hypcheck.geometry.rows import PAIRS, SWEEPS
 from hypcheck.implementations.description import QUESTIONS
 from hypcheck.record import Record
 from hypcheck.record.fields import numbers_of
@@ -125,9 +124,9 @@ def _family_table(totals: Sequence[ImplementationTotal]) -> TableBlock:
 
 def _mistakes(totals: Sequence[ImplementationTotal]) -> list[str]:
     """The kinds of mistakes that can be made about the questions of these methods."""
-    layouts = {QUESTIONS[total.question].layout for total in totals}
-    of_positions = [Mistake.WRONG_SIDE] if PAIRS in layouts else []
-    of_times = [Mistake.LATE, Mistake.EARLY] if SWEEPS in layouts else []
+    about_sweeps = {QUESTIONS[total.question].layout.has_end for total in totals}
+    of_positions = [Mistake.WRONG_SIDE] if False in about_sweeps else []
+    of_times = [Mistake.LATE, Mistake.EARLY] if True in about_sweeps else []
     return [mistake.value for mistake in (Mistake.FALSE_CLEAR, Mistake.FALSE_CONTACT, *of_positions, *of_times)]
 
 
