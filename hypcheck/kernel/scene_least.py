@@ -66,10 +66,14 @@ class Flights:
 
 @dataclass(frozen=True)
 class Least:
-    """The least distance of each flight (k,): its bounds, and in which segment, when, and from which it is reached."""
+    """The least distance of each flight (k,): its bounds, and in which segment, when, and from which it is reached.
+
+    `width`: how far apart the bounds of the distance are at the place where it is reached.
+    """
 
     lower: Floats
     upper: Floats
+    width: Floats
     segment: Indices
     time: Floats
     body: Indices
@@ -146,7 +150,8 @@ def least_distances(
     the scene.
     """
     least = Least(
-        np.zeros(count), np.full(count, np.inf), np.full(count, -1), np.full(count, np.nan), np.full(count, -1)
+        np.zeros(count), np.full(count, np.inf), np.zeros(count),
+        np.full(count, -1), np.full(count, np.nan), np.full(count, -1),
     )  # fmt: skip
     if not len(flights.starts):
         return least
@@ -187,34 +192,25 @@ def _narrow(search: _Search, least: Least, wanted: Indices) -> None:
     """Both bounds of these flights, whose upper bounds are alike."""
     segments = np.flatnonzero(np.isin(search.flights.flight, wanted))
     pieces = _near_pieces(search, segments, float(least.upper[wanted].max()), least.upper)
-    floor, size = np.full(len(least.upper), np.inf), max(search.mover.b, search.mover.d)
+    floor, size = least.upper.copy(), max(search.mover.b, search.mover.d)
     for turn in range(_ROUNDS):
         flight = search.flight_of(pieces)
         place, bound, half = _ask(search, least, pieces)
-        bound = bound - place.radius
-        target = least.upper[flight] - _TOLERANCE * (least.upper[flight] + size) - 8 * place.error
-        left = np.flatnonzero(~(bound >= target))
-        alone = left[pieces.first[left] == pieces.last[left]]
-        proved = _proved(search, pieces.some(alone), target[alone], half[alone])
-        left = np.setdiff1d(left, alone[proved])
-        most = turn + 1 == _ROUNDS or len(left) > _MOST_PIECES
-        short = (pieces.first[left] == pieces.last[left]) & (place.radius[left] <= 4 * place.error[left])
-        ended = left if most else left[short]
-        np.minimum.at(floor, flight[ended], bound[ended])
-        if most or short.all():
+        upper, width = least.upper[flight], least.width[flight]
+        bound = np.fmax(np.minimum(bound - place.radius, upper), 0)
+        target = upper - width - _TOLERANCE * (upper + size) - 8 * place.error
+        alone = np.flatnonzero((bound < target) & (pieces.first == pieces.last))
+        proved = alone[_proved(search, pieces.some(alone), target[alone], half[alone])]
+        bound[proved] = target[proved]
+        short = (pieces.first == pieces.last) & (place.radius <= 4 * place.error)
+        left = (bound < target) & ~short
+        if turn + 1 == _ROUNDS or np.count_nonzero(left) > _MOST_PIECES:
+            left[:] = False
+        np.minimum.at(floor, flight[~left], bound[~left])
+        if not left.any():
             break
-        pieces = _halved(pieces.some(left[~short]))
-    upper = least.upper[wanted]
-    reached = upper - _TOLERANCE * (upper + size) - 8 * _errors(search, len(floor))[wanted]
-    least.lower[wanted] = np.maximum(np.minimum(floor[wanted], reached), 0)
-
-
-def _errors(search: _Search, count: int) -> Floats:
-    """The greatest rounding of a place on each flight, (count,)."""
-    flights, errors = search.flights, np.zeros(count)
-    error = _ROUNDED * (np.abs(flights.starts).sum(axis=1) + np.abs(flights.ends).sum(axis=1))
-    np.maximum.at(errors, flights.flight, error)
-    return errors
+        pieces = _halved(pieces.some(left))
+    least.lower[wanted] = floor[wanted]
 
 
 def _ask(search: _Search, least: Least, pieces: _Pieces) -> tuple[_Places, Floats, Floats]:
@@ -233,7 +229,7 @@ def _ask(search: _Search, least: Least, pieces: _Pieces) -> tuple[_Places, Float
     best = order[first]
     better = high[best] < least.upper[reached]
     to, chosen = reached[better], best[better]
-    least.upper[to], least.body[to] = high[chosen], pairs[1][chosen]
+    least.upper[to], least.width[to], least.body[to] = high[chosen], (high - low)[chosen], pairs[1][chosen]
     least.segment[to], least.time[to] = place.segment[some][chosen], place.time[some][chosen]
     return place, bound, half
 

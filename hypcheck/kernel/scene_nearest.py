@@ -13,7 +13,9 @@ ends.
 
 **A tilted hyperboloid** is asked in a frame of its own, whose rows are a unit vector along its axis and two across.
 So the offset is off by TURNING of its size, and the spheroid, by its axis, by TURNING of its longer semi-axis: both are
-less than _ROUNDED of the sizes and coordinates.
+less than _ROUNDED of the coordinates, b and d. γ is not in that sum, for no length here is as long as γ where the
+others are not: a point of the waist is |C| + α from the spheroid's centre C at most, so that neither the nearest point
+nor an end plane that is nearer than the wall is farther away.
 
 Pairs are left out by the cylinder about what stands: the mover is no nearer to that than to the cylinder.
 """
@@ -226,7 +228,8 @@ def _pairs_of(bodies: Bodies, mover: Mover, centres: Floats, axes: Floats | None
     sizes = np.concatenate([bodies.shapes[body], np.tile((mover.b, mover.d), (len(body), 1))], axis=1)
     rows = np.concatenate([sizes, offset] if own_axes is None else [sizes, offset, own_axes], axis=1)
     with np.errstate(all="ignore"):
-        rounded = _LEAST + _ROUNDED * (np.abs(centres).sum(axis=1) + np.abs(origins).sum(axis=1) + sizes.sum(axis=1))
+        lengths = np.abs(centres).sum(axis=1) + np.abs(origins).sum(axis=1) + bodies.shapes[body, 0] + mover.b + mover.d
+        rounded = _LEAST + _ROUNDED * lengths
     axes = np.broadcast_to(UPRIGHT, centres.shape) if axes is None else axes
     return _Pairs(bodies, body, mover, centres, axes, rows, frames, rounded, np.asarray(beyond))
 

@@ -57,6 +57,12 @@ def test_scene_nearest_marks_hyperboloids_at_equal_distance_as_tied():
     assert np.allclose(found.point[1], (2.5, 0, 0), atol=1e-8)
 
 
+@pytest.mark.parametrize("gamma", [1e3, 1e8])
+def test_bounds_of_the_distance_from_a_steep_wall_are_as_near_as_from_any(gamma):
+    found = scene(Hyperboloid("tower", 2.0, gamma), mover=Mover(0.5, 0.5)).nearest(4.0, 0, 0)
+    assert found.distance_upper * (1 - 1e-9) <= found.distance_lower <= 1.5 <= found.distance_upper
+
+
 @pytest.mark.parametrize("number", range(20))
 def test_scene_nearest_measures_to_the_end_of_a_tree_above_its_end(number):
     rng = np.random.default_rng(number)
