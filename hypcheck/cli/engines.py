@@ -122,7 +122,7 @@ def verify(names: tuple[str, ...], out: Path, cache: Path) -> None:
 def bench(context: click.Context, names: tuple[str, ...], out: Path, triangles: int, cache: Path) -> None:
     """Compare engines on the rows of `hypcheck bench --quick`, on the paper's tower as a mesh of so many triangles.
 
-    Their errors against their run times stand in its plot beside those of every other method.
+    Its plot shows their errors over their run times, with those of every other method.
     """
     from hypcheck.cli.bench import bench as compare
     from hypcheck.engines.engine import command

@@ -403,8 +403,7 @@ class Scene(PreparedScene):
         if fixed != FREE:
             if axis is not None:
                 raise InputError(
-                    f"axis is given, and the scene fixes the mover's: {list(fixed)}; only where [mover] has "
-                    'axis = "free" does a query name it'
+                    f'axis is given, but the scene fixes it: {list(fixed)}; give one only if [mover] has axis = "free"'
                 )
             return fixed
         wanted = "it must be three numbers, or an array (n, 3) of them"

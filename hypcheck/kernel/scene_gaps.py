@@ -59,7 +59,7 @@ class _Pairs:
     upright: Mask
 
     def some(self, index: Indices) -> _Pairs:
-        """The pairs of these numbers."""
+        """The pairs with these indices."""
         return _Pairs(*(column[index] for column in vars(self).values()))
 
 

@@ -81,9 +81,9 @@ class Least:
 
 @dataclass(frozen=True)
 class _Pieces:
-    """Pieces (n,) of flights, each beside one hyperboloid: segments `first` to `last`.
+    """Pieces (n,) of flights, each with one hyperboloid: segments `first` to `last`.
 
-    Of one segment alone it is the times `begin` to `end`.
+    A piece of one segment is from the time `begin` to `end`.
     """
 
     first: Indices
@@ -269,7 +269,7 @@ def _proved(search: _Search, pieces: _Pieces, target: Floats, half: Floats) -> M
 
 
 def _halved(pieces: _Pieces) -> _Pieces:
-    """Two pieces for each, which meet at the place that was asked; of a whole segment its ends, too."""
+    """Two halves of each piece; for a whole segment also its two ends, as pieces of length 0."""
     alone = pieces.first == pieces.last
     whole = pieces.some(alone & (pieces.begin == 0) & (pieces.end == 1))
     segment, middle = (pieces.first + pieces.last + 1) // 2, (pieces.begin + pieces.end) / 2
@@ -288,7 +288,7 @@ def _joined(several: Sequence[_Pieces]) -> _Pieces:
 
 
 def _near_pieces(search: _Search, segments: Indices, within: float, most: Floats) -> _Pieces:
-    """Pieces, one or several of these segments, each with hyperboloids: all that may be `within` a distance of it.
+    """Pieces, one or several of these segments, each with all hyperboloids that may be `within` that distance.
 
     Those whose cylinder is farther from a piece than its flight's `most` (k,) are left out.
     """
@@ -319,7 +319,7 @@ def _near_pieces(search: _Search, segments: Indices, within: float, most: Floats
 
 
 def _looked_up(search: _Search, low: Floats, high: Floats, by_cells: Mask) -> tuple[Indices, Indices]:
-    """Pairs of a box' number and a hyperboloid's: those of the box' cells, or all."""
+    """Pairs of the numbers of a box and of a hyperboloid: those in the cells of the box, or all."""
     bodies, grid = search.bodies, search.grid
     some, others = np.flatnonzero(by_cells), np.flatnonzero(~by_cells)
     box, body = grid.near_boxes(low[some], high[some])

@@ -145,7 +145,7 @@ def test_scene_nearest_refuses_an_axis_that_is_missing_or_not_asked_for_and_inva
         free.nearest(0, 0, 0)
     with pytest.raises(InputError, match="row 0: axis_x, axis_y, axis_z are 0, 0, 0"):
         free.nearest(0, 0, 0, axis=(0, 0, 0))
-    with pytest.raises(InputError, match="axis is given, and the scene fixes the mover's"):
+    with pytest.raises(InputError, match="axis is given, but the scene fixes it"):
         scene(Hyperboloid("a", 1, 1)).nearest(0, 0, 0, axis=(0, 0, 1))
     with pytest.raises(InputError, match="row 1: y is nan"):
         scene(Hyperboloid("a", 1, 1)).nearest(0, [0, np.nan], 0)

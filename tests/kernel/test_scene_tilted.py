@@ -192,11 +192,11 @@ UPSTANDING = replace(FREELY, mover=Mover(0.5, 0.25))
         (FREELY, (0.0, np.nan, 1.0), "axis_y is nan; it must be finite"),
         (FREELY, (0.0, 1.0), r"axis is of shape \(2,\); it must be three numbers, or an array"),
         (FREELY, "up", "axis is 'up'; it must be three numbers"),
-        (FIXED, (1.0, 0.0, 2.0), r"axis is given, and the scene fixes the mover's: \[1.0, 0.0, 2.0\]; only where"),
+        (FIXED, (1.0, 0.0, 2.0), r"axis is given, but the scene fixes it: \[1.0, 0.0, 2.0\]; give one only if"),
         (
             UPSTANDING,
             (0.0, 0.0, 1.0),
-            r"the scene fixes the mover's: \[0.0, 0.0, 1.0\]; only where \[mover\] has axis = ",
+            r"the scene fixes it: \[0.0, 0.0, 1.0\]; give one only if \[mover\] has axis = ",
         ),
     ],
 )

@@ -177,7 +177,7 @@ HALF = program_of("half", ("pole",), "half = pole / 2")
 
 
 def falls(end: str = "") -> Program:
-    """Whether F ≤ 0 at A + λ = to_a and B − λ = to_b: then the maximum of φ is at or before λ. `end` ends the names."""
+    """Whether F ≤ 0 at A + λ = to_a and B − λ = to_b: then the maximum of φ is at or before λ. `end`: a suffix."""
     return program_of(
         f"falls{end}",
         ("ar", "cz", f"to_a{end}", f"to_b{end}"),

@@ -43,10 +43,10 @@ class Box:
 
 @dataclass(frozen=True, slots=True)
 class Setting:
-    """`sizes` are α, γ, b, d; `box` is where the centre can be; `cut` is the height at which the world ends, if there.
+    """`sizes` are α, γ, b, d; `box` the region of the centre, `cut` the heights of the wall.
 
     `axis` is that of the spheroid's revolution, FREE where each query names one, None where it is upright.
-    `cut` is kept only where the box does not end before it: it is then asked of every query. `uses` names the pairs of
+    `cut` is None unless the box reaches beyond these; every query is compared with it. `uses` names the pairs of
     the scene that have these sizes.
     """
 
