@@ -21,6 +21,7 @@ from json import dumps
 from math import floor, log10, nan
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 
 import msgspec
 import numpy as np
@@ -32,7 +33,7 @@ from hypcheck.engines.scene import HULL, TRIANGLES, SurfaceMesh, distances, rows
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import Floats, Mask, Rows
 from hypcheck.implementations.implementation import Implementation, open_implementation
-from hypcheck.implementations.session import Limits, Outcome, StartError, TimingError
+from hypcheck.implementations.session import Answered, Limits, Outcome, StartError, TimingError
 from hypcheck.messages import escaped
 from hypcheck.version import VERSION
 
@@ -142,14 +143,6 @@ def measure(
     meshed = (distances <= 1.0) != placed.contact
     error = np.abs(placed.gap) * family.millimetres
     others = implementation.classify(beside[0])
-    own = own_errors(
-        np.concatenate([contacts, others.answers == 1]),
-        np.concatenate([distances, beside[1]]),
-        hull=hulled(engine, placed),
-    )
-    own_wrong = own.wrong & np.concatenate([known, others.answered])
-    own_mm = own.radii * min(family.sizes[2:]) * family.millimetres
-    furthest = int(np.where(own_wrong, own_mm, -1.0).argmax())
     worst = int(np.where(wrong, error, -1.0).argmax())
     reported = reported_distances(words, placed.rows)
     return Measured(
@@ -163,10 +156,7 @@ def measure(
         worst_row=placed.rows[worst].tolist() if wrong.any() else None,
         mesh_wrong=int(meshed.sum()),
         mesh_worst_mm=float(error[meshed].max(initial=0.0)),
-        own_rows=len(own_wrong),
-        own=int(own_wrong.sum()),
-        own_worst_mm=float(own_mm[own_wrong].max(initial=0.0)),
-        own_worst_row=np.concatenate([placed.rows, beside[0]])[furthest].tolist() if own_wrong.any() else None,
+        **_own(engine, placed, distances, beside, answered, others),
         faults={
             outcome.label: answered.count(outcome) + others.count(outcome)
             for outcome in Outcome
@@ -177,6 +167,32 @@ def measure(
         penetration=_reported(reported, placed, distances, placed.contact, contacts),
         microseconds=_microseconds(implementation, placed.rows),
     )
+
+
+def _own(
+    engine: Engine,
+    placed: Placed,
+    distances: Floats,
+    beside: tuple[Rows, Floats],
+    answered: Answered,
+    others: Answered,
+) -> dict[str, Any]:
+    """The engine's own errors, as Measured has them: those of the placed rows, and of the rows beside the mesh."""
+    family, rows = placed.family, np.concatenate([placed.rows, beside[0]])
+    errors = own_errors(
+        np.concatenate([answered.answers == 1, others.answers == 1]),
+        np.concatenate([distances, beside[1]]),
+        hull=hulled(engine, placed),
+    )
+    wrong = errors.wrong & np.concatenate([answered.answered, others.answered])
+    millimetres = errors.radii * min(family.sizes[2:]) * family.millimetres
+    furthest = int(np.where(wrong, millimetres, -1.0).argmax())
+    return {
+        "own_rows": len(wrong),
+        "own": int(wrong.sum()),
+        "own_worst_mm": float(millimetres[wrong].max(initial=0.0)),
+        "own_worst_row": rows[furthest].tolist() if wrong.any() else None,
+    }
 
 
 def hulled(engine: Engine, placed: Placed) -> bool:

@@ -345,17 +345,20 @@ def require_named(specs: Iterable[str]) -> None:
     """Raise InputError if one of these texts is not a SPEC, or names a built-in method that does not exist."""
     for spec in map(parse_spec, specs):
         if spec.kind == "builtin":
-            from hypcheck.implementations.builtin import builtin  # noqa: PLC0415 - loads every formula
-
-            builtin(spec.words[0])
+            _builtin_session(spec)
 
 
 def _session(spec: Spec, limits: Limits, run: int) -> Session:
     """A session of what a SPEC names; `run` counts those before it."""
     if spec.kind == "builtin":
-        from hypcheck.implementations.builtin import BuiltinSession  # noqa: PLC0415 - loads every formula
-
-        return BuiltinSession(spec.words[0])
+        return _builtin_session(spec)
     if spec.kind == "command":
         return CommandSession(spec.words, limits)
     return WorkerSession(spec, limits, run)
+
+
+def _builtin_session(spec: Spec) -> Session:
+    """The session of a built-in method. Raises InputError if there is none of that name."""
+    from hypcheck.implementations.builtin import BuiltinSession  # noqa: PLC0415 - loads every formula
+
+    return BuiltinSession(spec.words[0])
