@@ -14,7 +14,7 @@ import stat
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from typing import Any, NoReturn, TypeVar
 
 from hypcheck.errors import InputError, system_reason
@@ -80,6 +80,14 @@ def parsed(text: str, name: str) -> dict[str, Any]:
         raise InputError(f"{name}: cannot be read as TOML: it is nested too deeply") from None
     except ValueError:  # an integer of more than 4300 digits
         raise InputError(f"{name}: {_TOO_LONG}") from None
+
+
+@cache
+def shipped(package: str, name: str) -> dict[str, Any]:
+    """The content of a TOML file that is installed beside the modules of a package of ours; it must not be changed."""
+    from importlib import resources  # noqa: PLC0415 - slow to load, and no command needs it to read its options
+
+    return parsed(resources.files(package).joinpath(name).read_text(encoding="utf-8"), name)
 
 
 Value = TypeVar("Value")

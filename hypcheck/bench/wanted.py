@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cache
-from importlib import resources
 from typing import Any
 
 from hypcheck import toml
@@ -44,10 +42,8 @@ class KernelTarget:
         )
 
 
-@cache
 def _listed() -> dict[str, Any]:
-    text = resources.files("hypcheck.bench").joinpath("targets.toml").read_text(encoding="utf-8")
-    return toml.parsed(text, "targets.toml")
+    return toml.shipped("hypcheck.bench", "targets.toml")
 
 
 def target(name: str) -> KernelTarget:

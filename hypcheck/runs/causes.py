@@ -14,8 +14,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
-from functools import cache, cached_property
-from importlib import resources
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -131,10 +130,8 @@ class Cause:
         return self.scope is Scope.ROUNDING and self.subject == "upright"
 
 
-@cache
 def _texts() -> dict[str, dict[str, str]]:
-    text = resources.files("hypcheck.runs").joinpath("causes.toml").read_text(encoding="utf-8")
-    return toml.parsed(text, "causes.toml")
+    return toml.shipped("hypcheck.runs", "causes.toml")
 
 
 def cause(

@@ -14,7 +14,6 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
-from importlib import resources
 
 import numpy as np
 from numpy.typing import NDArray
@@ -187,8 +186,7 @@ class KnownFinding:
 
 def known_findings() -> tuple[KnownFinding, ...]:
     """The known findings in the list that hypcheck installs."""
-    text = resources.files("hypcheck.runs").joinpath(KNOWN_FINDINGS_FILE).read_text(encoding="utf-8")
-    entries = toml.parsed(text, KNOWN_FINDINGS_FILE)["finding"]
+    entries = toml.shipped("hypcheck.runs", KNOWN_FINDINGS_FILE)["finding"]
     return tuple(
         KnownFinding(entry["formula"], entry["cause"], tuple(entry["families"]), entry["reason"]) for entry in entries
     )

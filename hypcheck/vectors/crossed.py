@@ -12,7 +12,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cache
-from importlib import resources
 from itertools import combinations
 from typing import Any
 
@@ -92,8 +91,7 @@ def goes_together(values: Mapping[tuple[str, ...], str]) -> bool:
 @cache
 def design(name: str) -> NDArray[np.int64]:
     """The combinations of a family: for each, the place of each factor's value, (combinations, factors)."""
-    text = resources.files("hypcheck.vectors").joinpath("crossed.toml").read_text(encoding="utf-8")
-    lines = toml.parsed(text, "crossed.toml")[name]["combinations"].split()
+    lines = toml.shipped("hypcheck.vectors", "crossed.toml")[name]["combinations"].split()
     return np.asarray([[int(letter, 16) for letter in line] for line in lines], dtype=np.int64)
 
 

@@ -6,8 +6,6 @@ The rows of a generator depend on nothing but (name, version, seed, index).
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import cache
-from importlib import resources
 
 import numpy as np
 from numpy.typing import NDArray
@@ -49,11 +47,9 @@ class Metadata:
     made_by: str
 
 
-@cache
 def descriptions() -> dict[str, dict[str, str]]:
     """The texts of descriptions.toml by name."""
-    text = resources.files("hypcheck.vectors").joinpath("descriptions.toml").read_text(encoding="utf-8")
-    return toml.parsed(text, "descriptions.toml")
+    return toml.shipped("hypcheck.vectors", "descriptions.toml")
 
 
 def described(name: str, made_by: str, *, version: int = 1, extreme: bool = False) -> Metadata:
