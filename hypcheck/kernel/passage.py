@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, overload
+from typing import TYPE_CHECKING, Any, overload
 
 from hypcheck.float_environment import in_default_environment
 from hypcheck.geometry.pair import SIZES
@@ -74,13 +74,13 @@ def passage(
     if columns:
         ways, columns = _by_position(ways, columns)
     sizes_and_points: tuple[Argument, ...] = (ways[:4], *ways[4:]) if len(ways) == 6 else ways
-    single = 3 <= len(sizes_and_points) <= 5 and not columns
-    if single and not any(map(_has_rows, (*sizes_and_points, axis, z_min, z_max, solid))):
-        sizes, start, end, *axes = sizes_and_points
-        direction = axes[0] if axes else axis
-        return swept.passage(
-            sizes, start, end, direction, axes[1] if axes[1:] else upward, z_min=z_min, z_max=z_max, solid=solid
-        )
+    heights = tuple(map(_of_python, (z_min, z_max, solid)))
+    single = 3 <= len(sizes_and_points) <= 5 and not columns and not any(isinstance(end, list) for end in heights)
+    if single and not any(map(_has_rows, (*sizes_and_points, axis))):
+        sizes, start, end, *axes = map(_of_python, sizes_and_points)
+        direction = axes[0] if axes else _of_python(axis)
+        tower, (low, high, flat) = axes[1] if axes[1:] else _of_python(upward), heights
+        return swept.passage(sizes, start, end, direction, tower, z_min=low, z_max=high, solid=flat)
     from hypcheck.kernel.passages import passages  # noqa: PLC0415 - it loads numpy, and one sweep does without
 
     if upward is not None:
@@ -88,6 +88,13 @@ def passage(
 
         raise InputError("upward is given, and the sweeps are many; a scene has tilted hyperboloids")
     return passages(ways, columns, axis, (z_min, z_max, solid))
+
+
+def _of_python(value: Argument) -> Any:  # noqa: ANN401 - whatever it is
+    """Numbers of numpy as numbers of Python, in sequences too, and arrays as lists; a tuple is a list then."""
+    if isinstance(value, (list, tuple)):
+        return [_of_python(part) for part in value]
+    return value.tolist() if hasattr(value, "tolist") else value
 
 
 def _by_position(

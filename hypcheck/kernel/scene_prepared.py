@@ -21,7 +21,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from hypcheck.errors import InputError
 from hypcheck.float_environment import in_default_environment
-from hypcheck.geometry.pair import trouble_with_axis
 from hypcheck.geometry.rows import Floats, Indices
 from hypcheck.kernel.margins import enlarged
 from hypcheck.kernel.scene_ends import limits_of
@@ -36,6 +35,8 @@ from hypcheck.scene.reading import parse_scene, read_scene
 if TYPE_CHECKING:
     from typing_extensions import Self
 
+_EMPTY = "the scene has no hyperboloid; it must have one at least"
+
 
 @dataclass(frozen=True)
 class PreparedScene:
@@ -45,8 +46,13 @@ class PreparedScene:
 
     @in_default_environment
     def __post_init__(self) -> None:
+        if not isinstance(self.model, SceneModel):
+            raise InputError(
+                f"the model is of type {type(self.model).__name__}; it must be a SceneModel, or see "
+                "Scene.from_arrays, Scene.from_text and Scene.from_toml"
+            )
         if not self.model.hyperboloids:
-            raise InputError("the scene has no hyperboloid; it must have one at least")
+            raise InputError(_EMPTY)
         if self.model.question not in QUESTIONS:
             question = escaped(reprlib.repr(self.model.question), 60)
             raise InputError(f"the question is {question}; it must be {', '.join(QUESTIONS[:-1])} or {QUESTIONS[-1]}")
@@ -62,6 +68,8 @@ class PreparedScene:
     @in_default_environment
     def from_text(cls, text: str) -> Self:
         """The scene that a TOML text describes. Raises InputError naming key and line."""
+        if not isinstance(text, str):
+            raise InputError(f"the scene is of type {type(text).__name__}; it must be a text")
         return cls(parse_scene(text))
 
     @classmethod
@@ -107,10 +115,6 @@ class PreparedScene:
         >>> scene.with_hyperboloid(Hyperboloid("new", 1, 17.8, (5, 0, 0))).classify((5, 0, 5))
         -1
         """
-        if not isinstance(hyperboloid, Hyperboloid):
-            raise InputError(
-                f"a {type(hyperboloid).__name__} is added; it must be a Hyperboloid(name, alpha, gamma, center)"
-            )
         model, body = self.model, checked_hyperboloid(hyperboloid)
         if any(hyperboloid.name == other.name for other in model.hyperboloids):
             raise InputError(f"there is a hyperboloid {hyperboloid.name!r} already; each must have another name")
@@ -128,6 +132,8 @@ class PreparedScene:
     def without(self, which: int | str) -> Self:
         """The scene without one hyperboloid, by number or name; the numbers of all later ones are lower by one."""
         place, model = self._place(which), self.model
+        if len(model.hyperboloids) == 1:
+            raise InputError(_EMPTY)
         model = replace(model, hyperboloids=(*model.hyperboloids[:place], *model.hyperboloids[place + 1 :]))
         grid = grid_without(self._grid, place, renumbered=True)
         return self._with(model, bodies_without(self._bodies, place), grid)
@@ -138,7 +144,7 @@ class PreparedScene:
             places = [place for place, body in enumerate(bodies) if body.name == which]
             if places:
                 return places[0]
-        elif 0 <= which < len(bodies):
+        elif isinstance(which, (int, np.integer)) and not isinstance(which, bool) and 0 <= which < len(bodies):
             return int(which)
         raise InputError(
             f"there is no hyperboloid {which!r}; it must be a name, or a number from 0 to {len(bodies) - 1}"
@@ -153,9 +159,12 @@ class PreparedScene:
         return self._with(replace(self.model, hyperboloids=others), bodies, patched)
 
     def _with(self, model: SceneModel, bodies: Bodies, grid: PlaneGrid | None) -> Self:
-        """The scene of a model, with data that are already prepared."""
-        scene = type(self)(model)
-        scene.__dict__["_bodies"] = bodies
+        """The scene of a model, with data that are already prepared, and without a check.
+
+        The parts of a mover that is larger by a margin may reach beyond it.
+        """
+        scene = object.__new__(type(self))
+        scene.__dict__.update(model=model, _bodies=bodies)
         if grid is not None:
             scene.__dict__["_grid"] = grid
         return scene
@@ -242,14 +251,16 @@ class PreparedScene:
 
     @cached_property
     def _bodies(self) -> Bodies:
-        bodies = bodies_of(self.model.hyperboloids)
-        invalid = ~(np.isfinite(bodies.axes).all(axis=1) & (bodies.axes != 0).any(axis=1))
-        for index in np.flatnonzero(invalid)[:1].tolist():
-            body = self.model.hyperboloids[index]
-            raise InputError(f"the hyperboloid {body.name!r}: {trouble_with_axis(body.axis)}")
-        for index in np.flatnonzero(~(bodies.spans[:, 0] < bodies.spans[:, 1]))[:1].tolist():
-            body = self.model.hyperboloids[index]
-            raise InputError(f"the hyperboloid {body.name!r}: height is {body.height}; its low must be less than high")
+        try:
+            bodies = bodies_of(self.model.hyperboloids)
+        except (AttributeError, TypeError, ValueError):  # something in the place of a number, a Span or a hyperboloid
+            for body in self.model.hyperboloids:
+                checked_hyperboloid(body)
+            raise
+        numbers = np.concatenate([bodies.shapes, bodies.origins, bodies.axes], axis=1)
+        valid = np.isfinite(numbers).all(axis=1) & (bodies.shapes > 0).all(axis=1) & (bodies.axes != 0).any(axis=1)
+        for index in np.flatnonzero(~(valid & (bodies.spans[:, 0] < bodies.spans[:, 1])))[:1].tolist():
+            checked_hyperboloid(self.model.hyperboloids[index])
         return bodies
 
 

@@ -16,6 +16,7 @@ from hypcheck.geometry.pair import AXIS, CENTER, HEIGHTS, SIZES, trouble_with, t
 from hypcheck.geometry.rows import as_columns, as_numbers
 from hypcheck.messages import counted, escaped
 from hypcheck.scene.model import FREE, Hyperboloid, Mover, Point, Span
+from hypcheck.scene.reading import within
 
 
 def hyperboloids_of(
@@ -49,6 +50,10 @@ def hyperboloids_of(
 
 def checked_hyperboloid(body: Hyperboloid) -> Hyperboloid:
     """The hyperboloid with float64 for its numbers. Raises InputError where one is not valid."""
+    if not isinstance(body, Hyperboloid):
+        raise InputError(
+            f"a hyperboloid is of type {type(body).__name__}; it must be a Hyperboloid(name, alpha, gamma, center)"
+        )
     if not isinstance(body.name, str):
         raise InputError(
             f"a hyperboloid's name is {escaped(reprlib.repr(body.name), 60)}; it must be a text: "
@@ -56,7 +61,12 @@ def checked_hyperboloid(body: Hyperboloid) -> Hyperboloid:
         )
     for name in SIZES[:2]:
         _require_number(f"the hyperboloid {body.name!r}: {name} is", getattr(body, name))
-    low, high = (-math.inf, math.inf) if body.height is None else (body.height.low, body.height.high)
+    if not (body.height is None or isinstance(body.height, Span)):
+        raise InputError(
+            f"the hyperboloid {body.name!r}: height is {escaped(reprlib.repr(body.height), 60)}; "
+            "it must be a Span(low, high), or None"
+        )
+    low, high = (-math.inf, math.inf) if body.height is None else body.height.ends
     (checked,) = hyperboloids_of(
         body.alpha, body.gamma, [body.center], [body.axis], (low, high, float(body.solid)), [body.name]
     )
@@ -90,12 +100,22 @@ def mover_of(mover: Mover | Sequence[float]) -> Mover:
 
 
 def require_valid_mover(mover: Mover) -> None:
-    """Raise InputError where a semi-axis, or the axis, of a mover or of its parts is not valid."""
+    """Raise InputError where a number of a mover or of its parts is not valid, or a part reaches beyond the mover."""
     for subject, body in [("the mover", mover), *((f"part {k + 1}", part) for k, part in enumerate(mover.parts))]:
         troubles = (trouble_with(name, getattr(body, name)) for name in SIZES[2:])
         trouble = next((trouble for trouble in troubles if trouble), None)
         if trouble is not None:
             raise InputError(f"{subject}: {trouble}")
+    for number, part in enumerate(mover.parts, start=1):
+        trouble = trouble_with("arm", part.arm) or trouble_with("angle", part.angle)
+        if trouble is None and part.arm < 0:
+            trouble = f"arm is {part.arm!r}; it must be 0 or more"
+        if trouble is None and not within(part, mover.b, mover.d):
+            trouble = (
+                "it reaches beyond the mover; it must lie within it, for it is asked only where the mover is not clear"
+            )
+        if trouble is not None:
+            raise InputError(f"part {number}: {trouble}")
     trouble = None if mover.axis == FREE else trouble_with_axis(mover.axis)
     if trouble is not None:
         raise InputError(f"the mover: {trouble}")

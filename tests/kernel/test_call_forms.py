@@ -103,6 +103,7 @@ def test_all_forms_of_the_same_sweeps_have_the_same_answers(form):
     [
         lambda: hypcheck.passage([*ROWS[2], 0, 0, 5]),
         lambda: hypcheck.passage(SIZES, start=POINTS[2], end=(0, 0, 5)),
+        lambda: hypcheck.passage(SIZES, np.array([3, 0, 5]), np.array([0, 0, 5], np.float32), z_max=np.float32(9)),
         lambda: hypcheck.passage(alpha=2, gamma=17.8, b=0.25, d=0.15, start=(3, 0, 5), end=(0, 0, 5)),
         lambda: hypcheck.passage({**TABLE, "x": 3, "y": 0, "z": 5, "x1": 0, "y1": 0, "z1": 5}),
     ],
@@ -112,6 +113,12 @@ def test_one_sweep_is_answered_by_numbers(form):
     assert (found.hit, found.index) == (True, 0)
     assert type(found.first_lower) is float or np.ndim(found.first_lower) == 0
     assert 0.22 < found.first_lower <= found.first_upper < 0.23
+
+
+def test_one_sweep_beside_several_ends_is_asked_once_for_each():
+    tops = [4, 5, 6]
+    for z_max in (tops, np.array(tops)):
+        assert hypcheck.passage(SIZES, (3, 0, 5), (1.5, 0, 5), z_max=z_max).hit.tolist() == [False, True, True]
 
 
 @pytest.mark.parametrize(

@@ -144,10 +144,60 @@ def test_a_margin_in_a_scene_makes_contact_of_what_is_nearer(margin):
 
 def test_a_margin_holds_for_the_parts_of_a_mover():
     parts = (hypcheck.MoverPart(0.1, 0.1, 0.2, 0.0), hypcheck.MoverPart(0.1, 0.1, 0.2, 180.0))
-    mover = hypcheck.Mover(0.3, 0.1, parts)
+    mover = hypcheck.Mover(0.4, 0.2, parts)
     scene = hypcheck.Scene.from_arrays(1, 3, [0, 0, 0], mover=mover)
     # Its parts lie along the x axis; the wall is at x = 1, and the nearer part ends 0.3 from the mover's centre.
     assert scene.position(1.5, 0.0, 0.0, 0.0) == 1
     assert scene.position(1.5, 0.0, 0.0, 0.0, margin=0.15) == 1
     assert scene.position(1.5, 0.0, 0.0, 0.0, margin=0.25) == 0
     assert scene.position(1.5, 0.0, 0.0, 0.0, margin=5e-324) == 1
+
+
+def test_a_margin_is_proved_where_a_larger_part_reaches_beyond_the_larger_mover():
+    scene = hypcheck.Scene.from_arrays(
+        2, 17.8, [0, 0, 0], mover=hypcheck.Mover(3, 1, (hypcheck.MoverPart(0.1, 0.7, 0),))
+    )
+    assert [scene.position(x, 0, 0, margin=1) for x in (20, 6.2, 3.2, 3)] == [1, 1, 1, 0]
+
+
+@pytest.mark.parametrize(
+    ("part", "trouble"),
+    [
+        (hypcheck.MoverPart(0.2, 0.1, 0.5), "part 1: it reaches beyond the mover"),
+        (hypcheck.MoverPart(0.1, 0.1, -0.1), "part 1: arm is -0.1; it must be 0 or more"),
+        (hypcheck.MoverPart(0.1, 0.1, float("nan")), "part 1: arm is nan"),
+        (hypcheck.MoverPart(0.1, 0.1, 0.1, float("inf")), "part 1: angle is inf"),
+    ],
+)
+def test_a_mover_from_python_is_refused_with_a_part_that_is_not_valid_or_reaches_beyond_it(part, trouble):
+    with pytest.raises(InputError, match=trouble):
+        hypcheck.Scene.from_arrays(2, 17.8, [0, 0, 0], mover=hypcheck.Mover(0.3, 0.3, (part,)))
+
+
+@pytest.mark.parametrize(
+    ("hyperboloid", "trouble"),
+    [
+        (hypcheck.Hyperboloid("a", 1, 1, (float("nan"), 0, 0)), "'a': x is nan; it must be finite"),
+        (hypcheck.Hyperboloid("a", 1, 1, (0, 0)), r"center is of shape \(1, 2\)"),
+        (hypcheck.Hyperboloid("a", 1, -1), "'a': gamma is -1.0; a semi-axis must be greater than 0"),
+        (hypcheck.Hyperboloid("a", "x", 1), "'a': alpha is 'x'; it must be a number"),
+        (hypcheck.Hyperboloid("a", 1, 1, height=(0, 1)), r"'a': height is \(0, 1\); it must be a Span\(low, high\)"),
+        ((1, 1), "a hyperboloid is of type tuple; it must be a Hyperboloid"),
+    ],
+)
+def test_a_scene_model_is_refused_where_a_hyperboloid_of_it_is_not_valid(hyperboloid, trouble):
+    model = hypcheck.SceneModel("s", "position", (hypcheck.Hyperboloid("good", 1, 1), hyperboloid), MOVER)
+    with pytest.raises(InputError, match=trouble):
+        hypcheck.Scene(model).classify((3, 0, 0))
+
+
+@pytest.mark.parametrize("which", [0.5, None, True, -1])
+def test_a_hyperboloid_is_named_by_a_text_or_by_a_whole_number_alone(which):
+    with pytest.raises(InputError, match="there is no hyperboloid"):
+        scene_of(2).moved(which, (0, 0, 0))
+
+
+@pytest.mark.parametrize("make", [lambda: hypcheck.Scene("tower"), lambda: hypcheck.Scene.from_text(b"name = 1")])
+def test_what_is_no_scene_is_refused_by_its_type(make):
+    with pytest.raises(InputError, match=r"is of type \w+; it must be a"):
+        make()
