@@ -158,6 +158,16 @@ Definition runs (s : step) : Prop := let n := name s in match kind_of s, argumen
   | Some Sized, [a] => exists p, has a p /\ pre n = Rabs p /\ x n = Rabs p
   | Some _, _ => False | None, _ => True end.
 
+(** What the comparisons of the C mean, where [holds] says which of them hold. *)
+Definition compares (holds : string -> Prop) (s : step) : Prop := match operation (meaning s), arguments (meaning s) with
+  | "gt", [a; c] => holds (name s) -> forall p q, has a p -> has c q -> q < p
+  | "lt", [a; c] => holds (name s) -> forall p q, has a p -> has c q -> p < q
+  | "ge", [a; c] => holds (name s) -> forall p q, has a p -> has c q -> q <= p
+  | "le", [a; c] => holds (name s) -> forall p q, has a p -> has c q -> p <= q
+  | "and", [Name a; Name c] => holds (name s) -> holds a /\ holds c
+  | "or", [Name a; Name c] => holds (name s) -> holds a \/ holds c
+  | _, _ => True end.
+
 Definition of_argument known a := match a with Name n => look n known | Number z => if (0 <? z)%Z then Some (whole z) else None end.
 Definition two known a c (f : size -> size -> option size) := match of_argument known a, of_argument known c with
   | Some s, Some t => f s t | _, _ => None end.

@@ -52,18 +52,10 @@ Section Certified.
 
 Variables (x pre : string -> R) (holds : string -> Prop).
 
-(** What the comparisons of the C mean. *)
-Definition means (s : step) : Prop := match operation (meaning s), arguments (meaning s) with
-  | "gt", [a; c] => holds (name s) -> forall p q, has x a p -> has x c q -> q < p
-  | "lt", [a; c] => holds (name s) -> forall p q, has x a p -> has x c q -> p < q
-  | "and", [Name a; Name c] => holds (name s) -> holds a /\ holds c
-  | "or", [Name a; Name c] => holds (name s) -> holds a \/ holds c
-  | _, _ => True end.
-
 (** The constants of the header, and that inputs are not computed. *)
 Definition constants := [("u_4", 4 * unit * slack); ("u_8", 8 * unit * slack); ("u_12", 12 * unit * slack); ("slack", slack);
   ("u_16", 16 * unit * slack); ("u_1536", 1536 * unit * slack); ("least", pow (-100)); ("greatest", pow 100); ("farthest", pow 200)].
-Hypotheses (Runs : Forall (runs multiplied x pre) C_certified) (Compares : Forall means C_certified)
+Hypotheses (Runs : Forall (runs multiplied x pre) C_certified) (Compares : Forall (compares x holds) C_certified)
   (Constants : forall n v, In (n, v) constants -> x n = v)
   (Inputs : forall n, In n (["alpha"; "gamma"; "b"; "d"; "x"; "y"; "z"] ++ map fst constants) -> pre n = x n).
 
@@ -75,7 +67,7 @@ Definition step_of n := find (fun s => String.eqb (name s) n) C_certified.
 
 Lemma runs_of n s : step_of n = Some s -> runs multiplied x pre s.
 Proof. intros E; apply find_some in E as [I _]; apply (proj1 (Forall_forall _ _) Runs s I). Qed.
-Lemma means_of n s : step_of n = Some s -> means s.
+Lemma means_of n s : step_of n = Some s -> compares x holds s.
 Proof. intros E; apply find_some in E as [I _]; apply (proj1 (Forall_forall _ _) Compares s I). Qed.
 
 Lemma product_of n a c : step_of n = Some (Step n "mul" [Name a; Name c]) -> pre n = x a * x c /\ returned (pre n) (x n).

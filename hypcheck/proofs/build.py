@@ -53,13 +53,16 @@ HEADER_TEXT = "HeaderText"
 PRINTED = ("Steps", "Programs", HEADER_TEXT, "Printed", "Fixed", "FixedRuns", "Ranges")
 """What the printed C rests on, the words of 128 bits that it computes with, and the range of its floats."""
 
-COMPOSED = ("Stages", "StageTwoAnswers", "Underflow", "StageTwoRuns", "StageThree", "StageFive", "Long", "StageFour")
+COMPOSED = (
+    *("Stages", "StageTwoAnswers", "Underflow", "StageOne", "StageTwoRuns"),
+    *("StageThree", "StageFive", "Long", "StageFour"),
+)
 """All stages in one theorem, Stages.whatever_stage_answers, and from the numbers of a stage to the position."""
 
 OF_STAGES = ("Stages", "StageTwoAnswers", "StageThree", "StageFive", "StageFour")
 """The files whose theorems say that what a stage answers is the position."""
 
-OF_RUNS = ("StageTwoRuns",)
+OF_RUNS = ("StageOne", "StageTwoRuns")
 """The same from the steps of the C in float64, with its guards."""
 
 FILES = (*SOUNDNESS, "ExtractedChecker", *RULE, *STAGES, *ROUNDING, *PRINTED, *COMPOSED)
@@ -75,7 +78,7 @@ AXIOMS = (
 OF_FLOCQ = "Classical_Prop.classic"
 """The excluded middle, which Flocq uses: what is said of its floats may assume it too."""
 
-ON_FLOCQ = ("Floats", "Ranges", "Underflow", "StageTwoRuns")
+ON_FLOCQ = ("Floats", "Ranges", "Underflow", "StageOne", "StageTwoRuns")
 """The files that say something of Flocq's floats."""
 
 PACKAGES = {
@@ -191,8 +194,8 @@ def compile_file(name: str, built: Path = BUILT) -> Compiled:
 def assumptions(names: tuple[str, ...], built: Path = BUILT) -> set[str]:
     """The axioms on which the statements of these compiled files rest, as Coq prints them."""
     needed = [f"From Hypcheck Require {name}." for name in names]
-    every = ", ".join(f"@{name}.{each}" for name in names for each in statements(name))
-    text = "\n".join((*needed, f"Definition everything := ({every}).", "Print Assumptions everything.", ""))
+    every = " ".join(f"let _ := @{name}.{each} in" for name in names for each in statements(name))
+    text = "\n".join((*needed, f"Definition everything := {every} tt.", "Print Assumptions everything.", ""))
     (built / "Assumptions.v").write_text(text, encoding="utf-8")
     command = ["coqc", "-q", "-R", ".", "Hypcheck", "Assumptions.v"]
     found = _run(command, built)
