@@ -113,16 +113,16 @@ def _held(worst: State, goal: Goal, middle: Row, radii: list[Fraction]) -> bool:
 
 
 def _shares_of_radius(worst: State) -> Iterator[mpf]:
-    """How far to go along Σq: to the end, half way there from the hyperboloid, or to where h turns before the end."""
+    """How far to go along Σq: to the end, half of that from the hyperboloid, or to where h turns before the end."""
     form, one, q = worst.form, plain.mpf(1), [-worst.side * part for part in worst.n]
     width = form.width(worst.v, q)
     if not width:  # at the hyperboloid's centre h falls or rises in no direction
         return
     yield one
     yield (1 + min(abs(worst.at * width), one)) / 2
-    way = [part / width for part in form.sigma_times(worst.v, q)]
-    bend = form.gradient(way)
-    turn = -dot(bend, worst.C) / (dot(bend, way) or one)
+    step = [part / width for part in form.sigma_times(worst.v, q)]
+    bend = form.gradient(step)
+    turn = -dot(bend, worst.C) / (dot(bend, step) or one)
     if 0 < turn < 1:
         yield turn
 

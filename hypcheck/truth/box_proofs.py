@@ -52,7 +52,7 @@ class Goal:
 class Form:
     """The two surfaces for fixed sizes, in numbers of one kind, such as intervals; centre C and axis v are given later.
 
-    Intervals prove (box_certificate.py, float_boxes.py); plain numbers point the way. `root` is the square root of a
+    Intervals prove (box_certificate.py, float_boxes.py); plain numbers say where. `root` is the square root of a
     number of that kind.
 
     Σ = M⁻¹ = b² I + (d² − b²) v vᵀ/(v·v) stands for M wherever it can: its entries change with the axis as much as the
@@ -222,18 +222,18 @@ def stays_off(place: Place, side: Number, direction: Vector, shares: Iterable[Nu
             break
         rho = kind.exactly(share)
         scale0, scale = (rho / form.width(axis, q) for axis in (v0, v))
-        way0 = [scale0 * part for part in form.sigma_times(v0, q)]
-        way = [scale * part for part in form.sigma_times(v, q)]
-        n = form.gradient([a + b for a, b in zip(C, way, strict=True)])
-        fall = dot(n, way) * (scale / rho) ** 2 / 2
+        offset0 = [scale0 * part for part in form.sigma_times(v0, q)]
+        offset = [scale * part for part in form.sigma_times(v, q)]
+        n = form.gradient([a + b for a, b in zip(C, offset, strict=True)])
+        fall = dot(n, offset) * (scale / rho) ** 2 / 2
         by_axis = zip(form.by_axis(v, q, n), form.by_axis(v, q, q), strict=True)
-        held = held | _crosses(place, side, way0, way, [scale * a - fall * b for a, b in by_axis])
+        held = held | _crosses(place, side, offset0, offset, [scale * a - fall * b for a, b in by_axis])
     return held
 
 
-def _crosses(place: Place, side: Number, way0: Vector, way: Vector, by_axis: Vector) -> Any:  # noqa: ANN401
-    """Whether h at the centre + a way is not on a side anywhere in the box; by_axis are the derivatives of half h."""
+def _crosses(place: Place, side: Number, offset0: Vector, offset: Vector, by_axis: Vector) -> Any:  # noqa: ANN401
+    """Whether h at centre + offset is not on a side anywhere in the box; by_axis are the derivatives of half h."""
     form, (C0, _), (C, _) = place.form, place.middle, place.whole
-    height = side * form.hyperboloid([a + b for a, b in zip(C0, way0, strict=True)])
-    n = form.gradient([a + b for a, b in zip(C, way, strict=True)])
+    height = side * form.hyperboloid([a + b for a, b in zip(C0, offset0, strict=True)])
+    n = form.gradient([a + b for a, b in zip(C, offset, strict=True)])
     return place.kind.high(height) + place.spread([*(2 * part for part in n), *(2 * part for part in by_axis)]) <= 0

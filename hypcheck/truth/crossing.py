@@ -13,7 +13,17 @@ from fractions import Fraction
 from hypcheck.geometry.pair import Lengths, over_one_denominator
 from hypcheck.truth.certificate import Point, Query
 from hypcheck.truth.pencil import Quartic, inside, quartic, toward_maximum
-from hypcheck.truth.rationals import adjugate, dot, floor_root, precisions, root_of, times
+from hypcheck.truth.rationals import (
+    adjugate,
+    dot,
+    exponent_of,
+    floor_root,
+    power_of_two,
+    precisions,
+    root_of,
+    sign_of,
+    times,
+)
 
 Vector = list[int]
 Matrix = list[list[int]]
@@ -35,7 +45,7 @@ def _upright_points(pair: Query, lengths: Lengths) -> tuple[Point, ...]:
     def side(point: Point) -> int:
         u, v, w = point
         height = (u * u + v * v) / (alpha * alpha) - w * w / (gamma * gamma) - 1
-        return (height > 0) - (height < 0)
+        return sign_of(height)
 
     def in_spheroid(point: Point) -> bool:
         u, v, w = point
@@ -74,7 +84,7 @@ def _upright_candidates(pair: Query, lengths: Lengths, outward: bool) -> Iterato
         if near is None:
             continue
         stretch, height = near
-        # From the centre through the nearest point, and on by ever smaller shares of the way.
+        # From the centre through the nearest point, and on by ever smaller shares of the distance.
         for beyond in (Fraction(1, 1 << bits // 2), Fraction(1, 1 << bits)):
             along = 1 + beyond
             w = z + d * (height - z / d) * along
@@ -188,8 +198,8 @@ class _Forms:
     def in_spheroid(self, point: Homogeneous) -> bool:
         """Whether (X − C)ᵀ M (X − C) ≤ 1."""
         X, w = point
-        way = [a - w * b for a, b in zip(X, self.center, strict=True)]
-        return bool(dot(way, times(self.M, way)) <= w * w * self.under_M)
+        offset = [a - w * b for a, b in zip(X, self.center, strict=True)]
+        return bool(dot(offset, times(self.M, offset)) <= w * w * self.under_M)
 
     def hyperboloid(self, point: Homogeneous) -> int:
         """Xᵀ D X − 1, times w² p s."""
@@ -215,7 +225,7 @@ class _Forms:
 
 
 def _tilted_candidates(forms: _Forms, F: Quartic) -> Iterator[Homogeneous]:
-    """Points ever nearer to the best one: first along the steepest way from the centre, then X(λ), then X at a pole."""
+    """Points ever nearer to the best one: first the steepest direction from the centre, X(λ), then X at a pole."""
     gradient = forms.gradient(forms.center)
     steepest, under = times(forms.inverse, gradient), forms.V * forms.under_D
     square = Fraction(dot(steepest, gradient), under * forms.under_D)
@@ -251,15 +261,15 @@ def _across_the_pole(
     square, length = scale * scale, forms.unit**5
     slope = Fraction(dot(gradient, X) * square, w * length * curvature)
     root = slope**2 - Fraction(height * square * square, w * w * length * length * curvature)
-    way = floor_root(root, bits + 24) * (1 + Fraction(1, 1 << bits))
+    reach = floor_root(root, bits + 24) * (1 + Fraction(1, 1 << bits))
     for sign in (1, -1):
-        yield _plus(point, ([length * part for part in direction], square), sign * way - slope)
+        yield _plus(point, ([length * part for part in direction], square), sign * reach - slope)
 
 
 def shortened(offset: Sequence[Fraction], bits: int, most: int) -> Iterator[tuple[Fraction, Fraction, Fraction]]:
     """An offset, a little shorter so that it stays in the spheroid, with `bits` bits and more, below `most`."""
     longest = max(map(abs, offset))
-    unit = Fraction(2) ** (longest.numerator.bit_length() - longest.denominator.bit_length())
+    unit = power_of_two(exponent_of(longest))
     while bits < most:
         step, share = unit / (1 << bits), 1 - Fraction(1, 1 << bits)
         x, y, z = (round(part * share / step) * step for part in offset)
@@ -269,6 +279,6 @@ def shortened(offset: Sequence[Fraction], bits: int, most: int) -> Iterator[tupl
 
 def _plus(point: Homogeneous, direction: Homogeneous, factor: Fraction) -> Homogeneous:
     """A point and a multiple of a direction, each over its denominator."""
-    (X, w), (way, under) = point, direction
+    (X, w), (offset, under) = point, direction
     n, k = factor.numerator * w, factor.denominator * under
-    return [a * k + n * b for a, b in zip(X, way, strict=True)], w * k
+    return [a * k + n * b for a, b in zip(X, offset, strict=True)], w * k

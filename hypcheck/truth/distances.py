@@ -174,11 +174,11 @@ def _enclosed(pairs: _Pairs, X: Triple, at: Floats) -> tuple[DoubleDouble, Float
     L = double_double.add(double_double.add_float(double_double.sum_of(parts), -1.0), by_height)
 
     residual, n = _residual(pairs, X, at)
-    way = np.sqrt(sum(component[0] * component[0] for component in w))
+    size = np.sqrt(sum(component[0] * component[0] for component in w))
     stretch, tilt = pairs.thick + pairs.long, np.abs(at)
     length = np.sqrt(dot(n, n))
-    rounded = _ROUNDED * (way * way * stretch + 1 + tilt * terms)
-    off = np.sqrt(dot(residual, residual)) + 32 * _U * (way * stretch + tilt * length)
+    rounded = _ROUNDED * (size * size * stretch + 1 + tilt * terms)
+    off = np.sqrt(dot(residual, residual)) + 32 * _U * (size * stretch + tilt * length)
     least = _least_eigenvalue(pairs, at)
     trace = 2 * stretch + tilt * (2 * pairs.D[0] - pairs.D[2])
     beside = 1.001 * (np.abs(height[0]) + _ROUNDED * terms) / length
@@ -224,9 +224,9 @@ def _adjugate(matrix: tuple[Floats, ...]) -> tuple[tuple[Floats, ...], Floats]:
 
 def _residual(pairs: _Pairs, X: Triple, at: Floats) -> tuple[Triple, Triple]:
     """r = M (X − C) + λ D X and n = D X."""
-    way, v = [x - c for x, c in zip(X, pairs.centre, strict=True)], pairs.axis
-    square, along = dot(v, v), dot(v, way)
-    across = cross(v, cross(way, v))
+    offset, v = [x - c for x, c in zip(X, pairs.centre, strict=True)], pairs.axis
+    square, along = dot(v, v), dot(v, offset)
+    across = cross(v, cross(offset, v))
     n0, n1, n2 = (D * x for D, x in zip(pairs.D, X, strict=True))
     r0, r1, r2 = (
         (part * pairs.thick + own * along * pairs.long) / square + at * n

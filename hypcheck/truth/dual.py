@@ -11,7 +11,7 @@ from fractions import Fraction
 
 from hypcheck.geometry.pair import Lengths
 from hypcheck.truth.polynomials import Polynomial, derivative, difference, polynomial_product, scaled, value
-from hypcheck.truth.rationals import dot, times
+from hypcheck.truth.rationals import dot, sign_of, times
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +42,7 @@ class Dual:
         """The sign of D′ at ν = L/2^shift; beyond an end of the interval the sign that points back to it."""
         if not self.inside(L, shift):
             return 1 if L < 0 else -1
-        return _sign(value_at(self.slope, L, shift))
+        return sign_of(value_at(self.slope, L, shift))
 
     def end(self, side: int, shift: int) -> int:
         """The last multiple of 2^-shift in the interval on one side of 0, as a distance from 0."""
@@ -124,10 +124,6 @@ def value_at(f: Polynomial, L: int, shift: int) -> int:
         total = total * L + (coefficient << scale)
         scale += shift
     return total
-
-
-def _sign(number: int) -> int:
-    return (number > 0) - (number < 0)
 
 
 def _reduced(*numbers: int) -> tuple[int, ...]:

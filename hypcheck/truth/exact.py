@@ -46,7 +46,7 @@ from hypcheck.geometry.pair import Lengths, Position
 from hypcheck.truth.kinds import Kind
 from hypcheck.truth.pencil import Cubic, Number, Quartic, cubic, quartic, side_of_center, sign_at, sign_at_ratio
 from hypcheck.truth.polynomials import changes_of_sign, common_divisor
-from hypcheck.truth.rationals import sign_with_root
+from hypcheck.truth.rationals import sign_of, sign_with_root
 from hypcheck.truth.sections import Sections
 
 
@@ -236,7 +236,7 @@ def _beyond(F: Quartic, m: Fraction) -> int:
     """The sign of m − ℓ, m > 0."""
     n, k = m.numerator, m.denominator
     past = F.q * n - F.p * k if F.at_first else F.e2 * n * n - F.e1 * n * k - F.e0 * k * k
-    return (past > 0) - (past < 0)
+    return sign_of(past)
 
 
 def double_root(F: Quartic) -> Fraction:

@@ -196,8 +196,8 @@ def _boxes(rows: Rows, goals: Sequence[Goal], change: Floats) -> Boxes:
     sizes = rows[:, : len(SIZES)].T
     moved = np.where(signs > 0, _up(sizes * grown), _down(sizes * shrunk))
     rest = rows[:, len(SIZES) :].T
-    way = np.where(rest == 0, 0.0, _up(np.abs(rest) * change))
-    low, high = (np.where(way == 0, rest, end) for end in (_down(rest - way), _up(rest + way)))
+    reach = np.where(rest == 0, 0.0, _up(np.abs(rest) * change))
+    low, high = (np.where(reach == 0, rest, end) for end in (_down(rest - reach), _up(rest + reach)))
     side = np.array([int(goal.side) for goal in goals], dtype=np.float64)
     return Boxes(moved, low, high, side, np.array([goal.leave for goal in goals], dtype=np.bool_))
 
@@ -267,7 +267,7 @@ class _Margin:
 
 
 def _multiplier(sizes: Floats, rest: Floats) -> Floats:
-    """About the λ at which φ is largest, (n,): the root of φ's slope, from the odds of its way to its pole."""
+    """About the λ at which φ is largest, (n,): the root of φ's slope, from the odds of its distance to its pole."""
     alpha, gamma, b, d = sizes
     x, y, z, v_x, v_y, v_z = rest
     horizontal = np.hypot(v_x, v_y)
@@ -324,8 +324,8 @@ def _proved(boxes: Boxes, at: Floats, X: Floats, C: Floats) -> Mask:
     plain, axis = Form(list(boxes.sizes), np.sqrt), list(boxes.middle[3:])
     q = [-boxes.side * part for part in plain.gradient(list(X))]
     width = plain.width(axis, q)
-    way = [part / width for part in plain.sigma_times(axis, q)]
-    bend = plain.gradient(way)
-    turn = -dot(bend, list(C)) / dot(bend, way)
+    step = [part / width for part in plain.sigma_times(axis, q)]
+    bend = plain.gradient(step)
+    turn = -dot(bend, list(C)) / dot(bend, step)
     shares = np.ones(len(turn)), (1 + np.minimum(np.abs(at * width), 1)) / 2, np.clip(turn, 0, 1)
     return np.asarray(stays_off(place, boxes.side, q, shares))

@@ -28,6 +28,7 @@ import numpy as np
 from hypcheck.geometry.pair import Pair
 from hypcheck.geometry.rows import Floats
 from hypcheck.truth.mesh import Mesh, MeshOutcome, Refinement
+from hypcheck.truth.rationals import sign_of
 
 UNIT_BITS = 96
 UNIT = 1 << UNIT_BITS
@@ -72,7 +73,7 @@ def meridian_of(pair: Pair) -> Meridian:
         c=c,
         rho=isqrt((radius2 << 2 * UNIT_BITS) // lengths.b**2),
         zeta=(abs(lengths.z) << UNIT_BITS) // lengths.d,
-        side=(level > 0) - (level < 0),
+        side=sign_of(level),
         # dr/de < a/2 and dz/de ≤ c: a step of e, 1/one, moves a point by less than 2⁻⁶³ radii.
         one=1 << (64 + (int(max(a, c)) + 1).bit_length()),
     )

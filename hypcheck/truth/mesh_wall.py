@@ -16,7 +16,7 @@ The products of chords with the circumscribed polygon lie outside (F ≥ 0), tho
 inside (F ≤ 0). These are two meshes with the wall between them, and the flat rims between the two at the ends, and at
 the sides of a cell, make a closed body of each cell. All of the wall is clear of the ball if all of these bodies are.
 There is contact if the ball reaches both meshes of one cell: what it holds of the slab between the heights is convex,
-so it holds a way from the one to the other, on which F vanishes.
+so it holds a path from the one to the other, on which F vanishes.
 
 Roundings, in units u = 2⁻⁵³, where functions of the library are right within 4 places (8u), s is a cell's parameter and
 `size` the largest coordinate of its corners and of C: a corner is a quotient of two of them times a quotient of two
@@ -41,6 +41,7 @@ import numpy as np
 from hypcheck.geometry.pair import Pair
 from hypcheck.geometry.rows import Floats, Indices, Mask
 from hypcheck.truth.mesh import Mesh, MeshOutcome, Refinement
+from hypcheck.truth.rationals import sign_of
 
 _MOST_CELLS = 1 << 13
 _LEVELS = 80
@@ -141,8 +142,8 @@ class MeshScene:
         return np.concatenate([one, other])
 
 
-def _lengths(ways: Floats) -> Floats:
-    return np.asarray(np.sqrt(np.einsum("nj,nj->n", ways, ways)))
+def _lengths(vectors: Floats) -> Floats:
+    return np.asarray(np.sqrt(np.einsum("nj,nj->n", vectors, vectors)))
 
 
 def refine(pair: Pair) -> Refinement:
@@ -200,7 +201,7 @@ def _side_of_center(pair: Pair) -> int:
     """The exact sign of F(C) = (x² + y²)/α² − z²/γ² − 1: 1 outside the surface, −1 inside, 0 on it."""
     lengths = pair.lengths
     level = (lengths.x**2 + lengths.y**2 - lengths.alpha**2) * lengths.gamma**2 - (lengths.z * lengths.alpha) ** 2
-    return (level > 0) - (level < 0)
+    return sign_of(level)
 
 
 def _slack_of(size: Floats, root: Floats) -> Floats:

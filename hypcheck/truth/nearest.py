@@ -30,6 +30,7 @@ from fractions import Fraction
 from hypcheck.geometry.pair import Lengths, Pair, Position
 from hypcheck.truth.dual import Dual, value_at
 from hypcheck.truth.polynomials import Polynomial, derivative
+from hypcheck.truth.rationals import exponent_of
 
 _FIRST_BITS = 96
 _HINT_BITS = 64  # of λ, relative to the distance to the nearer pole
@@ -145,7 +146,7 @@ def _enclosed(dual: Dual) -> NearestPoint:
         enclosure = _enclosure(dual, L, doubt, shift, 2 * bits)
         at = _fraction(L, shift) * dual.unit
         if enclosure.low <= 0 <= enclosure.high:
-            touch = at.limit_denominator(1 << max(8, (shift - _exponent(dual.unit)) // 2 - 16))
+            touch = at.limit_denominator(1 << max(8, (shift - exponent_of(dual.unit)) // 2 - 16))
             if dual.touches(touch / dual.unit):
                 return NearestPoint(Position.CONTACT, 0.0, touch, NearestStage.EXACT)
         if at_end or doubt << _HINT_BITS <= _room(dual, L, shift):
@@ -164,9 +165,9 @@ def _position(clearance: float, side: int) -> Position:
 def _start(dual: Dual, side: int, bits: int) -> tuple[int, int, bool]:
     """ν = L/2^shift near the optimum, and whether that is at the end of the interval.
 
-    Its way from 0 has odds, against the way left to the end, that are right to a factor of 2: they are looked for among
-    powers of 2. No optimum inside the interval is so near to its end as the last of them. The unit is one in which
-    `bits` bits count the distance to the nearer end.
+    Its distance from 0 has odds, against the distance left to the end, that are right to a factor of 2: they are looked
+    for among powers of 2. No optimum inside the interval is so near to its end as the last of them. The unit is one in
+    which `bits` bits count the distance to the nearer end.
     """
     size = _bits(dual.slope)
     probe = next(shift for shift in (64, size) if shift == size or dual.end(side, shift))
@@ -183,13 +184,13 @@ def _start(dual: Dual, side: int, bits: int) -> tuple[int, int, bool]:
     def before(octave: int) -> bool:
         return octave < size and value_at(dual.slope, *place(octave)) * side > 0
 
-    way = 1 if before(0) else -1
-    near, far = 0, way
-    while before(far) is (way > 0) and abs(far) <= size:
+    step = 1 if before(0) else -1
+    near, far = 0, step
+    while before(far) is (step > 0) and abs(far) <= size:
         near, far = far, 2 * far
     while abs(far - near) > 1:
         middle = (near + far) // 2
-        near, far = (middle, far) if before(middle) is (way > 0) else (near, middle)
+        near, far = (middle, far) if before(middle) is (step > 0) else (near, middle)
     if near == size - 1:
         return side * end, fine, True
     L, shift = place(min(near, far))
@@ -286,10 +287,6 @@ def _root(numerator: int, denominator: int, bits: int) -> int:
 
 def _bits(f: Polynomial) -> int:
     return max(abs(part) for part in f).bit_length()
-
-
-def _exponent(number: Fraction) -> int:
-    return number.numerator.bit_length() - number.denominator.bit_length()
 
 
 def _fraction(L: int, shift: int) -> Fraction:

@@ -6,7 +6,7 @@ the sweep.
 
 **Contact is monotone in the size.** At each time the spheroid with b and d multiplied by k, a solid with a fixed
 centre, is part of the one with a larger k; contact says that the solid and the hyperboloid have a point in common. So
-where a spheroid has contact on its way, outside, inside or begun in contact, each larger one has it too, and no later.
+where a spheroid has contact on its sweep, outside, inside or begun in contact, each larger one has it too, no later.
 There is a least factor k* ≥ 0 with contact, for contact is a closed condition. A wrong answer is right for a factor
 just beyond k*: its size error is |k* − 1|, found by bisection on exact decisions. k* is 0 where the centre itself meets
 the surface; no smaller spheroid is clear then.
@@ -152,13 +152,13 @@ def tolerance(row: Sequence[Rational], units: Rational, roundoff: Rational) -> F
     along = max(abs(ends[2]), abs(ends[5]))
     axis, ended = _axis_of(row), any(math.isfinite(height) for height in row[len(TILTED_SWEEP_COLUMNS) :][:2])
     if not axis or b == d or not any(axis[:2]):
-        way = across / b + along / d
+        far = across / b + along / d
         more = 2 * stretch * (along / d + 1) * (1 + alpha * d / (gamma * b)) if ended else 0
-        return change * (1 + way + stretch * (way + 2) + more)
+        return change * (1 + far + stretch * (far + 2) + more)
     least, ratio = min(b, d), max(b / d, d / b)
-    way = (across + along) / least
+    far = (across + along) / least
     more = 2 * stretch * (along / least + ratio) * (1 + alpha / gamma) if ended else 0
-    return change * (1 + way + (1 + bounded) * (ratio + bounded) + stretch * (way + 2 * ratio) + more)
+    return change * (1 + far + (1 + bounded) * (ratio + bounded) + stretch * (far + 2 * ratio) + more)
 
 
 def time_window(row: Sequence[Rational], change: Rational) -> tuple[Fraction | None, Fraction | None]:

@@ -32,7 +32,7 @@ from typing import Any, TypeAlias
 
 from hypcheck.geometry.pair import Lengths
 from hypcheck.truth.polynomials import derivative, difference, polynomial_product
-from hypcheck.truth.rationals import power_near, sign_with_root
+from hypcheck.truth.rationals import power_near, sign_of, sign_with_root
 
 Number: TypeAlias = Any
 """An integer, or a polynomial in time (sweep.py): whatever has +, −, · among its kind and with integers."""
@@ -201,7 +201,7 @@ def sign_at_ratio(coefficients: tuple[int, ...], numerator: int, denominator: in
     for coefficient in coefficients:
         value = value * numerator + coefficient * scale
         scale *= denominator
-    return (value > 0) - (value < 0)
+    return sign_of(value)
 
 
 def slope_of_quotient(F: Quartic) -> tuple[int, ...]:

@@ -80,14 +80,18 @@ def fraction(number: mpf) -> Fraction:
     return -size if number < 0 else size
 
 
+def sign_of(number: Fraction | int) -> int:
+    """The sign: 1, 0 or −1."""
+    return (number > 0) - (number < 0)
+
+
 def sign_with_root(u: Fraction | int, v: Fraction | int, w: Fraction | int) -> int:
     """The sign of u + v √w, w > 0 or v = 0."""
     if u >= 0 and v >= 0:
         return int(u > 0 or v > 0)
     if u <= 0 and v <= 0:
         return -1
-    difference = u * u - v * v * w
-    return ((difference > 0) - (difference < 0)) * (1 if u > 0 else -1)
+    return sign_of(u * u - v * v * w) * (1 if u > 0 else -1)
 
 
 Vector = Sequence[Any]

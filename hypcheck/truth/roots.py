@@ -34,7 +34,7 @@ from hypcheck.truth.polynomials import (
     remainder,
     scaled,
 )
-from hypcheck.truth.rationals import sign_with_root
+from hypcheck.truth.rationals import sign_of, sign_with_root
 from hypcheck.truth.root_patterns import (
     BEYOND,
     COMPLEX,
@@ -277,7 +277,7 @@ def _sign(f: Polynomial, g: Polynomial, side: int = 1) -> int:
     """The sign of f at the root of a linear g, or at the root of a quadratic g that is on this side of the other."""
     linear, constant = (0, 0, *remainder(f, g))[-2:]
     if len(g) == 2:
-        return sign_with_root(constant, 0, 0)
+        return sign_of(constant)
     a, b, c = g if g[0] > 0 else scaled(-1, g)
     return sign_with_root(2 * a * constant - b * linear, side * linear, b * b - 4 * a * c)
 

@@ -7,8 +7,8 @@ distance from the axis changes, R(t) = x0² + y0² + l² + 2 l e(t), with
 
 At one height a spheroid that is exterior stays so where R grows, and one that is interior where R falls
 (docs/mathematics.md, "Monotone in every input"). So the least R of the turn decides about exterior, the largest about
-interior, and if neither holds there is contact on the way. e(t) is ρ cos(t − t*), ρ² = x0² + y0²: over less than half a
-turn its extremes are at the ends, or ±ρ where its slope has changed its sign in between. Sines, cosines and roots are
+interior, and if neither holds there is contact on the turn. e(t) is ρ cos(t − t*), ρ² = x0² + y0²: over less than half
+a turn its extremes are at the ends, or ±ρ where its slope has changed its sign in between. Sines, cosines and roots are
 enclosed between rationals, and so is R; the answer is given where it is the same at both ends of the enclosures.
 """
 
@@ -47,7 +47,7 @@ def turning(
     direction: Sequence[Rational],
     angle: float,
 ) -> Position | None:
-    """Where a part stands while it turns: EXTERIOR or INTERIOR all the way, or CONTACT where it meets it.
+    """Where a part stands while it turns: EXTERIOR or INTERIOR all the time, or CONTACT where it meets it.
 
     `sizes` are α, γ and the part's b, d; `center` is the mover's, from the hyperboloid's; the arm points into the
     `direction` (x, y) ≠ (0, 0) of any length at first, and turns by `angle` (radians, counterclockwise, finite). None

@@ -130,7 +130,7 @@ def _error(row: Row, excuse: Position) -> float:
 def _changed(draw: Draw, rows: Rows) -> Rows:
     """Each row with a random one of its lengths changed, or with up to all of them, in one of four ways."""
     n, width = rows.shape
-    way = draw.integers(n, 0, 3)[:, None]
+    kind = draw.integers(n, 0, 3)[:, None]
     share = draw.integers(n, 0, 2)[:, None]  # of the lengths: about all, a half, a quarter
     touched = draw.integers(n * width, 0, 3).reshape(n, width) >> (2 - share) == 0
     touched[np.arange(n), draw.integers(n, 0, width - 1)] = True
@@ -140,5 +140,5 @@ def _changed(draw: Draw, rows: Rows) -> Rows:
     shortest = [to_bits(rows, bits) for bits in (3, 6, 12, 24)]
     short = np.choose(draw.integers(n, 0, 3)[:, None], shortest)
     turned = ldexp(rows, draw.integers(n * width, -1, 1).reshape(n, width))
-    changed = np.where(way == 0, scaled, np.where(way == 1, ulps, np.where(way == 2, short, turned)))
+    changed = np.where(kind == 0, scaled, np.where(kind == 1, ulps, np.where(kind == 2, short, turned)))
     return np.where(touched, changed, rows) + 0.0

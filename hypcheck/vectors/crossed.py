@@ -139,15 +139,15 @@ def _candidates(draw: Draw, n: int, values: Mapping[tuple[str, ...], NDArray[Any
     size = _sizes(draw, n, values)
     centre = _centre(draw, size, values)
     free = [draw.integers(n, 1, 5) * draw.signs(n) for _ in range(3)]
-    way = _way(values[MOTIONS], centre, free) if MOTIONS in values else None
+    motion = _motion(values[MOTIONS], centre, free) if MOTIONS in values else None
     axes = next((factor for factor in (AXES, SWEEP_AXES) if factor in values), None)
-    axis = None if axes is None else _axis(values[axes], centre, free, way)
+    axis = None if axes is None else _axis(values[axes], centre, free, motion)
     unit = draw.integers(n, -3, 3)
-    lengths = [*size, *centre, *([] if way is None else [p + w for p, w in zip(centre, way, strict=True)])]
+    lengths = [*size, *centre, *([] if motion is None else [p + w for p, w in zip(centre, motion, strict=True)])]
     rows = ldexp(np.stack(lengths, axis=1), unit[:, None])
     tail = [] if axis is None else [ldexp(np.stack(axis, axis=1), draw.integers(n, -9, 3)[:, None])]
     fits = _side(np.concatenate([rows[:, :7], *tail], axis=1)) == _code(values[SIDES])
-    if way is not None:
+    if motion is not None:
         at_the_end = _side(np.concatenate([rows[:, :4], rows[:, 7:], *tail], axis=1))
         fits &= (at_the_end == 0) == (values[ENDS] == ENDS[1])
     return np.concatenate([rows, *tail], axis=1) + 0.0, fits
@@ -198,12 +198,12 @@ def _centre(draw: Draw, size: list[Floats], values: Mapping[tuple[str, ...], NDA
     return [x, y, z]
 
 
-def _way(motion: NDArray[Any], centre: list[Floats], free: list[Floats]) -> list[Floats]:
+def _motion(motion: NDArray[Any], centre: list[Floats], free: list[Floats]) -> list[Floats]:
     """From the start to the end."""
     x, y, z = centre
     i, j, k = free
     zero = np.zeros(len(x))
-    ways: dict[str, tuple[Floats, Floats, Floats]] = {
+    motions: dict[str, tuple[Floats, Floats, Floats]] = {
         "still": (zero, zero, zero),
         "vertical": (zero, zero, 2 * i),
         "along x": (2 * i, zero, zero),
@@ -214,10 +214,10 @@ def _way(motion: NDArray[Any], centre: list[Floats], free: list[Floats]) -> list
         MOTIONS[8]: (i * x / 4, i * y / 4, i * z / 4),
         MOTIONS[9]: (-2 * x, -2 * y, 2 * i),
     }
-    return _selected(motion, ways, (3 * i, 3 * j, 3 * k))
+    return _selected(motion, motions, (3 * i, 3 * j, 3 * k))
 
 
-def _axis(kind: NDArray[Any], centre: list[Floats], free: list[Floats], way: list[Floats] | None) -> list[Floats]:
+def _axis(kind: NDArray[Any], centre: list[Floats], free: list[Floats], motion: list[Floats] | None) -> list[Floats]:
     """A vector along the spheroid's axis; where what it is to be parallel to has no direction, it is along x."""
     x, y, z = centre
     i, j, k = free
@@ -241,8 +241,8 @@ def _axis(kind: NDArray[Any], centre: list[Floats], free: list[Floats], way: lis
             np.where(flat, across[2], slanting[2]),
         ),
     }
-    if way is not None:
-        u, v, w = way
+    if motion is not None:
+        u, v, w = motion
         axes["along the way"] = (u, v, w)
         axes["at right angles to the way"] = (v - w, w - u, u - v)
     vector = _selected(kind, axes, (i, j, k))

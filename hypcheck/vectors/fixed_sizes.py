@@ -292,15 +292,15 @@ def _tilted_razor(setting: FixedSizes, draw: Draw, n: int) -> Rows:
     """The last floats before contact and the first in it, at sixteen places a block, a few ulps to each side of x."""
     touching = _held(setting, _tilted_rows(setting, draw, 16, np.zeros(16)))
     spread = draw.signs(16) * max(setting.sizes[2:]) * 4.0
-    edges = np.array([_tilted_edge(row, way) for row, way in zip(touching, spread.tolist(), strict=True)])
+    edges = np.array([_tilted_edge(row, offset) for row, offset in zip(touching, spread.tolist(), strict=True)])
     rows = np.resize(edges, (n, 10))
     rows[:, 4] = stepped(np.ascontiguousarray(rows[:, 4]), draw.integers(n, -6, 6))
     return rows + 0.0
 
 
-def _tilted_edge(row: Rows, way: float) -> Rows:
+def _tilted_edge(row: Rows, offset: float) -> Rows:
     """The row of a centre on the surface, moved outward or inward across z until it is clear; far, if it never is."""
-    start, far = float(row[4]), float(row[4]) + way
+    start, far = float(row[4]), float(row[4]) + offset
     result = row.copy()
 
     def is_contact(x: float) -> bool:

@@ -21,7 +21,7 @@ from hypcheck.truth.exact import Decision
 from hypcheck.truth.nearest import nearest
 from hypcheck.truth.passage_error import scaled_passage
 from hypcheck.truth.prove import prove, prove_passage
-from hypcheck.truth.rationals import dot
+from hypcheck.truth.rationals import dot, sign_of
 from hypcheck.vectors.cases import (
     Offset,
     StoredCertificate,
@@ -172,5 +172,5 @@ def shows_crossing(row: Row, offsets: Sequence[Offset]) -> bool:
         level = (u * u + v * v) / alpha**2 - (height / gamma) ** 2 - 1
         if level == 0 and reach < 1:
             return True
-        sides.add((level > 0) - (level < 0))
+        sides.add(sign_of(level))
     return {-1, 1} <= sides

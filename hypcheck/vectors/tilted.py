@@ -50,8 +50,8 @@ def anywhere(draw: Draw, n: int) -> Vectors:
 def beside(draw: Draw, size: Sizes, height: Floats, axis: Vectors, offset: Floats, *, on_x_axis: bool = False) -> Rows:
     """Rows whose centre is `offset` radii from the surface's point at `height` (in γ), outward positive.
 
-    The way is M⁻¹ n, n being the normal there: with offset ±1 the spheroid touches the surface in that point, though it
-    may cross it elsewhere.
+    The direction is M⁻¹ n, n being the normal there: with offset ±1 the spheroid touches the surface in that point,
+    though it may cross it elsewhere.
     """
     n = len(height)
     cosine, sine = (draw.signs(n), np.zeros(n)) if on_x_axis else draw.circle(n)
@@ -267,12 +267,12 @@ def double_roots(draw: Draw, n: int) -> tuple[Rows, Mask, Mask]:
         thick * h4 * q * N * K * s4 * S,
     )
     bend = s4 * s4 * q * q - c4 * c4 * p * p
-    way = (
+    offset = (
         thick * (n1 * h4 * h4 * p * q * K + bend * c * n3),
         thick * bend * s * N,
         thick * (n3 * h4 * h4 * p * q * K - bend * c * n1),
     )
-    centre = (wide * h5 * h5 * n3 + side * way[0], side * way[1], -wide * s5 * s5 * n1 + side * way[2])
+    centre = (wide * h5 * h5 * n3 + side * offset[0], side * offset[1], -wide * s5 * s5 * n1 + side * offset[2])
     axis = (p * K * n1 + q * c * n3, q * s * N, p * K * n3 - q * c * n1)
     share = (side * wide * n1 * n3 * c5 * c5, thick * h4 * h4 * p * q * N * N * K)  # λ, as a quotient
     tangent, crossing = _definite(sizes, axis, (share[0] / share[1]).astype(np.float64))
