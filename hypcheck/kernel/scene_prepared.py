@@ -7,7 +7,6 @@ the scene: an added hyperboloid is the last, and after a removal the numbers of 
 from __future__ import annotations
 
 import os
-import reprlib
 from array import array
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
@@ -27,15 +26,19 @@ from hypcheck.kernel.scene_ends import limits_of
 from hypcheck.kernel.scene_index import ROOM, Bodies, PlaneGrid, bodies_of, cells_of, grid_of, hashed, in_reach, reaches
 from hypcheck.kernel.scene_pairs import Body
 from hypcheck.kernel.scene_sweeps import Near, near_of
-from hypcheck.messages import escaped
-from hypcheck.scene.arrays import checked_hyperboloid, hyperboloids_of, mover_of, point_of, require_valid_mover
-from hypcheck.scene.model import QUESTIONS, Hyperboloid, Mover, Region, SceneModel, is_tilted
+from hypcheck.scene.arrays import (
+    NO_HYPERBOLOID,
+    checked_hyperboloid,
+    hyperboloids_of,
+    mover_of,
+    point_of,
+    require_valid_model,
+)
+from hypcheck.scene.model import Hyperboloid, Mover, Region, SceneModel, is_tilted
 from hypcheck.scene.reading import parse_scene, read_scene
 
 if TYPE_CHECKING:
     from typing_extensions import Self
-
-_EMPTY = "the scene has no hyperboloid; it must have one at least"
 
 
 @dataclass(frozen=True)
@@ -51,12 +54,7 @@ class PreparedScene:
                 f"the model is of type {type(self.model).__name__}; it must be a SceneModel, or see "
                 "Scene.from_arrays, Scene.from_text and Scene.from_toml"
             )
-        if not self.model.hyperboloids:
-            raise InputError(_EMPTY)
-        if self.model.question not in QUESTIONS:
-            question = escaped(reprlib.repr(self.model.question), 60)
-            raise InputError(f"the question is {question}; it must be {', '.join(QUESTIONS[:-1])} or {QUESTIONS[-1]}")
-        require_valid_mover(self.model.mover)
+        require_valid_model(self.model)
 
     @classmethod
     @in_default_environment
@@ -133,7 +131,7 @@ class PreparedScene:
         """The scene without one hyperboloid, by number or name; the numbers of all later ones are lower by one."""
         place, model = self._place(which), self.model
         if len(model.hyperboloids) == 1:
-            raise InputError(_EMPTY)
+            raise InputError(NO_HYPERBOLOID)
         model = replace(model, hyperboloids=(*model.hyperboloids[:place], *model.hyperboloids[place + 1 :]))
         grid = grid_without(self._grid, place, renumbered=True)
         return self._with(model, bodies_without(self._bodies, place), grid)

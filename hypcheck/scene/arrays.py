@@ -15,8 +15,10 @@ from hypcheck.geometry.forms import named_points
 from hypcheck.geometry.pair import AXIS, CENTER, HEIGHTS, SIZES, trouble_with, trouble_with_axis, trouble_with_heights
 from hypcheck.geometry.rows import as_columns, as_numbers
 from hypcheck.messages import counted, escaped
-from hypcheck.scene.model import FREE, Hyperboloid, Mover, Point, Span
+from hypcheck.scene.model import FREE, QUESTIONS, Hyperboloid, Mover, MoverPart, Point, Region, SceneModel, Span
 from hypcheck.scene.reading import within
+
+NO_HYPERBOLOID = "the scene has no hyperboloid; it must have one at least"
 
 
 def hyperboloids_of(
@@ -61,11 +63,12 @@ def checked_hyperboloid(body: Hyperboloid) -> Hyperboloid:
         )
     for name in SIZES[:2]:
         _require_number(f"the hyperboloid {body.name!r}: {name} is", getattr(body, name))
-    if not (body.height is None or isinstance(body.height, Span)):
-        raise InputError(
-            f"the hyperboloid {body.name!r}: height is {escaped(reprlib.repr(body.height), 60)}; "
-            "it must be a Span(low, high), or None"
+    if body.height is not None:
+        _require_type(
+            f"the hyperboloid {body.name!r}: height is", body.height, Span, "it must be a Span(low, high), or None"
         )
+    if trouble := trouble_with("solid", float(body.solid) if isinstance(body.solid, bool) else body.solid):
+        raise InputError(f"the hyperboloid {body.name!r}: {trouble}")
     low, high = (-math.inf, math.inf) if body.height is None else body.height.ends
     (checked,) = hyperboloids_of(
         body.alpha, body.gamma, [body.center], [body.axis], (low, high, float(body.solid)), [body.name]
@@ -99,8 +102,43 @@ def mover_of(mover: Mover | Sequence[float]) -> Mover:
     return Mover(b, others[0])
 
 
-def require_valid_mover(mover: Mover) -> None:
+def require_valid_model(model: SceneModel) -> None:
+    """Raise InputError if a value of a scene is of another type than its field, or a number is not valid.
+
+    The hyperboloids themselves are checked as columns, which a thousand of them need (PreparedScene).
+    """
+    _require_type(
+        "the model's hyperboloids are", model.hyperboloids, (tuple, list), "they must be a tuple of Hyperboloid"
+    )
+    if not model.hyperboloids:
+        raise InputError(NO_HYPERBOLOID)
+    if model.question not in QUESTIONS:
+        question = escaped(reprlib.repr(model.question), 60)
+        raise InputError(f"the question is {question}; it must be {', '.join(QUESTIONS[:-1])} or {QUESTIONS[-1]}")
+    _require_valid_mover(model.mover)
+    _require_type("the region is", model.region, Region, "it must be a Region(x, y, z)")
+    for name in CENTER:
+        span = getattr(model.region, name)
+        if span is not None:
+            subject = f"the region: {name} is"
+            _require_type(subject, span, Span, "it must be a Span(low, high), or None")
+            numbers = [isinstance(end, (int, float)) and not math.isnan(end) for end in span.ends]
+            if not all(numbers) or span.low > span.high:
+                raise InputError(f"{subject} {span!r}; low and high must be numbers, low not greater than high")
+
+
+def _require_type(subject: str, value: object, wanted: type | tuple[type, ...], right: str) -> None:
+    """Raise InputError unless the value is of a type."""
+    if not isinstance(value, wanted):
+        raise InputError(f"{subject} {escaped(reprlib.repr(value), 60)}; {right}")
+
+
+def _require_valid_mover(mover: Mover) -> None:
     """Raise InputError where a number of a mover or of its parts is not valid, or a part reaches beyond the mover."""
+    _require_type("the mover is", mover, Mover, "it must be a Mover(b, d)")
+    _require_type("the mover's parts are", mover.parts, (tuple, list), "they must be a tuple of MoverPart")
+    for number, part in enumerate(mover.parts, start=1):
+        _require_type(f"part {number} is", part, MoverPart, "it must be a MoverPart(b, d, arm, angle)")
     for subject, body in [("the mover", mover), *((f"part {k + 1}", part) for k, part in enumerate(mover.parts))]:
         troubles = (trouble_with(name, getattr(body, name)) for name in SIZES[2:])
         trouble = next((trouble for trouble in troubles if trouble), None)

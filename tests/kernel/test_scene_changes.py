@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -201,3 +203,25 @@ def test_a_hyperboloid_is_named_by_a_text_or_by_a_whole_number_alone(which):
 def test_what_is_no_scene_is_refused_by_its_type(make):
     with pytest.raises(InputError, match=r"is of type \w+; it must be a"):
         make()
+
+
+@pytest.mark.parametrize(
+    ("changes", "trouble"),
+    [
+        ({"region": hypcheck.Region(z=(1, 2))}, r"the region: z is \(1, 2\); it must be a Span\(low, high\), or None"),
+        ({"region": hypcheck.Region(x=hypcheck.Span(2, 1))}, "the region: x is .*; low and high must be numbers"),
+        (
+            {"region": hypcheck.Region(y=hypcheck.Span(float("nan"), 1))},
+            "the region: y is .* low not greater than high",
+        ),
+        ({"region": None}, r"the region is None; it must be a Region\(x, y, z\)"),
+        ({"mover": (0.3, 0.2)}, r"the mover is \(0.3, 0.2\); it must be a Mover\(b, d\)"),
+        ({"mover": hypcheck.Mover(0.3, 0.2, ((0.1, 0.1, 0.1),))}, r"part 1 is \(.*\); it must be a MoverPart"),
+        ({"mover": hypcheck.Mover(0.3, 0.2, None)}, "the mover's parts are None; they must be a tuple of MoverPart"),
+        ({"hyperboloids": hypcheck.Hyperboloid("a", 1, 1)}, "hyperboloids are .*; they must be a tuple of Hyperboloid"),
+    ],
+)
+def test_a_scene_model_with_a_value_of_another_type_is_refused_by_its_field(changes, trouble):
+    model = hypcheck.SceneModel("s", "position", (hypcheck.Hyperboloid("a", 1, 1),), MOVER)
+    with pytest.raises(InputError, match=trouble):
+        hypcheck.Scene(replace(model, **changes))
