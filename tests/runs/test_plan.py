@@ -52,7 +52,7 @@ def test_plan_refuses_texts_that_are_no_cluster_addresses(address):
     ("text", "message"),
     [
         ('known_failure = ["ring"]', "it must be a table with"),
-        ("[[known_failure]]\ncase = 7\nreason = 'it is so'", "names 7; it must be a text"),
+        ("[[known_failure]]\ncase = 7\nreason = 'it is so'", "case is 7; it must be a text"),
     ],
 )
 def test_a_file_of_known_failures_with_other_values_is_refused(tmp_path, text, message):
