@@ -127,7 +127,7 @@ def test_prove_names_each_file_its_axioms_and_the_refused_statements(tools):
         f"Print Assumptions of {', '.join(build.OF_STAGES)}: {build.AXIOMS[0]}, {build.AXIOMS[2]}",
         f"Print Assumptions of {', '.join(build.OF_RUNS)}: {build.AXIOMS[0]}, {build.AXIOMS[2]}",
         f"{len(printed_c.changes(2, seed=45))} changes of the printed C are refused",
-        "2 weakened statements are refused",
+        f"{len(build.weakened())} weakened statements are written by hand; 2 are tried: all are refused",
         f"{made} weakened statements are made by a program; 2 are tried: 2 are refused, 0 hold too, {given}",
     ]
     everything = (tools.built / "Assumptions.v").read_text(encoding="utf-8")
@@ -178,7 +178,7 @@ def test_prove_with_soundness_compiles_what_the_checker_rests_on_alone(tools):
     names = (*build.SOUNDNESS, "ExtractedChecker")
     weakened = sum(change.file in names for change in build.weakened())
     assert code == 0
-    assert f"of the real numbers:\n{weakened} weakened statements are refused\n" in output
+    assert f"of the real numbers:\n{weakened} weakened statements are written by hand; 4 are tried: all are " in output
     compiled = {line.split()[-1] for line in tools.asked if line.startswith("coqc -q")}
     assert compiled == {f"{name}.v" for name in (*names, "Assumptions")}
 
@@ -240,8 +240,15 @@ def test_prove_ends_as_the_checker_says_about_the_frozen_vectors(tools, script, 
     tools.program("checker", f'#!/bin/sh\necho "$@" > {tools.folder}/files\n{script}\n')
     found, output = tools.prove("--soundness", "--weakened", "0")
     assert found == code
-    assert output.endswith(f"0 weakened statements are refused\n{message}" if code < 2 else message)
+    assert output.endswith(f"; 0 are tried: all are refused\n{message}" if code < 2 else message)
     assert (tools.folder / "files").read_text(encoding="utf-8").split() == build.frozen_files()
+
+
+@pytest.mark.parametrize(("more", "tried"), [((), 4), (("--weakened", "3"), 3), (("--every",), None)])
+def test_prove_tries_four_weakened_statements_as_many_as_it_is_told_or_every_one(tools, more, tried):
+    output = tools.prove("--soundness", *more)[1]
+    changes = [change for change in build.weakened() if change.file in (*build.SOUNDNESS, "ExtractedChecker")]
+    assert f"{len(changes)} weakened statements are written by hand; {tried or len(changes)} are tried: all" in output
 
 
 def test_a_missing_checker_is_an_error_that_says_how_to_build_it(tmp_path):
