@@ -118,7 +118,7 @@ def require_common(before: Baseline, names: set[str]) -> None:
     known = {method for method, _, _ in before.speeds}
     if not known & names:
         sentence = f"{', '.join(sorted(names)) or 'nothing'}; it has {', '.join(sorted(known))}"
-        raise InputError(f"--baseline has no speed of any method that is compared with it: {sentence}")
+        raise InputError(f"--baseline contains no times of the methods that this run compares: {sentence}")
 
 
 def comparisons(plan: BenchPlan, before: Baseline, after: Baseline, gates: set[str]) -> Iterator[ComparisonLine]:

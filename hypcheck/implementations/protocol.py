@@ -91,7 +91,7 @@ class Reply:
         if sequence < self.sequence:
             raise broken(f"it replied to question {sequence} again, when {self.sequence} was asked")
         if sequence > self.sequence:
-            raise broken(f"it replied to question {sequence}, when {self.sequence} had got no reply")
+            raise broken(f"it replied to question {sequence} before question {self.sequence}")
 
 
 class _Answers(Reply):

@@ -41,7 +41,7 @@ from hypcheck.report.model import implementations, under_test
 from hypcheck.report.run_facts import benchmark_facts, method_facts, oracle_facts, paper_facts
 from hypcheck.report.sections import accuracy, times, verification
 from hypcheck.report.sections.accuracy import ERRORS, FRONT, PARETO
-from hypcheck.report.verdict import Verdict, failures, squares, verdict
+from hypcheck.report.verdict import Verdict, failures, tables_of_answers, verdict
 from hypcheck.runs.judge import in_words, truth_in_words
 
 
@@ -125,7 +125,7 @@ def square_sections(record: Record) -> Iterator[Section]:
     if verdict(record).passed:
         return
     blocks: list[Block] = []
-    for square, passing in squares(record):
+    for square, passing in tables_of_answers(record):
         blocks += [square, *([Paragraph(f"{passing[:1].upper()}{passing[1:]}.")] if passing else [])]
     if blocks:
         yield Section("Answers against the truth", tuple(blocks))

@@ -130,7 +130,7 @@ class WayTotal:
     ratio_ci95: tuple[float, float] | None
 
     def share(self, part: int) -> float:
-        """The share that these are of all ways asked."""
+        """The share of these in all sweeps that were asked."""
         return part / self.asked
 
 

@@ -286,7 +286,7 @@ AMISS = "✗"
 """Stands behind the counts of answers that are not the right one."""
 
 
-def squares(record: Record) -> Iterator[tuple[TableBlock, str]]:
+def tables_of_answers(record: Record) -> Iterator[tuple[TableBlock, str]]:
     """A square for each implementation under test with answers that are not right, and a sentence if some of them pass.
 
     None of a record before 1.10.0.

@@ -273,7 +273,7 @@ def _started(workers: int, security: Security) -> distributed.SpecCluster:
     for _ in range(START_TRIES):
         with suppress(RuntimeError, OSError):  # what dask raises if a process ended
             return _start_once(workers, security)
-    raise UnavailableError(f"--cluster local:{workers}: workers ended while they started, {START_TRIES} times")
+    raise UnavailableError(f"--cluster local:{workers}: workers died at start, {START_TRIES} times")
 
 
 def _start_once(workers: int, security: Security) -> distributed.SpecCluster:

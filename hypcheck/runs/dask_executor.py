@@ -89,7 +89,7 @@ def _register(client: Client, plugin: ImplementationPlugin, executor: DaskExecut
     for _ in range(START_TRIES):
         with suppress(ConnectionError):  # to a worker; see _registered
             return _registered(client, plugin, executor)
-    raise executor.lost(f"workers ended while they started, {START_TRIES} times")
+    raise executor.lost(f"workers died at start, {START_TRIES} times")
 
 
 def _registered(client: Client, plugin: ImplementationPlugin, executor: DaskExecutor) -> None:

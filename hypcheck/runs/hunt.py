@@ -139,7 +139,7 @@ class Hunt:
 
     `clusters` are the wrong answers found, by kind. `counts` are rows by status; a tolerated answer counts as wrong.
     `unanswered` is the first case of each status without a valid answer. `piece` is the number of rows to ask next.
-    `barren` says that the implementation claimed no row of a whole round of strata.
+    `nothing_in_domain` says that the implementation claimed no row of a whole round of strata.
     """
 
     target: HuntTarget
@@ -149,7 +149,7 @@ class Hunt:
     counts: Counter[str] = field(default_factory=Counter)
     unanswered: dict[Status, UnansweredCase] = field(default_factory=dict)
     piece: int = math.isqrt(PIECE)
-    barren: bool = False
+    nothing_in_domain: bool = False
 
     @property
     def asked(self) -> int:
@@ -176,7 +176,7 @@ class Hunt:
     @property
     def over(self) -> bool:
         """Whether the budget is spent, there is nothing to ask, or the implementation was given up."""
-        return self.spent >= 1 or self.barren or Status.NOT_RUN in self.unanswered
+        return self.spent >= 1 or self.nothing_in_domain or Status.NOT_RUN in self.unanswered
 
     def worst_first(self) -> list[FindingCluster]:
         """The clusters with an answer beyond the tolerance, the worst first."""

@@ -412,7 +412,7 @@ def _look(run: Hunt, everywhere: Sequence[HuntStratum]) -> Iterator[None]:
         for stratum in everywhere:
             _take(run, stratum.rows(run.plan.seed, number), stratum.name)
             yield
-        run.barren = run.asked == before
+        run.nothing_in_domain = run.asked == before
 
 
 def _take(run: Hunt, rows: Rows, source: str) -> None:

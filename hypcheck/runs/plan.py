@@ -179,7 +179,7 @@ def chosen_families(plan: ConformancePlan, used: Description) -> tuple[Family, .
 def planned_size(plan: ConformancePlan) -> int:
     """The number of cases for each implementation, those that it will skip included.
 
-    It is that of one that answers about upright spheroids, or, if families were chosen, about all of these. Others have
+    The number is for an implementation that answers about upright spheroids, or about all chosen families. Others have
     more or fewer, which is known once they have described themselves.
     """
     if plan.filtered:

@@ -194,7 +194,7 @@ def _require_sum(samples: Samples, checksum: int) -> None:
 
 @contextmanager
 def _refused(samples: Samples) -> Iterator[None]:
-    """A block after which the samples say why the entry was refused, if it was."""
+    """Store in the samples why the block refuses an entry, if it does."""
     try:
         yield
     except TimingRefusedError as refused:

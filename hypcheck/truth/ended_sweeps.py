@@ -83,7 +83,7 @@ class EndedSweep:
         return polynomials
 
     def clusters(self, bits: int) -> list[Interval]:
-        """Disjoint intervals that hold all times at which contact begins or ends, in order, so narrow as _BITS says."""
+        """Disjoint intervals, shorter than 2^-bits spheroids, with all times at which contact begins or ends."""
         longest = max(_radii(sweep) for sweep in (self.whole, *self.parts))
         return _clusters(self.critical, bits + math.ceil(longest).bit_length())
 

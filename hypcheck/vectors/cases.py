@@ -338,7 +338,7 @@ def _passage(at: JsonPlace, value: Any) -> StoredCertificate:  # noqa: ANN401 - 
     if len(points) > 2:
         raise InputError(f"{at}: points has {len(points)} points; it may have two at most")
     if (time is None) != (not points and root is None) or (points and root is not None):
-        raise InputError(f"{at}: a certificate has a time with points or a double_root, or none of the three")
+        raise InputError(f"{at}: a certificate has a time with points or with a double_root, or none of these keys")
     return StoredCertificate(offsets=points, double_root=root, steps=tuple(pieces), time=time)
 
 

@@ -56,7 +56,7 @@ def family_at(name: str) -> Family:
     setting = _parsed_sizes(text, name)
     if trap not in _traps(setting):
         with_axis = "an axis" if trap in TILTED_TRAPS else "no axis"
-        raise InputError(f"{name!r} names no family: {trap} takes {with_axis}")
+        raise InputError(f"{name!r} is not a family of fixed sizes: {trap} takes {with_axis}")
     return _family(trap, setting)
 
 
@@ -98,13 +98,13 @@ def _parsed_sizes(text: str, name: str) -> FixedSizes:
         spans = dict(_span(word) for word in words[len(SIZES) : len(words) - (axis is not None)])
     except ValueError:
         raise InputError(
-            f"{name!r} names no family; after {MARK} stand alpha,gamma,b,d and, optionally, x=low:high, y=…, z=…, "
-            "axis=x:y:z or axis=free"
+            f"{name!r} is not a family of fixed sizes; after {MARK} come alpha,gamma,b,d and, optionally, x=low:high, "
+            "y=…, z=…, axis=x:y:z or axis=free"
         ) from None
     for column, value in zip(SIZES, (alpha, gamma, b, d), strict=True):
         trouble = trouble_with(column, value)
         if trouble is not None:
-            raise InputError(f"{name!r} names no family: {trouble}")
+            raise InputError(f"{name!r} is not a family of fixed sizes: {trouble}")
     return FixedSizes((alpha, gamma, b, d), **spans, axis=axis)
 
 

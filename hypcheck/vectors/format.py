@@ -211,7 +211,7 @@ def file_of(document: JsonDocument, path: str, names: tuple[str, ...], read: Rea
         fields = dict(zip(names, fields_of(value, names, at, "the case"), strict=True))
         _check_id(at, fields["id"], head.name)
         if fields["id"] in seen:
-            raise InputError(f"{at}: the id stands on line {seen[fields['id']]} already")
+            raise InputError(f"{at}: duplicate id; it is first on line {seen[fields['id']]}")
         seen[fields["id"]] = place.line
         cases.append(read(at, fields, content, flags))
     return CaseFile(head, content, tuple(cases), flags, tuple(place.line for place, _ in document.cases))

@@ -112,7 +112,7 @@ def test_bench_gates_the_chosen_methods_or_else_the_certified_ones():
 
 def test_baseline_without_the_gated_methods_is_refused():
     with pytest.raises(
-        InputError, match="--baseline has no speed of any method that is compared with it: other; it has mine"
+        InputError, match="--baseline contains no times of the methods that this run compares: other; it has mine"
     ):
         require_common(run(), {"other"})
     require_common(run(), {"other", "mine"})

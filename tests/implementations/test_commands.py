@@ -29,7 +29,7 @@ HANGS = ("silent", "short", "drips", "loops")
 FAULTS = {
     "prints_before": (Outcome.PROTOCOL, r"wrote 'computing the discriminant \.\.\.' where '\d+ 1' had to come"),
     "stale": (Outcome.PROTOCOL, r"replied to question \d+ again, when \d+ was asked"),
-    "silent": (Outcome.PROTOCOL, r"replied to question \d+, when \d+ had got no reply"),
+    "silent": (Outcome.PROTOCOL, r"replied to question \d+ before question \d+"),
     "short": (Outcome.PROTOCOL, r"its reply was short: the next one came after 0 of 1 answers"),
     "long": (Outcome.PROTOCOL, r"wrote '.*' behind a complete reply"),
     "wrong_count": (Outcome.PROTOCOL, "announced 2 answers to 1 rows"),

@@ -40,13 +40,13 @@ LEANS = next(iter(families_for((LEANING,)))).name
     ("name", "message"),
     [
         (f"other{NAME[NAME.index('@') :]}", "there is no family 'other' for fixed sizes; there are "),
-        (f"{LEANS.partition('@')[0]}{NAME[NAME.index('@') :]}", "names no family: .* takes an axis"),
-        (f"{NAME.partition('@')[0]}{LEANS[LEANS.index('@') :]}", "names no family: .* takes no axis"),
-        (NAME.replace("@2.0", "@-2.0"), "names no family: alpha is -2"),
-        (NAME.replace("-1.0:4.0", "4.0:-1.0"), "names no family"),
-        (NAME.replace("-1.0:4.0", "-1.0"), "names no family"),
-        (LEANS.replace("1.0:0.0:1.0", "0.0:0.0:0.0"), "names no family"),
-        (LEANS.replace("1.0:0.0:1.0", "inf:0.0:1.0"), "names no family"),
+        (f"{LEANS.partition('@')[0]}{NAME[NAME.index('@') :]}", "is not a family of fixed sizes: .* takes an axis"),
+        (f"{NAME.partition('@')[0]}{LEANS[LEANS.index('@') :]}", "is not a family of fixed sizes: .* takes no axis"),
+        (NAME.replace("@2.0", "@-2.0"), "is not a family of fixed sizes: alpha is -2"),
+        (NAME.replace("-1.0:4.0", "4.0:-1.0"), "is not a family of fixed sizes"),
+        (NAME.replace("-1.0:4.0", "-1.0"), "is not a family of fixed sizes"),
+        (LEANS.replace("1.0:0.0:1.0", "0.0:0.0:0.0"), "is not a family of fixed sizes"),
+        (LEANS.replace("1.0:0.0:1.0", "inf:0.0:1.0"), "is not a family of fixed sizes"),
     ],
 )
 def test_invalid_name_of_a_family_for_fixed_sizes_is_refused(name, message):

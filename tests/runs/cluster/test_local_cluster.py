@@ -121,7 +121,7 @@ def test_a_run_holds_if_a_worker_ends_while_it_starts(tmp_path, dies):
 def test_a_run_whose_workers_always_end_while_they_start_ends_2_with_a_sentence(tmp_path):
     run = run_with_workers_that_die(tmp_path, "at its start", 1000)
     assert run.returncode == 2, run.stderr
-    assert "--cluster local:1: workers ended while they started, 3 times" in run.stderr
+    assert "--cluster local:1: workers died at start, 3 times" in run.stderr
     assert "internal error" not in run.stderr
 
 

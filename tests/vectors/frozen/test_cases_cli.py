@@ -170,7 +170,7 @@ def test_rows_of_a_family_for_given_sizes_are_generated_checked_and_classified(c
     ("arguments", "message"),
     [
         (["rnig"], "did you mean ring"),
-        (["razor@2,17.8,0.25"], "names no family"),
+        (["razor@2,17.8,0.25"], "is not a family of fixed sizes"),
         (["ring*"], "is a pattern; name one family"),
         (["extreme"], "is a pattern"),
         (["worst-cancellation"], "there is no family"),

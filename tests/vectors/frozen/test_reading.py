@@ -139,7 +139,7 @@ CASES_AT_FAULT = {
         ("tangent-ladder/1/1", "it must be"),
         ("tangent-ladder-٠٠٠٤", "it must be"),
         (4, "it must be"),
-        ("tangent-ladder-0003", "stands on line"),
+        ("tangent-ladder-0003", "first on line"),
     ],
 }
 
