@@ -9,7 +9,8 @@ from dataclasses import dataclass
 
 from msgspec import UNSET, UnsetType
 
-from hypcheck.geometry.pair import COLUMNS, trouble_with_row
+from hypcheck.geometry.pair import trouble_with_row
+from hypcheck.geometry.rows import PAIRS
 from hypcheck.isolation.means import isolation_text
 from hypcheck.messages import counted
 from hypcheck.record import Record
@@ -166,7 +167,7 @@ ON_THE_RING = (1.0, 2.0, 1.0, 1.0, 2.5, 0.0, 0.0)
 
 def can_be_drawn(row: Sequence[float]) -> bool:
     """Whether the half plane shows the truth about a row: a valid one of an upright spheroid that stands still."""
-    return len(row) == len(COLUMNS) and trouble_with_row(row) is None  # a case may have no row
+    return len(row) > 0 and not PAIRS.has_axis(row) and trouble_with_row(row) is None  # a case may have no row
 
 
 def explorer_sections(record: Record) -> Iterator[Section]:
