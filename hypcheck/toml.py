@@ -377,7 +377,7 @@ class _TomlScanner:
         if self._text[begin] not in _WITHIN:
             return self._take(_BARE_KEY)
         self._quoted()
-        return str(parsed(f"key = {self._text[begin : self._at]}", "the scene")["key"])
+        return str(parsed(f"key = {self._text[begin : self._at]}", "a key")["key"])
 
     def _quoted(self) -> None:
         """A text in one quotation mark, or in three and with one or two of its own before the last three."""

@@ -194,7 +194,7 @@ class Scene(PreparedScene):
         scene's question is; `.first_lower` ≤ first time ≤ `.first_upper`, 0 at the start and 1 at the end, `.index` is
         the hyperboloid, and `.first` has the times as fractions; they are found when they are asked for, a millisecond
         a hit. A part moves straight from its place at the start to its place at the end; it is tested if the mover has
-        contact. Beside an end of a hyperboloid, a miss by less than 2^−240 of the sweep or the sizes counts as contact.
+        contact. Beside an end of a hyperboloid, a miss by less than 2^−240 of the mover's size counts as contact.
         Raises InputError for numbers that are not finite, and for an axis where the scene fixes it.
         """
         hit = self._hit_at_once(start, end, heading) if axis is None else None

@@ -21,7 +21,7 @@ What lies between the two, one row in a hundred, and what is nearer than 2^LEAST
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -36,7 +36,7 @@ from hypcheck.truth.changes import BITS, CUTS, Flip, goal_of
 from hypcheck.truth.ended_error import EndedFlip
 from hypcheck.truth.exact import Decision
 from hypcheck.truth.nearest_rows import upright_mask
-from hypcheck.truth.rationals import power_of_two, rounded, rounded_toward
+from hypcheck.truth.rationals import octave, power_of_two, rounded, rounded_toward
 
 
 @dataclass(frozen=True, slots=True)
@@ -195,7 +195,7 @@ def exponent(pair: Pair, truth: Decision, answer: Position) -> float:
     """
     flip = _flip(pair, truth, answer)
     if isinstance(flip, Flip) and pair.is_upright:
-        return _octave(flip)
+        return octave(flip.reached)
     error = flip if isinstance(flip, float) else float(flip.estimate())
     return math.log2(error) if error else -math.inf
 
@@ -231,37 +231,12 @@ def is_bracket(
 
 def _bisected(flip: Flip) -> float:
     """The error where every change is known to be enough or not, rounded up to DIGITS significant digits."""
-    low = power_of_two(_octave(flip))
+    low = power_of_two(octave(flip.reached))  # the distance is not 0
     high = 2 * low
     for _ in range(math.ceil(DIGITS * math.log2(10))):
         middle = (low + high) / 2
         low, high = (low, middle) if flip.reached(middle) else (middle, high)
     return float(high) or math.ulp(0.0)  # a distance below the least float64 is still not 0
-
-
-def _octave(flip: Flip) -> int:
-    """The exponent k with 2^k ≤ error ≤ 2^(k+1) there: exact decisions at both ends say so."""
-
-    def reached(octave: int) -> bool:
-        # At 2^0 the sizes vanish; every flip that is searched for happens before.
-        return octave >= 0 or flip.reached(power_of_two(octave))
-
-    step, low = 1, -10
-    while reached(low):  # terminates: the distance is not 0
-        low -= step
-        step *= 2
-    high = min(low + step, 0)
-    while not reached(high):
-        low, high, step = high, min(high + 2 * step, 0), 2 * step
-    return _last(lambda octave: not reached(octave), low, high)
-
-
-def _last(holds: Callable[[int], bool], low: int, high: int) -> int:
-    """The last number from low to high − 1 for which it holds, as it does for low, and for high no longer."""
-    while high - low > 1:
-        middle = (low + high) // 2
-        low, high = (middle, high) if holds(middle) else (low, middle)
-    return low
 
 
 def _is_sharp(pair: Pair) -> bool:

@@ -35,7 +35,7 @@ from itertools import product
 from hypcheck.geometry.pair import Lengths, Pair, Position
 from hypcheck.truth import exact, least
 from hypcheck.truth.exact import Decision
-from hypcheck.truth.rationals import exponent_of, power_of_two, root_of, rounded
+from hypcheck.truth.rationals import exponent_of, last, power_of_two, root_of, rounded
 
 _LARGEST = Fraction(1, 100)
 _LEAST_OCTAVE = -1100
@@ -58,11 +58,7 @@ class EndedFlip:
 
     def estimate(self) -> Fraction:
         """A power of two that is not excluded, and its half is; or the least that is asked."""
-        low, high = _LEAST_OCTAVE, 0
-        while high - low > 1:
-            middle = (low + high) // 2
-            low, high = (middle, high) if self.excluded(power_of_two(middle)) else (low, middle)
-        return power_of_two(high)
+        return power_of_two(1 + last(lambda exponent: self.excluded(power_of_two(exponent)), _LEAST_OCTAVE, 0))
 
     def excluded(self, change: Fraction, cuts: int = 0) -> bool:  # noqa: ARG002 - as changes.Flip has it
         """Whether no change up to that size gives the answer; False says nothing."""
@@ -187,17 +183,10 @@ def _bracket(pair: Pair) -> tuple[Fraction, Fraction]:
         high = rounded(Fraction(guess.upper) * (1 + loose), _NARROW_BITS)
         if not _meets(pair, low) and _meets(pair, high):
             return low, high
-    if _meets(pair, _power(-_FARTHEST)):
+    if _meets(pair, power_of_two(-_FARTHEST)):
         return Fraction(0), Fraction(0)  # the centre lies on the border
-    first, last = -_FARTHEST, _FARTHEST
-    while last - first > 1:
-        middle = (first + last) // 2
-        first, last = (first, middle) if _meets(pair, _power(middle)) else (middle, last)
-    return _power(first), _power(last)
-
-
-def _power(exponent: int) -> Fraction:
-    return Fraction(2) ** exponent
+    low = power_of_two(last(lambda exponent: not _meets(pair, power_of_two(exponent)), -_FARTHEST, _FARTHEST))
+    return low, 2 * low
 
 
 def _meets(pair: Pair, factor: Fraction) -> bool:

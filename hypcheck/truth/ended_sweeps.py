@@ -43,9 +43,10 @@ from hypcheck.truth.sections import Sections
 from hypcheck.truth.sweep import StraightSweep
 
 _BITS = (60, 120, 240)
-"""How narrow enclosures of roots are, one after the other, where the first do not tell: 2^−bits of the sweep at most,
+"""Bits of the enclosures of roots, tried in this order until all clusters are decided.
 
-and so narrow that the spheroid moves within them by 2^−bits of its size at most, however long the sweep is.
+An enclosure is at most 2^−bits of the sweep long, and so short that within it the spheroid moves by at most 2^−bits of
+its size, however long the sweep is.
 """
 
 START, END = Fraction(0), Fraction(1)

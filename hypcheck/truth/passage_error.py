@@ -15,7 +15,7 @@ the surface; no smaller spheroid is clear then.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
@@ -24,7 +24,7 @@ import numpy as np
 
 from hypcheck.geometry.pair import SIZES, SWEEP_COLUMNS, TILTED_SWEEP_COLUMNS, UPRIGHT, WITHOUT_ENDS
 from hypcheck.geometry.rows import Positions, Rows
-from hypcheck.truth.rationals import rounded_toward
+from hypcheck.truth.rationals import octave, power_of_two, rounded_toward
 from hypcheck.truth.swept import Passage, Rational, passage
 
 Row = tuple[float, ...]
@@ -102,23 +102,12 @@ def size_error(row: Sequence[Rational], answer: bool) -> SizeError:
 
     if not right(Fraction(1)):
         return SizeError(math.inf, math.inf)
-    low, high = _octave(right)
+    low = power_of_two(octave(right, step=8))
+    high = 2 * low
     while high - low > RELATIVE_WIDTH * low:
         middle = (low + high) / 2
         low, high = (low, middle) if right(middle) else (middle, high)
     return SizeError(rounded_toward(low, -math.inf), rounded_toward(high, math.inf))
-
-
-def _octave(right: Callable[[Fraction], bool]) -> tuple[Fraction, Fraction]:
-    """Two neighbouring powers of two, the first a change that is too small, the second one that is enough."""
-    low, step = -10, 8
-    high = 0
-    while right(Fraction(2) ** low):
-        low, high, step = low - step, low, 2 * step
-    while high - low > 1:
-        middle = (low + high) // 2
-        low, high = (low, middle) if right(Fraction(2) ** middle) else (middle, high)
-    return Fraction(2) ** low, Fraction(2) ** high
 
 
 def is_tolerated(row: Sequence[Rational], answer: bool, tolerance: Fraction) -> bool:

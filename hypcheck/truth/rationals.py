@@ -7,7 +7,7 @@ matrices are integers, rationals or intervals.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from itertools import count
 from typing import TYPE_CHECKING, Any
@@ -52,6 +52,29 @@ def power_near(low: Fraction, high: Fraction) -> Fraction:
     # 2^(e−1) < value < 2^(e+1) for the exponent e of a value: e(low) + 1 ≤ k ≤ e(high) − 1 is strictly between.
     first, last = exponent_of(low) + 1, exponent_of(high) - 1
     return power_of_two((first + last) // 2)
+
+
+def last(holds: Callable[[int], bool], low: int, high: int) -> int:
+    """The last number from low to high − 1 for which it holds, as it does for low, and for high no longer."""
+    while high - low > 1:
+        middle = (low + high) // 2
+        low, high = (middle, high) if holds(middle) else (low, middle)
+    return low
+
+
+def octave(reached: Callable[[Fraction], bool], step: int = 1) -> int:
+    """The exponent k < 0 for which 2^(k + 1) is reached, and 2^k is not; 1 is, and all above what is reached.
+
+    It is looked for from −10 on, in steps that double; the first is `step`.
+    """
+    low = -10
+    while reached(power_of_two(low)):
+        low -= step
+        step *= 2
+    high = min(low + step, 0)
+    while high < 0 and not reached(power_of_two(high)):
+        low, high, step = high, min(high + 2 * step, 0), 2 * step
+    return last(lambda exponent: not reached(power_of_two(exponent)), low, high)
 
 
 def shortened(top: int, bottom: int, bits: int) -> Fraction:

@@ -105,19 +105,21 @@ def _pieces(
     """e and e′ at both ends of each piece of the turn."""
     context, plain = MPIntervalContext(), MPContext()
     context.prec = plain.prec = bits
-    length = _root(direction[0] ** 2 + direction[1] ** 2, bits)
-    along = _quotient(x * direction[0] + y * direction[1], length)
-    across = _quotient(y * direction[0] - x * direction[1], length)
+
+    def enclosed(number: Fraction) -> ivmpf:
+        return context.mpf(number.numerator) / number.denominator
+
+    length = context.sqrt(enclosed(direction[0] ** 2 + direction[1] ** 2))
+    along = enclosed(x * direction[0] + y * direction[1]) / length
+    across = enclosed(y * direction[0] - x * direction[1]) / length
     whole = Fraction(angle)
     count = max(1, math.ceil(abs(whole) / _PIECE))
 
     def state(number: int) -> State:
-        time = whole * number / count
-        at = context.mpf(time.numerator) / time.denominator
-        cosine, sine = (_fractions(plain, value) for value in (context.cos(at), context.sin(at)))
-        value = _sum(_product(along, cosine), _product(across, sine))
-        slope = _sum(_product(across, cosine), _negative(_product(along, sine)))
-        return value, slope if whole >= 0 else _negative(slope)
+        time = enclosed(whole * number / count)
+        cosine, sine = context.cos(time), context.sin(time)
+        slope = across * cosine - along * sine
+        return _fractions(plain, along * cosine + across * sine), _fractions(plain, slope if whole >= 0 else -slope)
 
     last = state(0)
     for number in range(1, count + 1):
@@ -176,19 +178,5 @@ def _fractions(context: MPContext, enclosure: ivmpf) -> Enclosure:
     return fraction(low), fraction(high)
 
 
-def _sum(first: Enclosure, second: Enclosure) -> Enclosure:
-    return first[0] + second[0], first[1] + second[1]
-
-
 def _negative(enclosure: Enclosure) -> Enclosure:
     return -enclosure[1], -enclosure[0]
-
-
-def _product(first: Enclosure, second: Enclosure) -> Enclosure:
-    corners = [a * b for a in first for b in second]
-    return min(corners), max(corners)
-
-
-def _quotient(number: Fraction, positive: Enclosure) -> Enclosure:
-    low, high = sorted((number / positive[0], number / positive[1]))
-    return low, high

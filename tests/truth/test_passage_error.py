@@ -9,7 +9,8 @@ import pytest
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
-from tests.support.inside import hits_at_size, is_tolerated, passage, passage_error, size_error, time_window, tolerance
+from hypcheck.truth.rationals import octave
+from tests.support.inside import hits_at_size, is_tolerated, passage, size_error, time_window, tolerance
 
 BESIDE = (2.0, 3.0, 1.0, 1.0, -4.0, 3.5, 0.0, 4.0, 3.5, 0.0)
 """Past the waist at 3.5 from the axis: 1.5 from the surface, so that it touches when grown by a half."""
@@ -161,6 +162,5 @@ def test_the_tolerance_is_the_one_worked_out_by_hand(axis, roundoff, expected):
     "least", [0.3, 0.25, 2.0**-9, 2.0**-10, 1.01 * 2.0**-11, 1e-7, 1e-12, 2.0**-60, 1.5 * 2.0**-300]
 )
 def test_search_encloses_the_least_sufficient_change_between_neighbouring_powers_of_two(least):
-    low, high = passage_error._octave(lambda change: change >= least)
-    assert low < least <= high
-    assert high == 2 * low
+    low = Fraction(2) ** octave(lambda change: change >= least)
+    assert low < least <= 2 * low
