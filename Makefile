@@ -63,7 +63,7 @@ check-cases: $(VENV)/ready ## prove every label of the frozen vectors from its c
 	$(BIN)/hypcheck cases check
 
 prove: $(VENV)/ready ## the machine-checked proofs, and the proved checker on the frozen vectors (needs coq; docs/proofs.md)
-	$(BIN)/python -m hypcheck.proofs
+	$(BIN)/python -m tests.tools.checked proofs --again
 	for scene in forest tower tower-simplest; do \
 		$(BIN)/hypcheck emit --scene $$scene --language c --output build/proofs/$$scene.c --proof build/proofs/$$scene.v || exit; \
 	done

@@ -8,7 +8,6 @@ something is not.
 
 from __future__ import annotations
 
-import hashlib
 import json
 import os
 import platform
@@ -20,6 +19,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import click
+
+from tests.tools import checked
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = "reports/README.md"
@@ -61,11 +62,7 @@ def _git(*words: str) -> str:
 
 def digest(part: Part) -> str:
     """A digest of the names and contents of the files that a part describes, as they are in the tree."""
-    total = hashlib.sha256()
-    for name in sorted(_git("ls-files", "-z", *part.sources).split("\0")):
-        if name and (ROOT / name).is_file():
-            total.update(f"{name} {hashlib.sha256((ROOT / name).read_bytes()).hexdigest()}\n".encode())
-    return total.hexdigest()[:16]
+    return checked.digest(part.sources, ROOT)
 
 
 def machine() -> str:
