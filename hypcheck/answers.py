@@ -13,14 +13,13 @@ from functools import partial
 
 import numpy as np
 
-from hypcheck.answer import ended_clearance_of, require_agreement
+from hypcheck.answer import ended_clearance_of, passage_of_row, require_agreement
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import COLUMNS, REFUSED, TILTED_COLUMNS, Pair
 from hypcheck.geometry.rows import PAIRS, Mask, Positions, Rows, require_valid
 from hypcheck.kernel.classify import classify
 from hypcheck.kernel.in_use import kernel
 from hypcheck.processes import in_order, usable_processors
-from hypcheck.sweep_answer import passage_of_row
 from hypcheck.tables.chunk import SweepAnswers, Table, TableAnswers, TableChunk, UnreadChunk
 from hypcheck.tables.csv_table import read_csv, write_csv
 from hypcheck.tables.jsonl_table import read_jsonl, write_jsonl

@@ -14,7 +14,7 @@ import pytest
 from ruamel.yaml import YAML
 
 from hypcheck.cli.verify import verify
-from hypcheck.isolation.means import available
+from hypcheck.isolation.launch import available
 
 ROOT = Path(__file__).parents[1]
 ACTION = ROOT / "action.yml"

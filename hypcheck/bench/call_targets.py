@@ -23,8 +23,7 @@ import numpy as np
 import hypcheck
 from hypcheck.bench import compiled_targets
 from hypcheck.bench.c_library import TOWER_SIZES, c_baselines
-from hypcheck.bench.compiled_targets import tower_rows, uniform_columns
-from hypcheck.bench.wanted import Form, KernelTarget, forms, target
+from hypcheck.bench.compiled_targets import Form, KernelTarget, forms, target, tower_rows, uniform_columns
 from hypcheck.geometry.rows import Floats, Positions, tilted_rows
 from hypcheck.kernel.choice import choice
 from hypcheck.kernel.compiled_kernel import extension

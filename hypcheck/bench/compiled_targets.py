@@ -1,10 +1,11 @@
-"""Targets of the compiled kernel: against memory bandwidth, the plain formula in C, two threads, and the worst rows.
+"""Targets of kernels as targets.toml lists them; and those of the compiled kernel, measured.
 
-Each is a ratio to a ceiling that is measured in the same rounds. The rows are columns of one scene, the paper's cooling
-tower. The plain formula, and a loop that only reads the rows, are compiled when they are needed, for the instruction
-set of the kernel. The plain formula is Table 2 as the programs print it, with what depends on sizes alone before
-the loop, and contraction allowed. It only answers whether the pair is exterior, and certifies nothing. It is compiled
-for each width of vectors, and the fastest counts.
+The compiled kernel is compared with memory bandwidth, the plain formula in C, two threads, and the worst rows. Each
+target is a ratio to a ceiling that is measured in the same rounds. The rows are columns of one scene, the paper's
+cooling tower. The plain formula, and a loop that only reads the rows, are compiled when they are needed, for the
+instruction set of the kernel. The plain formula is Table 2 as the programs print it, with what depends on sizes alone
+before the loop, and contraction allowed. It only answers whether the pair is exterior, and certifies nothing. It is
+compiled for each width of vectors, and the fastest counts.
 
 Tilted spheroids are asked about in the same scene, with axes in all directions, as one calls it from Python, with
 one thread: beside the upright ones, and beside numpy.linalg.eigh.
@@ -12,18 +13,20 @@ one thread: beside the upright ones, and beside numpy.linalg.eigh.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from statistics import median
 from time import perf_counter_ns, thread_time_ns
+from typing import Any
 
 import numpy as np
 
 import hypcheck
+from hypcheck import toml
 from hypcheck.bench.accuracy import forget_peak, peak
 from hypcheck.bench.c_library import TOWER_SIZES, CBaseline, c_baselines
-from hypcheck.bench.wanted import target
 from hypcheck.geometry.rows import Columns, Floats, Positions, Rows, tilted_rows
 from hypcheck.implementations.alternatives import by_eigenvectors
 from hypcheck.kernel.choice import choice
@@ -33,6 +36,7 @@ from hypcheck.runs.timing import (
     Samples,
     TimingEntry,
     clocked,
+    estimate,
     measured_samples,
     rate_text,
     thread_clocked,
@@ -41,6 +45,54 @@ from hypcheck.runs.timing import (
 )
 from hypcheck.vectors.families import FAMILIES
 from hypcheck.vectors.random_pairs import beside_surface
+
+Form = tuple[str, float]
+"""A statement that calls, and how many times as long as the first of its table it may take."""
+
+
+@dataclass(frozen=True, slots=True)
+class KernelTarget:
+    """A target: `wanted` is a least number, or a greatest one if `at_most`; `text` describes it.
+
+    What is measured is a ratio to a ceiling, work that nothing here can do without, timed beside it in the same rounds:
+    so it depends on the code, and as little as can be on the machine and on what else runs there.
+    """
+
+    name: str
+    text: str
+    wanted: float
+    at_most: bool = False
+
+    def line(self, measured: list[float], says: str) -> KernelLine:
+        """The record's line: the median over rounds, with its 95 % interval. A miss is one of the whole interval."""
+        ratio = estimate([measured])
+        met = ratio.low <= self.wanted if self.at_most else ratio.high >= self.wanted
+        return KernelLine(
+            name=self.name,
+            target=self.text,
+            wanted=self.wanted,
+            measured=ratio.median,
+            ci95=(ratio.low, ratio.high),
+            met=met,
+            says=says,
+        )
+
+
+def _listed() -> dict[str, Any]:
+    return toml.shipped("hypcheck.bench", "targets.toml")
+
+
+def target(name: str) -> KernelTarget:
+    """The target of that name, which must be listed."""
+    entry = _listed()["targets"][name]
+    at_most = "at_most" in entry
+    return KernelTarget(name, entry["text"], entry["at_most" if at_most else "at_least"], at_most)
+
+
+def forms(call: str) -> Mapping[str, Form]:
+    """The forms in which a call may be written, by name; the first is the cheapest."""
+    return {name: (text, times) for name, (text, times) in _listed()["forms"][call].items()}
+
 
 SEED = 1
 DISTINCT = 1_000_000

@@ -24,8 +24,7 @@ from numpy.typing import NDArray
 import hypcheck
 from hypcheck.bench import call_targets, compiled_targets
 from hypcheck.bench.c_library import TOWER_SIZES, c_baselines
-from hypcheck.bench.compiled_targets import tower_rows, uniform_columns
-from hypcheck.bench.wanted import KernelTarget, target
+from hypcheck.bench.compiled_targets import KernelTarget, target, tower_rows, uniform_columns
 from hypcheck.errors import UnavailableError
 from hypcheck.geometry.pair import Sizes
 from hypcheck.geometry.rows import CANNOT_SAY, Columns, Floats, Positions, Rows

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from hypcheck.cli import completing
+from hypcheck.cli import options
 from hypcheck.cli.options import (
     ISOLATE,
     LARGEST_SEED,
@@ -30,12 +30,12 @@ from hypcheck.errors import Exit, InputError, RunOutcome
 if TYPE_CHECKING:
     from hypcheck.bench.plan import BenchPlan
 
-METHODS = completing.Names(completing.bench_methods, many=True)
-WORKLOADS = completing.Names(completing.workloads, many=True)
+METHODS = options.Names(options.bench_methods, many=True)
+WORKLOADS = options.Names(options.workloads, many=True)
 
 
 @click.command(short_help="Compare methods by error and run time, and their speed with an earlier run.")
-@click.argument("specs", nargs=-1, metavar="[SPEC]...", type=completing.SPEC)
+@click.argument("specs", nargs=-1, metavar="[SPEC]...", type=options.SPEC)
 @click.option("--out", type=OutputPath(), default=Path("reports/bench"), show_default=True)
 @click.option(
     "--quick", is_flag=True, help="Half a minute instead of five: fewer rows, rounds and meshes; no scenes, no forest."
@@ -69,7 +69,7 @@ WORKLOADS = completing.Names(completing.workloads, many=True)
 @click.option(
     "--scene",
     multiple=True,
-    type=completing.SCENE,
+    type=options.SCENE,
     metavar="SCENE",
     help="Measure only what a kernel for this scene saves; may be repeated. If its mover is tilted: methods on its "
     "rows.",

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 
-from hypcheck.cli import completing
+from hypcheck.cli import options
 from hypcheck.cli.commands import CommandGroup
 from hypcheck.cli.options import LARGEST_SEED, IntegerOption
 from hypcheck.errors import InputError
@@ -34,7 +34,7 @@ def list_() -> None:
 
 
 @cases.command(short_help="Show a family, or a case with its proof.")
-@click.argument("name", metavar="ID|FAMILY", type=completing.Names(completing.families_and_cases))
+@click.argument("name", metavar="ID|FAMILY", type=options.Names(options.families_and_cases))
 @click.option("--json", "as_json", is_flag=True, help="Print the JSON of the vector file.")
 def show(name: str, as_json: bool) -> None:
     """Show a family, a frozen case (ring-0007) or a generated one (ring/1/42/7)."""
@@ -45,7 +45,7 @@ def show(name: str, as_json: bool) -> None:
 
 
 @cases.command(short_help="Make rows of a family, as many as you like.")
-@click.argument("family", metavar="FAMILY", type=completing.Names(completing.families))
+@click.argument("family", metavar="FAMILY", type=options.Names(options.families))
 @click.option("--seed", type=IntegerOption(0, LARGEST_SEED), default=1, show_default=True)
 @click.option("--count", type=IntegerOption(1), default=100, show_default=True, help="Number of rows.")
 @click.option("--format", "said", type=click.Choice(_FORMATS), help="By default the ending of --output, or json.")
@@ -100,7 +100,7 @@ def check(context: click.Context, files: tuple[str, ...], checker: str) -> None:
 
 
 @cases.command(short_help="Make the frozen files again, keeping every id.")
-@click.argument("names", nargs=-1, metavar="[FAMILY]...", type=completing.Names(completing.frozen_families))
+@click.argument("names", nargs=-1, metavar="[FAMILY]...", type=options.Names(options.frozen_families))
 @click.option("--into", type=click.Path(path_type=Path), default=Path("cases"), show_default=True, metavar="FOLDER")
 def freeze(names: tuple[str, ...], into: Path) -> None:
     """Make the frozen files again: existing cases keep ids and rows, new ones follow.

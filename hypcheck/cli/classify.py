@@ -124,7 +124,7 @@ def _margin(text: str, end: tuple[str, str, str] | None) -> float:
 
 
 def _swept(pair: Pair, end: tuple[str, str, str], *, as_json: bool) -> str:
-    from hypcheck.sweep_answer import sweep_answer, sweep_as_json, sweep_as_text
+    from hypcheck.answer import sweep_answer, sweep_as_json, sweep_as_text
 
     numbers = [_number("--end: ", *named) for named in zip(END, end, strict=True)]
     for name, number in zip(END, numbers, strict=True):

@@ -3,7 +3,7 @@
 One table maps each error to its exit code and message. A closed pipe ends quietly with 141, as the system would end the
 program: a reader that stops early must not turn a failure into a pass, nor a run into an internal error. For completion
 the shell starts `hypcheck` at every press of the key with the variable COMPLETE set, so commands load as for --help,
-without numpy, and completing.py what has the names of one value. The protocol and the scripts are click's.
+without numpy, and options.py what has the names of one value. The protocol and the scripts are click's.
 """
 
 from __future__ import annotations
@@ -120,8 +120,8 @@ GROUPS = {
         "classify": "hypcheck.cli.classify:classify",
         "plan": "hypcheck.cli.scene:plan",
         "emit": "hypcheck.cli.scene:emit",
-        "flight": "hypcheck.cli.flight:flight",
-        "show": "hypcheck.cli.flight:show",
+        "flight": "hypcheck.cli.scene:flight",
+        "show": "hypcheck.cli.scene:show",
     },
     "Test": {
         "init": "hypcheck.cli.setup:init",

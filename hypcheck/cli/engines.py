@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from hypcheck.cli import completing
+from hypcheck.cli import options
 from hypcheck.cli.commands import CommandGroup
 from hypcheck.cli.options import IntegerOption, OutputPath
 from hypcheck.errors import InputError
@@ -72,7 +72,7 @@ def list_(cache: Path) -> None:
 
 
 @engines.command(short_help="Install engines, each in an environment of its own.")
-@click.argument("names", nargs=-1, required=True, metavar="NAME...", type=completing.ENGINE)
+@click.argument("names", nargs=-1, required=True, metavar="NAME...", type=options.ENGINE)
 @_CACHE
 def install(names: tuple[str, ...], cache: Path) -> None:
     """Install these engines at their pinned versions with pip, npm or cargo.
@@ -89,7 +89,7 @@ def install(names: tuple[str, ...], cache: Path) -> None:
 
 
 @engines.command(short_help="Measure installed engines near contact, and write the record.")
-@click.argument("names", nargs=-1, metavar="[NAME]...", type=completing.ENGINE)
+@click.argument("names", nargs=-1, metavar="[NAME]...", type=options.ENGINE)
 @click.option("--out", type=OutputPath(), default=Path("reports/engines"), show_default=True)
 @_CACHE
 def verify(names: tuple[str, ...], out: Path, cache: Path) -> None:
@@ -114,7 +114,7 @@ def verify(names: tuple[str, ...], out: Path, cache: Path) -> None:
 
 
 @engines.command(short_help="Compare engines by error and run time with every other method.")
-@click.argument("names", nargs=-1, metavar="[NAME]...", type=completing.ENGINE)
+@click.argument("names", nargs=-1, metavar="[NAME]...", type=options.ENGINE)
 @click.option("--out", type=OutputPath(), default=Path("reports/engines/bench"), show_default=True)
 @click.option("--triangles", type=IntegerOption(100, 1_000_000), default=5000, show_default=True)
 @_CACHE

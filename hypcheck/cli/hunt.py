@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from hypcheck.cli import completing
+from hypcheck.cli import options
 from hypcheck.cli.options import (
     LARGEST_SEED,
     PRECISION,
@@ -110,7 +110,7 @@ Ends with 0 if no answer was wrong beyond the tolerance (which proves nothing), 
 
 
 @click.command(help=_HUNT_HELP, short_help="Look for wrong answers of an implementation, the worst first.")
-@click.argument("spec", type=completing.SPEC)
+@click.argument("spec", type=options.SPEC)
 @click.option(
     "--budget",
     type=NumberOption(0, excluded=True),
@@ -232,8 +232,8 @@ Ends with 0 if the simplest row is shown, 2 if the answer to CASE is not wrong, 
 
 
 @click.command(help=_MINIMISE_HELP, short_help="Simplify a row that an implementation answers wrongly.")
-@click.argument("spec", type=completing.SPEC)
-@click.argument("case", type=completing.CASE)
+@click.argument("spec", type=options.SPEC)
+@click.argument("case", type=options.CASE)
 @about_one_implementation
 def minimise(spec: str, case: str, **subject: Any) -> None:  # noqa: ANN401
     """Simplify, and print the result."""
@@ -282,8 +282,8 @@ Ends with 0 if the answer is right or tolerated, 1 if it is not, 5 if SPEC canno
 
 
 @click.command(help=_REPLAY_HELP, short_help="Show an implementation's answer to one case, and where it goes wrong.")
-@click.argument("case", type=completing.CASE)
-@click.argument("spec", type=completing.SPEC)
+@click.argument("case", type=options.CASE)
+@click.argument("spec", type=options.SPEC)
 @click.option("--formula", metavar="NAME", help="The formula to show.  [default: its own, or one with the same answer]")
 @click.option("--values", is_flag=True, help="The values of a formula that is not the implementation's own, too.")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object, its proof in exact numbers.")
@@ -348,7 +348,7 @@ hypcheck explain ring --format json
 
 
 @click.command(help=_HELP, short_help="Explain a cause of wrong answers by its id.")
-@click.argument("name", metavar="[ID]", required=False, type=completing.Names(completing.causes))
+@click.argument("name", metavar="[ID]", required=False, type=options.Names(options.causes))
 @click.option("--format", "form", type=click.Choice(["text", "json"]), default="text", show_default=True)
 def explain(name: str | None, form: str) -> None:
     """Explain, and print the result."""

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from hypcheck.cli import completing
+from hypcheck.cli import options
 from hypcheck.cli.commands import CommandGroup
 from hypcheck.cli.options import LARGEST_SEED, MOST_PROCESSES, IntegerOption, NumberOption, OutputPath, with_options
 from hypcheck.cli.progress import watched
@@ -114,7 +114,7 @@ def simulate() -> None:
 @click.option(
     "--scene",
     "name",
-    type=completing.SCENE,
+    type=options.SCENE,
     default="forest",
     show_default=True,
     help="A scene file, or a shipped scene.",
@@ -143,7 +143,7 @@ def forest(name: str, steps: int | None, seed: int, out: Path | None, form: str,
 @click.option(
     "--scene",
     "name",
-    type=completing.SCENE,
+    type=options.SCENE,
     default="tower",
     show_default=True,
     help="A scene file, or tower-simplest.",

@@ -103,7 +103,7 @@ def recording(
 def _print_beginning(title: str, provenance: Provenance | None) -> None:
     """Print the title of a run, and how its implementations are isolated; the summary says its settings."""
     if provenance is not None and provenance.isolation is not None:
-        from hypcheck.isolation.means import isolation_text
+        from hypcheck.isolation.launch import isolation_text
 
         title += f"; {isolation_text(provenance.isolation.means, provenance.isolation.missing)}"
     if title:

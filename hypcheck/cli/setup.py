@@ -59,7 +59,7 @@ def init(language: str, directory: Path, stub: str, name: str | None, source: st
     Without --from the workflow fails in its step `Install hypcheck`, which says what to write there: hypcheck is in no
     known package index, and anyone may take a free name. A branch or tag of a git URL is pinned to its commit.
     """  # noqa: D301 - \b tells click not to fill what follows
-    from hypcheck.scaffold.repository import IGNORED, shared_files, write_all
+    from hypcheck.scaffold.project import IGNORED, shared_files, write_all
     from hypcheck.scaffold.requirement import pinned, requirement
 
     wanted = pinned(requirement(source, directory)) if source is not None else None

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import click
 from click.core import ParameterSource
 
-from hypcheck.cli import completing
+from hypcheck.cli import options
 from hypcheck.cli.options import (
     LARGEST_COUNT,
     LARGEST_SEED,
@@ -179,13 +179,13 @@ _THOROUGH = 10
 
 
 @click.command(short_help="Test the implementations that SPEC names; without SPEC, hypcheck itself.")
-@click.argument("specs", nargs=-1, metavar="[SPEC]...", type=completing.SPEC)
+@click.argument("specs", nargs=-1, metavar="[SPEC]...", type=options.SPEC)
 @click.option(
     "--out", type=OutputPath(), default=Path("reports/latest"), show_default=True, help="The folder of the reports."
 )
 @click.option(
     "--families",
-    type=completing.FAMILIES,
+    type=options.FAMILIES,
     help="Names and globs, separated by commas; '*' is all.  [default: all but the extreme ones]",
 )
 @click.option(

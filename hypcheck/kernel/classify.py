@@ -187,7 +187,7 @@ def classify(
     if refused and on_invalid == "raise":
         call.require_valid(queries)
     if margin:
-        from hypcheck.kernel.margins import with_margin  # noqa: PLC0415 - a margin alone needs it
+        from hypcheck.kernel.clearance import with_margin  # noqa: PLC0415 - a margin alone needs it
 
         result = with_margin(queries, result, margin, question, number)
     return int(result[0]) if call.single else _into(out, result)

@@ -23,7 +23,7 @@ from hypcheck.geometry.pair import AXIS, CENTER, trouble_with_axis
 from hypcheck.geometry.rows import Floats, Indices, Positions, as_numbers
 from hypcheck.kernel import scene_nearest
 from hypcheck.kernel.choice import POSITION_OF
-from hypcheck.kernel.margins import checked_margin
+from hypcheck.kernel.clearance import checked_margin
 from hypcheck.kernel.passages import First, Passages
 from hypcheck.kernel.scene_ends import position_with_ends, positions_with_ends
 from hypcheck.kernel.scene_flights import (
@@ -34,6 +34,7 @@ from hypcheck.kernel.scene_flights import (
     measured,
     paths_of,
     require_for_each,
+    shown_flight,
 )
 from hypcheck.kernel.scene_index import (
     near_sweeps,
@@ -46,7 +47,6 @@ from hypcheck.kernel.scene_pairs import (
     tilted_position,
     tilted_positions,
 )
-from hypcheck.kernel.scene_pictures import shown_flight
 from hypcheck.kernel.scene_prepared import PreparedScene
 from hypcheck.kernel.scene_queries import (
     are_one,
@@ -135,7 +135,7 @@ class Scene(PreparedScene):
         axis: ArrayLike | None,
         margin: float,
     ) -> Positions:
-        """The positions with contact where neither a larger mover nor its distance proves the margin (margins.py)."""
+        """The positions with contact where neither a larger mover nor its distance proves the margin (clearance.py)."""
         larger = self._enlarged(checked_margin(margin))
         sure = larger is not None and larger._positions(center, heading, axis) == positions
         sure = np.broadcast_to(sure, positions.shape) & (positions != CONTACT)

@@ -7,7 +7,7 @@ near it alone. A pair of a piece and a hyperboloid is dropped when its bound is 
 but for a tolerance, and halved otherwise.
 
 Near a least distance that takes many halvings. So of a piece within a segment one more proof is tried: the spheroid
-that contains all points within δ of the mover (margins.py), and no more than that along the normal, is asked whether
+that contains all points within δ of the mover (clearance.py), and no more than that along the normal, is asked whether
 its whole sweep is clear. If it is, the distance is at least δ all along.
 
 Which hyperboloids are near: a body stands in the cells of its reach (scene_index.py), and a mover that is larger by the
@@ -24,7 +24,7 @@ import numpy as np
 
 from hypcheck.geometry.pair import UPRIGHT
 from hypcheck.geometry.rows import Floats, Indices, Mask, Rows
-from hypcheck.kernel.margins import enlarged
+from hypcheck.kernel.clearance import enlarged
 from hypcheck.kernel.scene_gaps import from_spheroids
 from hypcheck.kernel.scene_index import OUTWARD, PAD, Bodies, PlaneGrid, reaches
 from hypcheck.kernel.scene_nearest import distances

@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 from hypcheck.errors import InputError
 from hypcheck.float_environment import in_default_environment
 from hypcheck.geometry.rows import Floats, Indices
-from hypcheck.kernel.margins import enlarged
+from hypcheck.kernel.clearance import enlarged
 from hypcheck.kernel.scene_ends import limits_of
 from hypcheck.kernel.scene_index import ROOM, Bodies, PlaneGrid, bodies_of, cells_of, grid_of, hashed, in_reach, reaches
 from hypcheck.kernel.scene_pairs import Body

@@ -11,7 +11,7 @@ from msgspec import UNSET, UnsetType
 
 from hypcheck.geometry.pair import trouble_with_row
 from hypcheck.geometry.rows import PAIRS
-from hypcheck.isolation.means import isolation_text
+from hypcheck.isolation.launch import isolation_text
 from hypcheck.messages import counted
 from hypcheck.record import Record
 from hypcheck.record.fields import numbers_of

@@ -105,7 +105,7 @@ def _hash(text: str) -> str:
 
 
 def _trusted(text: str) -> markupsafe.Markup:
-    """Our own text, or SVG in which svg.py has escaped foreign text: it needs no escaping."""
+    """Our own text, or SVG in which plots/style.py has escaped foreign text: it needs no escaping."""
     return markupsafe.Markup(text)  # noqa: S704
 
 

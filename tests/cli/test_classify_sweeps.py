@@ -51,7 +51,7 @@ def test_sweep_without_a_rational_certificate_has_bounds_and_no_proof(capsys, mo
     def without(row):
         raise ValueError("the way touches the surface at an irrational time alone")
 
-    monkeypatch.setattr("hypcheck.sweep_answer.prove_passage", without)  # no row of few digits is known to do so
+    monkeypatch.setattr("hypcheck.answer.prove_passage", without)  # no row of few digits is known to do so
     sweep = words((1.0, 2.0, 1.0, 1.0, 2.0, -1.0, 0.0, 2.0, 1.0, 0.0))
     assert main(["classify", *sweep, "--json"]) == 0
     said = json.loads(capsys.readouterr().out)
@@ -62,7 +62,7 @@ def test_sweep_without_a_rational_certificate_has_bounds_and_no_proof(capsys, mo
 
 
 def test_sweep_whose_proof_does_not_hold_ends_with_6(capsys, monkeypatch):
-    monkeypatch.setattr("hypcheck.sweep_answer.check_passage", lambda *_: False)
+    monkeypatch.setattr("hypcheck.answer.check_passage", lambda *_: False)
     assert main(["classify", *words((1.0, 2.0, 1.0, 1.0, 2.0, -1.0, 0.0, 2.0, 1.0, 0.0))]) == 6
     assert "does not hold; please report this" in capsys.readouterr().err
 

@@ -14,8 +14,8 @@ import pytest
 
 from hypcheck.cli import COMPLETE
 from hypcheck.cli.commands import SHELLS, hypcheck
-from hypcheck.cli.completing import Names
 from hypcheck.cli.main import main
+from hypcheck.cli.options import Names
 
 BASH = """
 eval "$(hypcheck completion bash)"

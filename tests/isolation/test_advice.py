@@ -13,8 +13,7 @@ from hypcheck.cli.main import main
 from hypcheck.implementations.implementation import open_implementation
 from hypcheck.implementations.session import StartError
 from hypcheck.isolation.advice import isolation_advice
-from hypcheck.isolation.launch import Isolation
-from hypcheck.isolation.means import Means
+from hypcheck.isolation.launch import Isolation, Means
 from tests.isolation.test_isolation import both, isolated
 
 ROW = "2,5,1,0.5,2.5,0,0"

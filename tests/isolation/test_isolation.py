@@ -21,11 +21,10 @@ from hypcheck.implementations.implementation import open_implementation
 from hypcheck.implementations.process import Process
 from hypcheck.implementations.session import FaultError, Limits, StartError
 from hypcheck.implementations.worker_session import WORKER_MODULES
-from hypcheck.isolation import means
-from hypcheck.isolation.launch import Isolation
-from hypcheck.isolation.means import Means, NotIsolatedError, isolation_text
+from hypcheck.isolation import launch
+from hypcheck.isolation.launch import Isolation, Means, NotIsolatedError, isolation_text
 
-HERE = means.available()
+HERE = launch.available()
 WITHOUT_NAMESPACES = Means(False, HERE.landlock, HERE.seccomp, ("no namespaces: a test",))
 
 SAID = isolation_text(HERE.names, HERE.missing)
@@ -180,7 +179,7 @@ def test_an_isolated_program_ends_if_hypcheck_is_killed(ways, tmp_path):
     code = (
         "import sys\n"
         "from hypcheck.isolation.launch import Isolation\n"
-        "from hypcheck.isolation.means import Means\n"
+        "from hypcheck.isolation.launch import Means\n"
         "from hypcheck.implementations.process import Process\n"
         "from hypcheck.implementations.session import Limits\n"
         f"limits = Limits(isolation=Isolation('auto', here={ways!r}))\n"
@@ -352,9 +351,9 @@ def test_isolation_that_a_variable_turns_off_is_listed_as_weaker_than_the_defaul
 def test_isolation_on_is_refused_with_the_reason_if_the_system_lacks_namespaces():
     lacking = Means(missing=("no namespaces: cannot make namespaces: operation not permitted",))
     with pytest.raises(NotIsolatedError, match="cannot make namespaces: operation not permitted") as refused:
-        means.means_of("on", lacking)
+        launch.means_of("on", lacking)
     assert refused.value.exit_code == 5
-    assert means.means_of("auto", lacking) is lacking
+    assert launch.means_of("auto", lacking) is lacking
     with pytest.raises(InputError, match="one of auto, on, off"):
         Isolation("perhaps")
 

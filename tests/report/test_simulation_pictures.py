@@ -13,8 +13,7 @@ import pytest
 from hypcheck.paper.forest import ForestPlan, simulate_forest
 from hypcheck.paper.tower import TowerPlan, simulate_tower
 from hypcheck.report.plots.simulations import TRUNKS, forest_plots, tower_plots
-from hypcheck.report.plots.style import colour, styled
-from hypcheck.report.plots.svg import standalone
+from hypcheck.report.plots.style import colour, standalone, styled
 from hypcheck.scene.reading import read_scene
 
 TOWER = read_scene("tower")

@@ -15,8 +15,7 @@ from hypcheck.report.drawings import render_picture
 from hypcheck.report.plots import pictures
 from hypcheck.report.plots.colours import colour_rules
 from hypcheck.report.plots.pictures import draw_plots
-from hypcheck.report.plots.style import ROLES, colour, new_figure, styled
-from hypcheck.report.plots.svg import Plot, inline, standalone
+from hypcheck.report.plots.style import ROLES, Plot, colour, inline, new_figure, standalone, styled
 from tests.report import record_samples
 from tests.report.bench_lines import bench_record
 

@@ -14,8 +14,7 @@ import pytest
 from hypcheck.cli.main import main
 from hypcheck.implementations.spec import parse_spec
 from hypcheck.scaffold import project as languages
-from hypcheck.scaffold.project import LANGUAGES, LONGEST_NAME, STUBS, Project, safe_name
-from hypcheck.scaffold.repository import shared_files
+from hypcheck.scaffold.project import LANGUAGES, LONGEST_NAME, STUBS, Project, safe_name, shared_files
 from tests.support.inside import DIALECTS
 
 if sys.version_info >= (3, 11):

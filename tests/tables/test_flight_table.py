@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from hypcheck.errors import InputError
-from hypcheck.tables.flight_table import read_flights
+from hypcheck.tables.csv_table import read_flights
 
 
 def read(tmp_path, text):

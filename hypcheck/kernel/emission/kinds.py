@@ -15,7 +15,7 @@ from hypcheck.derivation.routines import Routine
 from hypcheck.geometry.pair import AXIS, COLUMNS, SIZES, TILTED_COLUMNS
 from hypcheck.kernel.emission.dialects import Dialect
 from hypcheck.kernel.emission.routines import routines_text
-from hypcheck.kernel.specialise import looking, sweeping
+from hypcheck.kernel.specialise import sweeping
 from hypcheck.kernel.specialise.scene_routines import position_routine, sweep_routine
 from hypcheck.scene.model import SceneModel
 
@@ -85,7 +85,7 @@ KINDS = {
         "position",
         "classify_tilted",
         _PAIR,
-        looking.POSITION,
+        sweeping.POSITION,
         python="classify",
         head=(
             _TILTED,
@@ -98,11 +98,11 @@ KINDS = {
         "position",
         "classify_tilted",
         _PAIR,
-        looking.POSITION,
+        sweeping.POSITION,
         python="classify",
         numbers={
-            "clearance_lower": Number(looking.LOWER, -1.0),
-            "clearance_upper": Number(looking.UPPER, float_info.max),
+            "clearance_lower": Number(sweeping.LOWER, -1.0),
+            "clearance_upper": Number(sweeping.UPPER, float_info.max),
         },
         head=(
             _TILTED,

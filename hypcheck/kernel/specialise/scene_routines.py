@@ -31,8 +31,7 @@ from hypcheck.derivation.routines import Call, Loop, Part, Routine, Table
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import AXIS, CENTER
 from hypcheck.kernel.programs import sweeps
-from hypcheck.kernel.specialise.looking import CONTACT, LOOK
-from hypcheck.kernel.specialise.sweeping import FIRST_OF_SWEEP, NEVER, UNKNOWN
+from hypcheck.kernel.specialise.sweeping import CONTACT, FIRST_OF_SWEEP, LOOK, NEVER, UNKNOWN
 from hypcheck.scene.model import FREE, Hyperboloid, SceneModel
 
 LOOSE = 2.0**-45

@@ -22,7 +22,7 @@ from hypcheck.report.measured import TIERS, MeasuredMethod, measured_methods, pr
 from hypcheck.report.messages import figure
 from hypcheck.report.model import ImplementationTotal, implementations
 from hypcheck.report.plots import style
-from hypcheck.report.plots.svg import Plot
+from hypcheck.report.plots.style import Plot
 
 TANGENT = -math.inf
 AT_MOST = 8

@@ -36,6 +36,7 @@ from hypcheck.report.plots.style import (
     MARKERS,
     WIDTH,
     Mark,
+    Plot,
     colour,
     decades,
     draw_marks,
@@ -43,7 +44,6 @@ from hypcheck.report.plots.style import (
     new_figure,
     power_of_ten,
 )
-from hypcheck.report.plots.svg import Plot
 
 _PLACES = (
     (7, 0, "left", "center"),

@@ -9,8 +9,7 @@ from hypcheck.errors import UnavailableError
 from hypcheck.record import Record
 from hypcheck.record.lines import MapLine
 from hypcheck.report.plots import curves, pareto, planes, simulations, times, worst_way
-from hypcheck.report.plots.style import styled
-from hypcheck.report.plots.svg import Plot, inline, standalone, together
+from hypcheck.report.plots.style import Plot, inline, standalone, styled, together
 
 PLOTS: Mapping[str, Callable[[Record], Iterator[Plot]]] = {
     "map": planes.map_plots,

@@ -30,8 +30,7 @@ from hypcheck.report.measured import is_unstable, is_wrong_somewhere, stability_
 from hypcheck.report.messages import figure, listed
 from hypcheck.report.model import ImplementationTotal, implementations
 from hypcheck.report.plots.colours import MISTAKES, STEPS
-from hypcheck.report.plots.style import SMALL, WIDTH, colour, decades, new_figure, power_of_ten, share_layout
-from hypcheck.report.plots.svg import Plot
+from hypcheck.report.plots.style import SMALL, WIDTH, Plot, colour, decades, new_figure, power_of_ten, share_layout
 
 GAP = 0.08
 """Between two cells, of the width of a cell."""

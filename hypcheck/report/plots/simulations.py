@@ -18,8 +18,7 @@ from matplotlib.ticker import MaxNLocator
 
 from hypcheck.geometry.rows import Floats
 from hypcheck.report.plots.planes import FAINT, paint_letters
-from hypcheck.report.plots.style import colour, curve_style, new_figure, power_of_ten
-from hypcheck.report.plots.svg import Plot
+from hypcheck.report.plots.style import Plot, colour, curve_style, new_figure, power_of_ten
 
 
 def axes_in_space(figure: Any, place: tuple[float, float, float, float], elevation: int, azimuth: int) -> Any:  # noqa: ANN401 - matplotlib does not type axes in space

@@ -1,24 +1,36 @@
-"""The style of all plots: lines that differ without colour, sizes for a telephone, axes.
+"""How figures look: lines that differ without colour, sizes for a telephone, axes; and each figure as SVG.
 
 Widths are in points of the picture, which a page scales: 380 of them are legible across a telephone and across half a
 screen. Each curve has its own marker and dashes besides its colour.
+
+SVG is for a page or a file: colours by role, tooltips, a title and a description, nothing to load. matplotlib writes
+colours and sizes as style attributes, which a strict content security policy forbids, and ids that clash with those of
+other figures on a page. Here colours become classes, which a page's style sheet defines for light and dark ground, the
+rest become attributes, and ids begin with the plot's name. In a file of its own each mark also carries its colour on
+light ground as an attribute, since viewers outside a browser know no variables of style sheets.
 """
 
 from __future__ import annotations
 
+import io
 import math
-from collections.abc import Iterable, Iterator, Sequence
+import re
+import warnings
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass, field
 from typing import Any, NamedTuple
+from xml.etree import ElementTree as Xml
 
 import matplotlib.style
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from hypcheck.messages import escaped
-from hypcheck.report.plots.colours import ROLES
+from hypcheck.report.plots.colours import ROLES, dark_rules
 
 WIDTH = 380.0
 SMALL = 178.0
@@ -98,7 +110,7 @@ class CurveStyle(NamedTuple):
 
 
 def colour(role: str) -> str:
-    """The colour that stands for a role while a plot is drawn (svg.py makes it a class)."""
+    """The colour that stands for a role while a plot is drawn (SVG makes it a class)."""
     return ROLES[role][0]
 
 
@@ -210,3 +222,199 @@ def log_axis(axes: Axes, name: str, low: float, high: float) -> None:
     axis = getattr(axes, f"{name}axis")
     axis.set_ticks([value for value, _ in marks], [label for _, label in marks])
     axis.set_ticks([], minor=True)
+
+
+_SVG = "{http://www.w3.org/2000/svg}"
+_LINK = "{http://www.w3.org/1999/xlink}href"
+_ROLE: dict[str | None, str] = {light: role for role, (light, _) in ROLES.items()}
+_FONT = "'DejaVu Sans', system-ui, -apple-system, 'Segoe UI', Roboto, sans-serif"
+"""The fonts of a file: first the one that the picture was laid out with; some viewers try no other."""
+
+_PAINT = {"fill": "f", "stroke": "s"}
+_PAINTED = {letter: attribute for attribute, letter in _PAINT.items()}
+_NUMBER = re.compile(r"-?\d+\.\d{3,}")
+_AROUND_LETTERS = re.compile(r" ?([A-Za-z]) ?")
+_REFERENCE = re.compile(r"#([\w.-]+)")
+_SHARP_LETTERS = "@media screen{text{text-rendering:geometricPrecision}}"
+"""What `_describe` says by an attribute, for browsers alone: cairosvg draws such letters in slices."""
+
+_COLUMNS, _APART = 2, 24.0
+"""Plots side by side in one file, and the points between two of them."""
+
+_LONGEST = 1000
+"""Characters of a title, a description or a tooltip."""
+
+_MARKS = (f"{_SVG}use", f"{_SVG}path", f"{_SVG}image")
+
+
+@dataclass(frozen=True, slots=True)
+class Plot:
+    """A figure with its `name` (of letters, digits and hyphens; its own on the page), its title and its description.
+
+    `tips` are tooltips: for the gid of an artist one for each of its marks, in the order in which they are drawn.
+    """
+
+    name: str
+    title: str
+    description: str
+    figure: Figure
+    tips: Mapping[str, Sequence[str]] = field(default_factory=dict)
+
+
+def inline(plot: Plot) -> str:
+    """The plot as an element of an HTML page."""
+    return _text(_element(plot))
+
+
+def standalone(plot: Plot) -> bytes:
+    """The plot as a file, which follows the reader's scheme of colours."""
+    return _file(_element(plot))
+
+
+def together(name: str, title: str, plots: Sequence[tuple[str, str]]) -> bytes:
+    """Several plots, each a title and its element, as one file: row by row under their titles."""
+    parts = [Xml.fromstring(svg) for _, svg in plots]  # noqa: S314 - as inline made it
+    sizes = [tuple(float(size) for size in part.get("viewBox", "0 0 0 0").split()[2:]) for part in parts]
+    widest, top = max(wide for wide, _ in sizes), 0.0
+    whole = Xml.Element(f"{_SVG}svg")
+    for first in range(0, len(parts), _COLUMNS):
+        row = range(first, min(first + _COLUMNS, len(parts)))
+        for column, place in enumerate(row):
+            left = column * (widest + _APART)
+            look = {"class": "f-ink", "font-size": "12px", "font-weight": "bold"}
+            heading = Xml.SubElement(whole, f"{_SVG}text", {"x": f"{left + 6:g}", "y": f"{top + 14:g}", **look})
+            heading.text = _shown(plots[place][0])
+            wide, tall = sizes[place]
+            for attribute, value in (("x", left), ("y", top + 20), ("width", wide), ("height", tall)):
+                parts[place].set(attribute, f"{value:g}")
+            whole.append(parts[place])
+        top += max(sizes[place][1] for place in row) + 20 + _APART
+    columns = min(_COLUMNS, len(parts))
+    whole.set("viewBox", f"0 0 {widest * columns + _APART * (columns - 1):g} {top - _APART:g}")
+    _describe(whole, name, title, "; ".join(words for words, _ in plots))
+    return _file(whole)
+
+
+def _file(root: Xml.Element) -> bytes:
+    """A described element as a file of its own: with its colours, the rules for dark ground, and a ground."""
+    root.set("font-family", _FONT)
+    style = Xml.Element(f"{_SVG}style")
+    style.text = _SHARP_LETTERS + dark_rules()
+    ground = Xml.Element(f"{_SVG}rect", {"width": "100%", "height": "100%", "class": "f-surface"})
+    root[2:2] = [style, ground]  # behind title and description
+    for element in root.iter():
+        element.attrib.pop("text-rendering", None)
+        _paint(element)
+    return (_text(root) + "\n").encode("utf-8")
+
+
+def _paint(element: Xml.Element) -> None:
+    """Give an element the light colours of its classes as attributes; a rule of a style sheet overrides them."""
+    for name in (element.get("class") or "").split():
+        letter, _, role = name.partition("-")
+        if letter in _PAINTED:
+            element.set(_PAINTED[letter], ROLES[role][0])
+
+
+def _element(plot: Plot) -> Xml.Element:
+    stream = io.BytesIO()
+    with styled(), warnings.catch_warnings():  # the style says how text and ids are written, too
+        warnings.filterwarnings("ignore", message="Glyph")  # a name in letters that the font has not
+        metadata = dict.fromkeys(("Creator", "Date", "Format", "Type"))
+        plot.figure.set_dpi(144)  # of what is drawn as an image
+        FigureCanvasSVG(plot.figure).print_svg(stream, metadata=metadata)  # savefig draws everything twice
+    root = Xml.fromstring(stream.getvalue())  # noqa: S314 - just written
+    for parent in list(root.iter()):
+        for child in list(parent):
+            if child.tag in (f"{_SVG}metadata", f"{_SVG}style"):
+                parent.remove(child)
+    for element in root.iter():
+        _unstyle(element)
+    _give_tips(root, plot)
+    _rename(root, plot.name)
+    _describe(root, plot.name, plot.title, plot.description)
+    return root
+
+
+def _unstyle(element: Xml.Element) -> None:
+    """Style attributes become attributes, colours classes; numbers lose digits that no screen shows."""
+    declarations = [part.partition(":") for part in element.attrib.pop("style", "").split(";") if part.strip()]
+    for name, _, value in declarations:
+        element.set(name.strip(), value.strip())
+    painted = {name: _ROLE[element.attrib.pop(name)] for name in _PAINT if element.get(name) in _ROLE}
+    classes = [f"{_PAINT[name]}-{role}" for name, role in painted.items()]
+    if element.tag == f"{_SVG}text":
+        for name in ("font", "font-family"):
+            element.attrib.pop(name, None)
+        if "fill" not in painted and element.get("fill") is None:
+            classes.append("f-ink")
+        if element.get("transform", "").startswith("rotate(-0 "):
+            del element.attrib["transform"]
+    if classes:
+        element.set("class", " ".join(classes))
+    _shorten(element)
+
+
+def _shorten(element: Xml.Element) -> None:
+    for name in ("d", "x", "y", "transform", "width", "height", "points"):
+        if name in element.attrib:
+            short = _NUMBER.sub(lambda digits: f"{float(digits[0]):.2f}".rstrip("0").rstrip("."), element.attrib[name])
+            element.set(name, _AROUND_LETTERS.sub(r"\1", " ".join(short.split())) if name == "d" else short)
+    if _LINK in element.attrib:
+        element.set("href", element.attrib.pop(_LINK))
+
+
+def _give_tips(root: Xml.Element, plot: Plot) -> None:
+    groups = {element.get("id"): element for element in root.iter(f"{_SVG}g")}
+    for gid, tips in plot.tips.items():
+        definitions = {id(node) for defs in groups[gid].iter(f"{_SVG}defs") for node in defs.iter()}
+        marks = [node for node in groups[gid].iter() if node.tag in _MARKS and id(node) not in definitions]
+        if len(marks) != len(tips):
+            raise ValueError(f"{plot.name}: {gid} has {len(marks)} marks and {len(tips)} tooltips")
+        for mark, tip in zip(marks, tips, strict=True):
+            Xml.SubElement(mark, f"{_SVG}title").text = _shown(tip)
+
+
+def _shown(words: str) -> str:
+    return escaped(words[:_LONGEST], _LONGEST)
+
+
+def _rename(root: Xml.Element, name: str) -> None:
+    """Ids that something refers to get the plot's name before them; the others go."""
+    used = {
+        reference
+        for element in root.iter()
+        for value in element.attrib.values()
+        for reference in _REFERENCE.findall(value)
+    }
+    for element in root.iter():
+        identity = element.attrib.pop("id", None)
+        if identity in used:
+            element.set("id", f"{name}-{identity}")
+        for attribute in ("href", "clip-path"):
+            value = element.get(attribute)
+            if value is not None and not value.startswith("data:"):
+                element.set(attribute, _REFERENCE.sub(rf"#{name}-\1", value))
+
+
+def _describe(root: Xml.Element, name: str, title: str, description: str) -> None:
+    for attribute in ("width", "height", "version"):
+        root.attrib.pop(attribute, None)
+    for place, (tag, words) in enumerate((("title", title), ("desc", description))):
+        element = Xml.Element(f"{_SVG}{tag}", {"id": f"{name}-{tag}"})
+        element.text = _shown(words)
+        root.insert(place, element)
+    root.set("class", "plot")
+    root.set("role", "img")
+    root.set("aria-labelledby", f"{name}-title {name}-desc")
+    root.set("stroke-linejoin", "round")
+    root.set("text-rendering", "geometricPrecision")  # else a scaled picture spaces its letters as if it were not
+
+
+def _text(root: Xml.Element) -> str:
+    Xml.register_namespace("", _SVG.strip("{}"))
+    for element in root.iter():  # what matplotlib puts between elements to be read by people
+        element.tail = None
+        if element.text is not None and not element.text.strip():
+            element.text = None
+    return Xml.tostring(root, encoding="unicode")

@@ -15,7 +15,7 @@ from hypcheck.record.measurements import BoundingLine, ConvergenceLine, ForestLi
 from hypcheck.report.measured import TIERS, measured_methods, noise_floor, reference, workloads
 from hypcheck.report.messages import figure
 from hypcheck.report.plots import style
-from hypcheck.report.plots.svg import Plot
+from hypcheck.report.plots.style import Plot
 
 _MODES = {"batch": "in a batch", "single": "one query a call", "build": "building a mesh"}
 

@@ -26,8 +26,7 @@ from hypcheck.record.lines import WrongAnswer
 from hypcheck.report.messages import figure, from_hex
 from hypcheck.report.model import drawn_way, implementations
 from hypcheck.report.plots.planes import Interval, draw_surface
-from hypcheck.report.plots.style import WIDTH, colour, new_figure
-from hypcheck.report.plots.svg import Plot
+from hypcheck.report.plots.style import WIDTH, Plot, colour, new_figure
 from hypcheck.truth.passage_error import SWEEP_ANSWERS, passage_of
 
 BROAD, HEIGHT = 1.6 * WIDTH, 330

@@ -18,8 +18,7 @@ from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from hypcheck.paper.forest import ForestPlan, simulate_forest
 from hypcheck.paper.tower import TowerPlan, simulate_tower
 from hypcheck.report.plots.simulations import flights, forest_plots
-from hypcheck.report.plots.style import styled
-from hypcheck.report.plots.svg import Plot, standalone
+from hypcheck.report.plots.style import Plot, standalone, styled
 from hypcheck.scene.reading import read_scene
 from tests.tools.figures import bodies, landing, paper
 

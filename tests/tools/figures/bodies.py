@@ -9,8 +9,7 @@ from matplotlib.patches import Ellipse, Rectangle
 
 from hypcheck.geometry.pair import Position
 from hypcheck.report.plots.planes import ON_MAP, REGIONS
-from hypcheck.report.plots.style import new_figure
-from hypcheck.report.plots.svg import Plot
+from hypcheck.report.plots.style import Plot, new_figure
 from tests.support.inside import scalar_position as position
 
 ALPHA, GAMMA, B, D = 1.0, 1.5, 0.55, 0.35

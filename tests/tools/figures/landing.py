@@ -13,8 +13,7 @@ from matplotlib.patches import Ellipse, Polygon, Rectangle
 from hypcheck import passage, position
 from hypcheck.geometry.pair import Position
 from hypcheck.report.plots.planes import ON_MAP, REGIONS
-from hypcheck.report.plots.style import new_figure
-from hypcheck.report.plots.svg import Plot
+from hypcheck.report.plots.style import Plot, new_figure
 from hypcheck.scene.model import Hyperboloid, SceneModel
 from hypcheck.scene.reading import read_scene
 

@@ -14,8 +14,7 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Circle, Patch
 
 from hypcheck.report.plots.simulations import TRUNKS, axes_in_space
-from hypcheck.report.plots.style import colour, new_figure
-from hypcheck.report.plots.svg import Plot
+from hypcheck.report.plots.style import Plot, colour, new_figure
 
 SIGHT = 4.2
 """How far from the walker trees are drawn in Figure 1, in metres."""

@@ -14,8 +14,7 @@ import numpy as np
 import hypcheck
 from hypcheck.implementations.implementation import open_implementation
 from hypcheck.implementations.session import Limits, Outcome
-from hypcheck.isolation.launch import Isolation
-from hypcheck.isolation.means import Means
+from hypcheck.isolation.launch import Isolation, Means
 from tests.support.inside import kernel_classify
 from tests.tools.miniatures import stderr_of
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 
 from hypcheck.implementations.session import Outcome
-from hypcheck.isolation.means import Means, available
+from hypcheck.isolation.launch import Means, available
 
 HERE = available()
 

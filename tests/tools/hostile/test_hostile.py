@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from hypcheck.cli.main import main
-from hypcheck.isolation.means import isolation_text
+from hypcheck.isolation.launch import isolation_text
 from hypcheck.record import read
 from hypcheck.record.lines import GroupLine
 from hypcheck.runs.known_failures import excusable_causes
