@@ -14,30 +14,30 @@ from dataclasses import dataclass
 from hypcheck.derivation.formulas import FORMULAS, Formula
 from hypcheck.derivation.program import Program, cut
 from hypcheck.geometry.pair import COLUMNS, SIZES
+from hypcheck.implementations import procedures
 from hypcheck.implementations.alternatives import DISTANCES
 from hypcheck.implementations.method import parts
-from hypcheck.implementations.procedures import (
-    CRAFT,
-    MOVING,
-    PRINTED,
-    PUT_RIGHT,
-    hull_programs,
-    hull_steps,
-    rotor_programs,
-)
 from hypcheck.kernel.printing.languages import C_SUFFIXES, c_statements
 
 
 def procedures_source() -> str:
     """The functions and their driver; hypcheck.h and math.h must be included before."""
-    return _before("hull", hull_programs()[0]) + _before("rotors", rotor_programs()[0]) + "".join(_both()) + _REST
+    return (
+        _before("hull", procedures.hull_programs()[0])
+        + _before("rotors", procedures.rotor_programs()[0])
+        + "".join(_both())
+        + _REST
+    )
 
 
 def _both() -> Iterator[str]:
     """The procedures as printed and as repaired, which keep the same numbers of a craft."""
-    for repaired, prefix in ((PRINTED, ""), (PUT_RIGHT, "repaired_")):
-        asked, inside = hull_steps(repaired)
-        (hull_before, hull), (rotor_before, rotors) = hull_programs(repaired), rotor_programs(repaired)
+    for repaired, prefix in ((procedures.PRINTED, ""), (procedures.PUT_RIGHT, "repaired_")):
+        asked, inside = procedures.hull_steps(repaired)
+        (hull_before, hull), (rotor_before, rotors) = (
+            procedures.hull_programs(repaired),
+            procedures.rotor_programs(repaired),
+        )
         yield _asked(f"{prefix}rotors", rotor_before, rotors, ("valid",), "return valid;")
         yield _asked(f"{prefix}hull", hull_before, hull, (asked, inside), f"return {asked} ? 2 : {inside};")
         yield _PROCEDURES.replace("{prefix}", prefix)
@@ -58,8 +58,8 @@ def _asked(name: str, before: Program, program: Program, wanted: tuple[str, ...]
     )
     inputs = _craft(read)
     statements = "\n".join(f"    {line}" for line in c_statements(program, wanted))
-    moving = ", ".join(f"double {name}" for name in MOVING)
-    unused = "".join(f"    (void){name};\n" for name in MOVING if name not in read)
+    moving = ", ".join(f"double {name}" for name in procedures.MOVING)
+    unused = "".join(f"    (void){name};\n" for name in procedures.MOVING if name not in read)
     return (
         f"\nstatic int {name}_asked(const double *craft, const double *k, {moving})\n"
         f"{{\n    (void)craft;\n{unused}{inputs}\n{kept}\n{statements}\n    {end}\n}}\n"
@@ -67,7 +67,7 @@ def _asked(name: str, before: Program, program: Program, wanted: tuple[str, ...]
 
 
 def _craft(read: set[str] | None = None) -> str:
-    named = [(place, name) for place, name in enumerate(CRAFT) if read is None or name in read]
+    named = [(place, name) for place, name in enumerate(procedures.CRAFT) if read is None or name in read]
     taken = "\n".join(f"    const double {name} = craft[{place}];" for place, name in named)
     return taken + "".join(f"\n    (void){name};" for _, name in named)
 

@@ -29,16 +29,7 @@ from hypcheck.kernel.choice import choice
 from hypcheck.kernel.compiled_kernel import extension
 from hypcheck.kernel.scalar import exact_position
 from hypcheck.record.measurements import KernelLine
-from hypcheck.runs.timing import (
-    Clocked,
-    Samples,
-    TimingEntry,
-    clocked_in_c,
-    measured_samples,
-    rate_text,
-    thread_clocked,
-    times_as_long,
-)
+from hypcheck.runs import timing
 
 CALLS, TEN = 1000, 10
 BATCHES, MANY = (1_000, 10_000, 100_000), 10_000_000
@@ -66,21 +57,25 @@ def batch(folder: Path, count: int, rounds: int) -> Iterator[KernelLine]:
     scene = partial(hypcheck.classify_scene, TOWER_SIZES, *columns, threads=1 if large else None)
     take, new = partial(extension().take, TOWER_SIZES, *columns, out), partial(np.empty, count, np.dtype(np.int8))
     entries = [
-        TimingEntry("in C", count, clocked_in_c(library.of_scene(columns, out), out, thread_time_ns)),
-        TimingEntry("fresh", count, thread_clocked(scene)),
-        TimingEntry("in place", count, thread_clocked(partial(scene, out))),
-        TimingEntry("array", 1, statement("new()", new=new)),
-        TimingEntry("empty", 1, statement("take()", take=take)),
-        TimingEntry("first touch", count, statement("new().fill(1)", new=new)),
+        timing.TimingEntry("in C", count, timing.clocked_in_c(library.of_scene(columns, out), out, thread_time_ns)),
+        timing.TimingEntry("fresh", count, timing.thread_clocked(scene)),
+        timing.TimingEntry("in place", count, timing.thread_clocked(partial(scene, out))),
+        timing.TimingEntry("array", 1, statement("new()", new=new)),
+        timing.TimingEntry("empty", 1, statement("take()", take=take)),
+        timing.TimingEntry("first touch", count, statement("new().fill(1)", new=new)),
     ]
     if not large:
         rows = tower_rows(columns)
         entries += [
-            TimingEntry("rows in C", count, clocked_in_c(library.of_rows(rows, out), out, thread_time_ns)),
-            TimingEntry("rows", count, thread_clocked(partial(hypcheck.classify, rows))),
-            TimingEntry("rows in place", count, thread_clocked(partial(hypcheck.classify, rows, out=out))),
+            timing.TimingEntry(
+                "rows in C", count, timing.clocked_in_c(library.of_rows(rows, out), out, thread_time_ns)
+            ),
+            timing.TimingEntry("rows", count, timing.thread_clocked(partial(hypcheck.classify, rows))),
+            timing.TimingEntry(
+                "rows in place", count, timing.thread_clocked(partial(hypcheck.classify, rows, out=out))
+            ),
         ]
-    samples = measured_samples(entries, rounds)
+    samples = timing.measured_samples(entries, rounds)
     for work, name in BATCH_TARGETS.items():
         if work in samples:
             least = samples["rows in C" if work.startswith("rows") else "in C"]
@@ -89,7 +84,7 @@ def batch(folder: Path, count: int, rounds: int) -> Iterator[KernelLine]:
                 samples[work].samples_ns, least.samples_ns, samples["empty"].samples_ns, made, strict=True
             )
             says = (
-                f"{rate_text(samples[work])}; in C: {rate_text(least)}"
+                f"{timing.rate_text(samples[work])}; in C: {timing.rate_text(least)}"
                 f"; an empty call: {samples['empty'].median_ns:.3g} ns"
                 f"; a new array: {samples['array'].median_ns:.3g} ns,"
                 f" with its first touch: {samples['first touch'].median_ns:.3g} ns a row"
@@ -105,14 +100,14 @@ def ten_centres(rounds: int) -> Iterator[KernelLine]:
     names = dict(zip(("sizes", "x", "y", "z"), (TOWER_SIZES, *uniform_columns(TEN)), strict=True))
     take, ask = extension().take, hypcheck.classify_scene
     entries = [
-        TimingEntry("loop", 1, statement("pass")),
-        TimingEntry("nothing", 1, statement("ask(sizes, x, y, z)", ask=extension().nothing, **names)),
-        TimingEntry("take", 1, statement("ask(sizes, x, y, z, out)", ask=take, out=None, **names)),
-        TimingEntry("take out", 1, statement("ask(sizes, x, y, z, out)", ask=take, out=out, **names)),
-        TimingEntry("fresh", 1, statement("ask(sizes, x, y, z)", ask=ask, **names)),
-        TimingEntry("in place", 1, statement("ask(sizes, x, y, z, out)", ask=ask, out=out, **names)),
+        timing.TimingEntry("loop", 1, statement("pass")),
+        timing.TimingEntry("nothing", 1, statement("ask(sizes, x, y, z)", ask=extension().nothing, **names)),
+        timing.TimingEntry("take", 1, statement("ask(sizes, x, y, z, out)", ask=take, out=None, **names)),
+        timing.TimingEntry("take out", 1, statement("ask(sizes, x, y, z, out)", ask=take, out=out, **names)),
+        timing.TimingEntry("fresh", 1, statement("ask(sizes, x, y, z)", ask=ask, **names)),
+        timing.TimingEntry("in place", 1, statement("ask(sizes, x, y, z, out)", ask=ask, out=out, **names)),
     ]
-    net = without_loop(measured_samples(entries, 3 * rounds))
+    net = without_loop(timing.measured_samples(entries, 3 * rounds))
     for subject, name, least in (("ten centres", "fresh", "take"), ("ten centres, out=", "in place", "take out")):
         says = (
             f"{np.median(net[name]):.3g} ns; an empty call that takes the arrays {np.median(net[least]):.3g} ns, one "
@@ -121,14 +116,14 @@ def ten_centres(rounds: int) -> Iterator[KernelLine]:
         yield target(subject).line((net[name] / net[least]).tolist(), says)
 
 
-def statement(text: str, **names: object) -> Clocked:
+def statement(text: str, **names: object) -> timing.Clocked:
     """A statement in Python with these names, as often as asked; it has no sum."""
     bound = "; ".join(f"{name} = values[{name!r}]" for name in names)
     timer = Timer(text, bound or "pass", thread_time_ns, {"values": names})
     return lambda repeat: (int(timer.timeit(repeat)), 0)
 
 
-def without_loop(samples: Mapping[str, Samples]) -> dict[str, Floats]:
+def without_loop(samples: Mapping[str, timing.Samples]) -> dict[str, Floats]:
     """The samples, without the time of the empty loop in the same round."""
     loop = np.array(samples["loop"].samples_ns)
     return {name: np.array(timed.samples_ns) - loop for name, timed in samples.items()}
@@ -156,11 +151,11 @@ def one_call(rounds: int) -> Iterator[KernelLine]:
     functions: dict[str, object] = {"plain": exact_position, "textbook": textbook}
     if choice().kernel == "compiled":
         functions |= {"position": hypcheck.position, "nothing": extension().nothing}
-    entries = [TimingEntry("loop", CALLS, statement(f"{each} pass", rows=rows))]
+    entries = [timing.TimingEntry("loop", CALLS, statement(f"{each} pass", rows=rows))]
     entries += [
-        TimingEntry(name, CALLS, statement(ask, rows=rows, ask=function)) for name, function in functions.items()
+        timing.TimingEntry(name, CALLS, statement(ask, rows=rows, ask=function)) for name, function in functions.items()
     ]
-    net = without_loop(measured_samples(entries, 3 * rounds))
+    net = without_loop(timing.measured_samples(entries, 3 * rounds))
     for subject, name, least in (("one pair", "position", "nothing"), ("one pair, plain Python", "plain", "textbook")):
         if name in net:
             says = f"{np.median(net[name]):.3g} ns, {least} {np.median(net[least]):.3g} ns: {LOOP}"
@@ -204,9 +199,9 @@ def forms_of_ten_rows(rounds: int) -> Iterator[KernelLine]:
 
 
 def _lines(subject: str, calls: Mapping[str, Form], names: dict[str, object], rounds: int) -> Iterator[KernelLine]:
-    entries = [TimingEntry("loop", 1, statement("pass"))]
-    entries += [TimingEntry(form, 1, statement(text, **names)) for form, (text, _) in calls.items()]
-    net = without_loop(measured_samples(entries, 3 * rounds))
+    entries = [timing.TimingEntry("loop", 1, statement("pass"))]
+    entries += [timing.TimingEntry(form, 1, statement(text, **names)) for form, (text, _) in calls.items()]
+    net = without_loop(timing.measured_samples(entries, 3 * rounds))
     usual, *others = calls
     for form in others:
         text, wanted = calls[form]
@@ -258,9 +253,11 @@ def forms_of_an_axis_each(rounds: int) -> Iterator[KernelLine]:
 def _many(
     subject: str, work: Mapping[str, Callable[[], Positions]], wanted: Mapping[str, float], count: int, rounds: int
 ) -> Iterator[KernelLine]:
-    samples = measured_samples([TimingEntry(form, count, thread_clocked(call)) for form, call in work.items()], rounds)
+    samples = timing.measured_samples(
+        [timing.TimingEntry(form, count, timing.thread_clocked(call)) for form, call in work.items()], rounds
+    )
     usual, *others = work
     for form in others:
         form_target = KernelTarget(f"{subject}, {form}", f"a row, to one of {usual}", wanted[form], at_most=True)
-        says = f"{rate_text(samples[form])}; {usual}: {rate_text(samples[usual])}"
-        yield form_target.line(times_as_long(samples[form], samples[usual]), says)
+        says = f"{timing.rate_text(samples[form])}; {usual}: {timing.rate_text(samples[usual])}"
+        yield form_target.line(timing.times_as_long(samples[form], samples[usual]), says)

@@ -32,17 +32,7 @@ from hypcheck.implementations.alternatives import by_eigenvectors
 from hypcheck.kernel.choice import choice
 from hypcheck.kernel.compiled_kernel import fill_scene, in_parts
 from hypcheck.record.measurements import KernelLine
-from hypcheck.runs.timing import (
-    Samples,
-    TimingEntry,
-    clocked,
-    estimate,
-    measured_samples,
-    rate_text,
-    thread_clocked,
-    times_as_fast,
-    times_as_long,
-)
+from hypcheck.runs import timing
 from hypcheck.vectors.families import FAMILIES
 from hypcheck.vectors.random_pairs import beside_surface
 
@@ -65,7 +55,7 @@ class KernelTarget:
 
     def line(self, measured: list[float], says: str) -> KernelLine:
         """The record's line: the median over rounds, with its 95 % interval. A miss is one of the whole interval."""
-        ratio = estimate([measured])
+        ratio = timing.estimate([measured])
         met = ratio.low <= self.wanted if self.at_most else ratio.high >= self.wanted
         return KernelLine(
             name=self.name,
@@ -135,35 +125,38 @@ def from_memory(folder: Path, rounds: int) -> Iterator[KernelLine]:
     libraries = c_baselines(folder)
     read = libraries[0].read
     entries = [
-        TimingEntry("read", MANY, read(columns)),
+        timing.TimingEntry("read", MANY, read(columns)),
         *_plain(libraries, columns, out),
-        TimingEntry("one", MANY, thread_clocked(lambda: _answered(columns, out))),
-        TimingEntry("one by the clock", MANY, clocked(lambda: _answered(columns, out))),
-        TimingEntry("two by the clock", MANY, clocked(lambda: _answered(columns, out, threads=2))),
-        TimingEntry("read by the clock", MANY, read(columns, threads=1, clock=perf_counter_ns)),
-        TimingEntry("read on two by the clock", MANY, read(columns, threads=2, clock=perf_counter_ns)),
+        timing.TimingEntry("one", MANY, timing.thread_clocked(lambda: _answered(columns, out))),
+        timing.TimingEntry("one by the clock", MANY, timing.clocked(lambda: _answered(columns, out))),
+        timing.TimingEntry("two by the clock", MANY, timing.clocked(lambda: _answered(columns, out, threads=2))),
+        timing.TimingEntry("read by the clock", MANY, read(columns, threads=1, clock=perf_counter_ns)),
+        timing.TimingEntry("read on two by the clock", MANY, read(columns, threads=2, clock=perf_counter_ns)),
     ]
-    samples = measured_samples(entries, rounds)
+    samples = timing.measured_samples(entries, rounds)
     one, plain = samples["one"], _fastest(samples)
-    beside = f"{rate_text(one)} on {choice().level}"
+    beside = f"{timing.rate_text(one)} on {choice().level}"
     yield target("memory speed").line(
-        times_as_fast(one, samples["read"]), f"{beside}; reading x, y and z alone: {rate_text(samples['read'])}"
+        timing.times_as_fast(one, samples["read"]),
+        f"{beside}; reading x, y and z alone: {timing.rate_text(samples['read'])}",
     )
     yield target("plain C, from memory").line(
-        times_as_fast(one, plain), f"{beside}; Table 2 in C, {plain.name}: {rate_text(plain)}"
+        timing.times_as_fast(one, plain), f"{beside}; Table 2 in C, {plain.name}: {timing.rate_text(plain)}"
     )
     yield target("two threads").line(
         *_gain(*(samples[f"{name} by the clock"] for name in ("one", "two", "read", "read on two")))
     )
 
 
-def _gain(one: Samples, two: Samples, read: Samples, read_on_two: Samples) -> tuple[list[float], str]:
+def _gain(
+    one: timing.Samples, two: timing.Samples, read: timing.Samples, read_on_two: timing.Samples
+) -> tuple[list[float], str]:
     """What two threads gain, of what reading gains from two in the same rounds; and the sentence about it."""
-    gains, most = times_as_fast(two, one), times_as_fast(read_on_two, read)
+    gains, most = timing.times_as_fast(two, one), timing.times_as_fast(read_on_two, read)
     says = (
-        f"by the clock, one thread: {rate_text(one)}; two, {median(gains):.3g} times as fast: {rate_text(two)}; "
-        f"reading x, y and z alone: {rate_text(read)}; "
-        f"on two, {median(most):.3g} times as fast: {rate_text(read_on_two)}"
+        f"by the clock, one thread: {timing.rate_text(one)}; two, {median(gains):.3g} times as fast: "
+        f"{timing.rate_text(two)}; reading x, y and z alone: {timing.rate_text(read)}; "
+        f"on two, {median(most):.3g} times as fast: {timing.rate_text(read_on_two)}"
     )
     return [gain / limit for gain, limit in zip(gains, most, strict=True)], says
 
@@ -172,11 +165,13 @@ def in_cache(folder: Path, rounds: int) -> Iterator[KernelLine]:
     """A hundred thousand rows, which stay in the cache."""
     columns, out = uniform_columns(CACHED), np.zeros(CACHED, dtype=np.int8)
     libraries = c_baselines(folder)
-    one = TimingEntry("one", CACHED, thread_clocked(lambda: _answered(columns, out)))
-    samples = measured_samples([*_plain(libraries, columns, out), one], 3 * rounds)
+    one = timing.TimingEntry("one", CACHED, timing.thread_clocked(lambda: _answered(columns, out)))
+    samples = timing.measured_samples([*_plain(libraries, columns, out), one], 3 * rounds)
     plain = _fastest(samples)
-    says = f"{rate_text(samples['one'])} on {choice().level}; Table 2 in C, {plain.name}: {rate_text(plain)}"
-    yield target("plain C, in cache").line(times_as_fast(samples["one"], plain), says)
+    says = (
+        f"{timing.rate_text(samples['one'])} on {choice().level}; Table 2 in C, {plain.name}: {timing.rate_text(plain)}"
+    )
+    yield target("plain C, in cache").line(timing.times_as_fast(samples["one"], plain), says)
 
 
 def threads_in_cache(folder: Path, rounds: int) -> Iterator[KernelLine]:
@@ -188,13 +183,15 @@ def threads_in_cache(folder: Path, rounds: int) -> Iterator[KernelLine]:
         "read": lambda part, _out: library.reading(part)(AGAIN),
     }
     entries = [
-        TimingEntry(
-            f"{name}, {threads}", threads * CACHED * AGAIN, clocked(partial(_on_threads, work, columns, out, threads))
+        timing.TimingEntry(
+            f"{name}, {threads}",
+            threads * CACHED * AGAIN,
+            timing.clocked(partial(_on_threads, work, columns, out, threads)),
         )
         for threads in (1, 2)
         for name, work in works.items()
     ]
-    samples = measured_samples(entries, 3 * rounds)
+    samples = timing.measured_samples(entries, 3 * rounds)
     yield target("two threads, in cache").line(
         *_gain(*(samples[name] for name in ("ask, 1", "ask, 2", "read, 1", "read, 2")))
     )
@@ -220,13 +217,15 @@ def near_contact(folder: Path, rounds: int) -> Iterator[KernelLine]:
     """Rows that floats cannot decide."""
     columns, out = touching_columns(WORST), np.zeros(WORST, dtype=np.int8)
     entries = [
-        TimingEntry("touching", WORST, thread_clocked(lambda: _answered(columns, out))),
-        TimingEntry("product", 1, c_baselines(folder)[0].product()),
+        timing.TimingEntry("touching", WORST, timing.thread_clocked(lambda: _answered(columns, out))),
+        timing.TimingEntry("product", 1, c_baselines(folder)[0].product()),
     ]
-    samples = measured_samples(entries, rounds)
+    samples = timing.measured_samples(entries, rounds)
     touching, product = samples["touching"], samples["product"]
-    says = f"{rate_text(touching)}; fixed point decides nearly all of them; a product: {product.median_ns:.3g} ns"
-    yield target("near contact").line(times_as_long(touching, product), says)
+    says = (
+        f"{timing.rate_text(touching)}; fixed point decides nearly all of them; a product: {product.median_ns:.3g} ns"
+    )
+    yield target("near contact").line(timing.times_as_long(touching, product), says)
 
 
 SLOW_FAMILIES = (
@@ -336,14 +335,14 @@ def _of_stream(library: CBaseline, total: int, parts: Sequence[Columns], out: Po
     return median(streams)
 
 
-def _plain(libraries: list[CBaseline], columns: Columns, out: Positions) -> list[TimingEntry]:
+def _plain(libraries: list[CBaseline], columns: Columns, out: Positions) -> list[timing.TimingEntry]:
     return [
-        TimingEntry(" ".join(library.flags) or "no flags", len(out), library.plain(columns, out))
+        timing.TimingEntry(" ".join(library.flags) or "no flags", len(out), library.plain(columns, out))
         for library in libraries
     ]
 
 
-def _fastest(samples: dict[str, Samples]) -> Samples:
+def _fastest(samples: dict[str, timing.Samples]) -> timing.Samples:
     others = [timed for name, timed in samples.items() if not name.startswith(("read", "one", "two"))]
     return min(others, key=lambda timed: timed.median_ns)
 
@@ -385,12 +384,12 @@ def one_orientation(rounds: int) -> Iterator[KernelLine]:
     for name, count, more in (("one orientation", MANY, 1), ("one orientation, in cache", CACHED, 3)):
         ask = partial(hypcheck.classify_scene, TOWER_SIZES, *uniform_columns(count), threads=1)
         entries = [
-            TimingEntry("upright", count, thread_clocked(ask)),
-            TimingEntry("tilted", count, thread_clocked(partial(ask, axis=AXIS))),
+            timing.TimingEntry("upright", count, timing.thread_clocked(ask)),
+            timing.TimingEntry("tilted", count, timing.thread_clocked(partial(ask, axis=AXIS))),
         ]
-        samples = measured_samples(entries, more * rounds)
-        says = f"{rate_text(samples['tilted'])}; upright: {rate_text(samples['upright'])}"
-        yield target(name).line(times_as_fast(samples["tilted"], samples["upright"]), says)
+        samples = timing.measured_samples(entries, more * rounds)
+        says = f"{timing.rate_text(samples['tilted'])}; upright: {timing.rate_text(samples['upright'])}"
+        yield target(name).line(timing.times_as_fast(samples["tilted"], samples["upright"]), says)
 
 
 def axis_along_z(rounds: int) -> Iterator[KernelLine]:
@@ -398,13 +397,13 @@ def axis_along_z(rounds: int) -> Iterator[KernelLine]:
     ten = tilted_rows(TOWER_SIZES, uniform_columns(CACHED), (0.0, 0.0, 1.0))
     seven = np.ascontiguousarray(ten[:, :7])
     entries = [
-        TimingEntry(name, CACHED, thread_clocked(partial(hypcheck.classify, rows, threads=1)))
+        timing.TimingEntry(name, CACHED, timing.thread_clocked(partial(hypcheck.classify, rows, threads=1)))
         for name, rows in (("seven", seven), ("ten", ten))
     ]
-    samples = measured_samples(entries, 3 * rounds)
-    ratios = [ratio * ten.shape[1] / seven.shape[1] for ratio in times_as_fast(samples["ten"], samples["seven"])]
+    samples = timing.measured_samples(entries, 3 * rounds)
+    ratios = [ratio * ten.shape[1] / seven.shape[1] for ratio in timing.times_as_fast(samples["ten"], samples["seven"])]
     yield target("axis along z").line(
-        ratios, f"{rate_text(samples['ten'])}; rows of seven: {rate_text(samples['seven'])}"
+        ratios, f"{timing.rate_text(samples['ten'])}; rows of seven: {timing.rate_text(samples['seven'])}"
     )
 
 
@@ -412,13 +411,15 @@ def an_axis_each(folder: Path, rounds: int) -> Iterator[KernelLine]:
     """Rows with an axis each, beside numpy; and rows near contact, beside what integers cost."""
     rows = tilted_rows(TOWER_SIZES, uniform_columns(CACHED), (*axes(CACHED).T,))
     entries = [
-        TimingEntry("rows", CACHED, thread_clocked(partial(hypcheck.classify, rows, threads=1))),
-        TimingEntry("eigh", FEW, thread_clocked(partial(by_eigenvectors, rows[:FEW], _TURNS))),
-        TimingEntry("touching", WORST, thread_clocked(partial(hypcheck.classify, touching_rows(WORST), threads=1))),
-        TimingEntry("product", 1, c_baselines(folder)[0].product()),
+        timing.TimingEntry("rows", CACHED, timing.thread_clocked(partial(hypcheck.classify, rows, threads=1))),
+        timing.TimingEntry("eigh", FEW, timing.thread_clocked(partial(by_eigenvectors, rows[:FEW], _TURNS))),
+        timing.TimingEntry(
+            "touching", WORST, timing.thread_clocked(partial(hypcheck.classify, touching_rows(WORST), threads=1))
+        ),
+        timing.TimingEntry("product", 1, c_baselines(folder)[0].product()),
     ]
-    samples = measured_samples(entries, rounds)
-    says = f"{rate_text(samples['rows'])}; numpy: {rate_text(samples['eigh'])}"
-    yield target("numpy.linalg.eigh").line(times_as_fast(samples["rows"], samples["eigh"]), says)
-    says = f"{rate_text(samples['touching'])}; a product: {samples['product'].median_ns:.3g} ns"
-    yield target("near contact, leaning").line(times_as_long(samples["touching"], samples["product"]), says)
+    samples = timing.measured_samples(entries, rounds)
+    says = f"{timing.rate_text(samples['rows'])}; numpy: {timing.rate_text(samples['eigh'])}"
+    yield target("numpy.linalg.eigh").line(timing.times_as_fast(samples["rows"], samples["eigh"]), says)
+    says = f"{timing.rate_text(samples['touching'])}; a product: {samples['product'].median_ns:.3g} ns"
+    yield target("near contact, leaning").line(timing.times_as_long(samples["touching"], samples["product"]), says)

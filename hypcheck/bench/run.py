@@ -22,18 +22,8 @@ from hypcheck.implementations.description import QUESTIONS
 from hypcheck.implementations.meshes import COAL, FCL
 from hypcheck.implementations.session import StartError
 from hypcheck.processes import Advance, Stage, perform, processes, usable_processors
-from hypcheck.record import Recorder, RecordLine
+from hypcheck.record import Recorder, RecordLine, measurements
 from hypcheck.record.lines import NotStartedLine
-from hypcheck.record.measurements import (
-    AbsentLine,
-    ConditionsLine,
-    ForestLine,
-    KernelLine,
-    MethodLine,
-    RefusedLine,
-    SceneLine,
-    WorkloadLine,
-)
 from hypcheck.scene.reading import shipped_scenes
 
 
@@ -123,8 +113,8 @@ def plan_with_specs(plan: BenchPlan, recorder: Recorder) -> BenchPlan:
 
 def note_absent(recorder: Recorder, what: str, reason: str) -> None:
     """Record once that something is not available, and why."""
-    if not any(isinstance(line, AbsentLine) and line.what == what for line in recorder.lines):
-        recorder.add(AbsentLine(what=what, reason=reason))
+    if not any(isinstance(line, measurements.AbsentLine) and line.what == what for line in recorder.lines):
+        recorder.add(measurements.AbsentLine(what=what, reason=reason))
 
 
 def governor() -> str | None:
@@ -146,10 +136,10 @@ def codes_of(lines: Iterable[RecordLine]) -> set[Exit]:
     """How a run with these lines of kernels, forests and scenes ends: wrong answers, and missed targets."""
     found = set()
     for line in lines:
-        if isinstance(line, KernelLine) and not line.met:
+        if isinstance(line, measurements.KernelLine) and not line.met:
             found.add(Exit.SLOWER)
-        elif (isinstance(line, ForestLine) and line.exact and line.wrong) or (
-            isinstance(line, SceneLine) and line.wrong
+        elif (isinstance(line, measurements.ForestLine) and line.exact and line.wrong) or (
+            isinstance(line, measurements.SceneLine) and line.wrong
         ):
             found.add(Exit.WRONG)
     return found
@@ -179,8 +169,8 @@ def _scenes(plan: BenchPlan, names: Sequence[str], recorder: Recorder, outcome: 
         except UnavailableError as error:
             note_absent(recorder, COMPILER, str(error))
         outcome.codes |= codes_of(recorder.lines)
-        if plan.scenes and not any(isinstance(line, SceneLine) for line in recorder.lines):
-            reasons = [line.reason for line in recorder.lines if isinstance(line, AbsentLine)]
+        if plan.scenes and not any(isinstance(line, measurements.SceneLine) for line in recorder.lines):
+            reasons = [line.reason for line in recorder.lines if isinstance(line, measurements.AbsentLine)]
             raise NothingJudgedError(f"no scene was measured: {'; '.join(reasons)}")
 
     plans = scene.plans_of(names)
@@ -225,12 +215,14 @@ class MethodsRun:
         """Record the methods and the workloads."""
         names = ("title", "tier", "kind", "precision", "question", "exact", "amortised", "accuracy_only", "note")
         for contender in self.found.values():
-            self.recorder.add(MethodLine(method=contender.name, **{name: getattr(contender, name) for name in names}))
+            self.recorder.add(
+                measurements.MethodLine(method=contender.name, **{name: getattr(contender, name) for name in names})
+            )
         for workload in chosen_workloads(self.plan):
             count = self.plan.amounts.timed if workload.timed else workload.judged(self.plan)
             rows = workload.rows(self.plan.seed, count)
             self.recorder.add(
-                WorkloadLine(
+                measurements.WorkloadLine(
                     workload=workload.name,
                     title=workload.title,
                     text=workload.text,
@@ -263,7 +255,9 @@ class MethodsRun:
         contender = self.found[given.method]
         if given.trouble:
             self.recorder.add(
-                RefusedLine(method=given.method, workload=given.workload, mode="batch", reason=given.trouble)
+                measurements.RefusedLine(
+                    method=given.method, workload=given.workload, mode="batch", reason=given.trouble
+                )
             )
             self.outcome.codes.add(Exit.WRONG)
         if len(given.places):
@@ -299,12 +293,14 @@ class MethodsRun:
         before = load()
         found = speed.measurements_of(self.plan, speed.expected_prints(self.answers), advance)
         self.recorder.add(
-            ConditionsLine(governor=governor(), processors=usable_processors(), load_before=before, load_after=load())
+            measurements.ConditionsLine(
+                governor=governor(), processors=usable_processors(), load_before=before, load_after=load()
+            )
         )
         for line in speed.speed_lines(found, self.plan.reference):
             self.recorder.add(line)
             self.speeds.append(line)
-            if isinstance(line, RefusedLine):
+            if isinstance(line, measurements.RefusedLine):
                 self.outcome.codes.add(Exit.WRONG)
         for claim in speed.cost_lines(self.plan, found):
             self.recorder.add(claim)

@@ -9,20 +9,6 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from hypcheck.cli import options
-from hypcheck.cli.options import (
-    ISOLATE,
-    LARGEST_SEED,
-    MOST_PROCESSES,
-    PASS_ENV,
-    SEE,
-    IntegerOption,
-    NumberOption,
-    OutputPath,
-    isolated,
-    isolation_of,
-    names_in,
-    seen_text,
-)
 from hypcheck.cli.recording import recording, run_stages
 from hypcheck.cli.settings import in_effect
 from hypcheck.errors import Exit, InputError, RunOutcome
@@ -36,25 +22,27 @@ WORKLOADS = options.Names(options.workloads, many=True)
 
 @click.command(short_help="Compare methods by error and run time, and their speed with an earlier run.")
 @click.argument("specs", nargs=-1, metavar="[SPEC]...", type=options.SPEC)
-@click.option("--out", type=OutputPath(), default=Path("reports/bench"), show_default=True)
+@click.option("--out", type=options.OutputPath(), default=Path("reports/bench"), show_default=True)
 @click.option(
     "--quick", is_flag=True, help="Half a minute instead of five: fewer rows, rounds and meshes; no scenes, no forest."
 )
 @click.option("--methods", type=METHODS, help="Names and globs, separated by commas.  [default: all]")
 @click.option("--workloads", type=WORKLOADS, help="Names and globs, separated by commas.  [default: all]")
-@click.option("--seed", type=IntegerOption(0, LARGEST_SEED), default=1, show_default=True)
+@click.option("--seed", type=options.IntegerOption(0, options.LARGEST_SEED), default=1, show_default=True)
 @click.option(
-    "--processes", type=IntegerOption(1), help="Number of fresh processes that measure.  [default: 5; quick: 3]"
+    "--processes", type=options.IntegerOption(1), help="Number of fresh processes that measure.  [default: 5; quick: 3]"
 )
-@click.option("--rounds", type=IntegerOption(1), help="Number of rounds in each process.  [default: 5; quick: 3]")
+@click.option(
+    "--rounds", type=options.IntegerOption(1), help="Number of rounds in each process.  [default: 5; quick: 3]"
+)
 @click.option(
     "--workers",
-    type=IntegerOption(1, MOST_PROCESSES),
+    type=options.IntegerOption(1, options.MOST_PROCESSES),
     help="Number of processes that judge answers.  [default: one a processor]",
 )
 @click.option("--baseline", type=click.Path(path_type=Path), help="An earlier record, or its folder, to compare with.")
 @click.option(
-    "--max-slowdown", type=NumberOption(1), help="Largest time allowed relative to --baseline.  [default: 1.1]"
+    "--max-slowdown", type=options.NumberOption(1), help="Largest time allowed relative to --baseline.  [default: 1.1]"
 )
 @click.option("--kernel", is_flag=True, help="Measure only the fast path, against its targets.")
 @click.option("--forest", is_flag=True, help="Measure only a walker's step among 10 to 10^6 trees.")
@@ -74,11 +62,11 @@ WORKLOADS = options.Names(options.workloads, many=True)
     help="Measure only what a kernel for this scene saves; may be repeated. If its mover is tilted: methods on its "
     "rows.",
 )
-@ISOLATE
-@PASS_ENV
-@SEE
+@options.ISOLATE
+@options.PASS_ENV
+@options.SEE
 @click.pass_context
-def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> None:  # noqa: ANN401  click's options
+def bench(context: click.Context, /, specs: tuple[str, ...], **values: Any) -> None:  # noqa: ANN401  click's options
     """Compare methods by error and by run time, on the same rows.
 
     Every method is judged by the distance of its wrong answers from a right answer, then timed in fresh processes, in
@@ -104,22 +92,22 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
     from hypcheck.report.write import import_all
     from hypcheck.runs.fingerprint import FileSnapshot, fingerprints
 
-    plan = _plan_of(specs, options)
-    bounds = isolated(plan.limits, options["isolate"], options["pass_env"], options["see"], options["out"])
-    plan, isolation = replace(plan, limits=bounds), isolation_of(specs, bounds)
-    _refuse_replacing(options["baseline"], options["out"])
+    plan = _plan_of(specs, values)
+    bounds = options.isolated(plan.limits, values["isolate"], values["pass_env"], values["see"], values["out"])
+    plan, isolation = replace(plan, limits=bounds), options.isolation_of(specs, bounds)
+    _refuse_replacing(values["baseline"], values["out"])
     outcome = RunOutcome()
     files = fingerprints(specs) if specs else None
     import_all()
     unchanged = FileSnapshot(files) if files is not None else None
 
     title = f"measuring {', '.join(specs)} beside our own methods" if specs else "measuring our own methods"
-    title += seen_text(bounds)
+    title += options.seen_text(bounds)
     settings = in_effect(context, unused=("question",))  # it chooses methods, and replaces no declaration
     provenance = Provenance(files, unchanged.program if unchanged else None, settings, isolation)
     with (
         TemporaryDirectory(prefix="hypcheck-bench-") as folder,
-        recording(options["out"], plan.options, title, provenance) as running,
+        recording(values["out"], plan.options, title, provenance) as running,
     ):
         run_stages(run.stages(replace(plan, folder=Path(folder)), running.recorder, outcome))
         if unchanged is not None and unchanged.record_changes(running.recorder):
@@ -134,26 +122,26 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> 
     context.exit(outcome.exit_code)
 
 
-def _plan_of(specs: tuple[str, ...], options: Mapping[str, Any]) -> BenchPlan:
+def _plan_of(specs: tuple[str, ...], values: Mapping[str, Any]) -> BenchPlan:
     """The plan of a benchmark. Raises InputError about a wrong option."""
     from hypcheck.bench.plan import FULL, MAX_SLOWDOWN, QUICK, BenchPlan
     from hypcheck.processes import usable_processors
 
-    quick = options["quick"]
-    if options["max_slowdown"] is not None and options["baseline"] is None:
+    quick = values["quick"]
+    if values["max_slowdown"] is not None and values["baseline"] is None:
         raise InputError("--max-slowdown compares a run with an earlier one; name the earlier one with --baseline")
     return BenchPlan(
         specs=specs,
-        methods=names_in(options["methods"]),
-        workloads=names_in(options["workloads"]),
+        methods=options.names_in(values["methods"]),
+        workloads=options.names_in(values["workloads"]),
         quick=quick,
         amounts=QUICK if quick else FULL,
-        processes=options["processes"] or (3 if quick else 5),
-        rounds=options["rounds"] or (3 if quick else 5),
-        workers=options["workers"] or usable_processors(),
-        max_slowdown=options["max_slowdown"] or MAX_SLOWDOWN,
-        scenes=options["scene"],
-        **{name: options[name] for name in ("seed", "baseline", "kernel", "forest", "tilted", "question")},
+        processes=values["processes"] or (3 if quick else 5),
+        rounds=values["rounds"] or (3 if quick else 5),
+        workers=values["workers"] or usable_processors(),
+        max_slowdown=values["max_slowdown"] or MAX_SLOWDOWN,
+        scenes=values["scene"],
+        **{name: values[name] for name in ("seed", "baseline", "kernel", "forest", "tilted", "question")},
     )
 
 

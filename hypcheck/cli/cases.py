@@ -9,7 +9,6 @@ import click
 
 from hypcheck.cli import options
 from hypcheck.cli.commands import CommandGroup
-from hypcheck.cli.options import LARGEST_SEED, IntegerOption
 from hypcheck.errors import InputError
 from hypcheck.messages import counted, printable
 
@@ -46,8 +45,8 @@ def show(name: str, as_json: bool) -> None:
 
 @cases.command(short_help="Make rows of a family, as many as you like.")
 @click.argument("family", metavar="FAMILY", type=options.Names(options.families))
-@click.option("--seed", type=IntegerOption(0, LARGEST_SEED), default=1, show_default=True)
-@click.option("--count", type=IntegerOption(1), default=100, show_default=True, help="Number of rows.")
+@click.option("--seed", type=options.IntegerOption(0, options.LARGEST_SEED), default=1, show_default=True)
+@click.option("--count", type=options.IntegerOption(1), default=100, show_default=True, help="Number of rows.")
 @click.option("--format", "said", type=click.Choice(_FORMATS), help="By default the ending of --output, or json.")
 @click.option("--output", "target", metavar="FILE", default="-", help="By default standard output.")
 def generate(family: str, seed: int, count: int, said: str | None, target: str) -> None:

@@ -10,7 +10,6 @@ import click
 
 from hypcheck.cli import options
 from hypcheck.cli.commands import CommandGroup
-from hypcheck.cli.options import IntegerOption, OutputPath
 from hypcheck.errors import InputError
 from hypcheck.messages import counted
 
@@ -90,7 +89,7 @@ def install(names: tuple[str, ...], cache: Path) -> None:
 
 @engines.command(short_help="Measure installed engines near contact, and write the record.")
 @click.argument("names", nargs=-1, metavar="[NAME]...", type=options.ENGINE)
-@click.option("--out", type=OutputPath(), default=Path("reports/engines"), show_default=True)
+@click.option("--out", type=options.OutputPath(), default=Path("reports/engines"), show_default=True)
 @_CACHE
 def verify(names: tuple[str, ...], out: Path, cache: Path) -> None:
     """Ask engines about rows at certified distances from contact; all that are installed, without a NAME.
@@ -115,8 +114,8 @@ def verify(names: tuple[str, ...], out: Path, cache: Path) -> None:
 
 @engines.command(short_help="Compare engines by error and run time with every other method.")
 @click.argument("names", nargs=-1, metavar="[NAME]...", type=options.ENGINE)
-@click.option("--out", type=OutputPath(), default=Path("reports/engines/bench"), show_default=True)
-@click.option("--triangles", type=IntegerOption(100, 1_000_000), default=5000, show_default=True)
+@click.option("--out", type=options.OutputPath(), default=Path("reports/engines/bench"), show_default=True)
+@click.option("--triangles", type=options.IntegerOption(100, 1_000_000), default=5000, show_default=True)
 @_CACHE
 @click.pass_context
 def bench(context: click.Context, names: tuple[str, ...], out: Path, triangles: int, cache: Path) -> None:

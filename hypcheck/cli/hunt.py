@@ -18,19 +18,6 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from hypcheck.cli import options
-from hypcheck.cli.options import (
-    LARGEST_SEED,
-    PRECISION,
-    QUESTION,
-    TOLERANCE,
-    IntegerOption,
-    NumberOption,
-    OutputPath,
-    limits_of,
-    print_isolation,
-    with_limits,
-    with_options,
-)
 from hypcheck.cli.progress import is_terminal
 from hypcheck.cli.settings import print_file_settings
 from hypcheck.errors import Exit, NothingJudgedError, first_that_applies
@@ -42,13 +29,13 @@ if TYPE_CHECKING:
     from hypcheck.runs.hunt import Hunt, HuntTarget
 
 
-about_one_implementation = with_options(
-    QUESTION,
-    PRECISION,
+about_one_implementation = options.with_options(
+    options.QUESTION,
+    options.PRECISION,
     click.option("--domain", metavar="JSON", help="The domain to ask in, instead of the declared domain."),
     click.option("--regimes", metavar="NAMES", help="any, or a>=1 or c2>=a or both.  [default: as declared]"),
-    TOLERANCE,
-    with_limits,
+    options.TOLERANCE,
+    options.with_limits,
 )
 """A decorator of commands that hunt in a single implementation: how it is opened and judged, for `_target`."""
 
@@ -63,9 +50,9 @@ def _opened(
 
     claimed = None if domain is None else parse_domain(domain)
     print_file_settings()
-    bounds = limits_of(**limits)
+    bounds = options.limits_of(**limits)
     with open_implementation(spec, bounds, precision=precision, question=question, domain=claimed) as implementation:
-        print_isolation(spec, bounds)
+        options.print_isolation(spec, bounds)
         yield implementation
 
 
@@ -85,16 +72,16 @@ def _target(
     from hypcheck.runs.judge import DEFAULT_TOLERANCE
 
     claims = {"question": question, "precision": precision, "domain": domain, "regimes": regimes}
-    options = [(f"--{name}", value) for name, value in claims.items() if value is not None]
+    chosen = [(f"--{name}", value) for name, value in claims.items() if value is not None]
     if tolerance != DEFAULT_TOLERANCE:
-        options.append(("--tolerance", repr(tolerance)))
+        chosen.append(("--tolerance", repr(tolerance)))
     with _opened(spec, question, precision, domain, limits) as implementation:
         yield target_of(
             spec,
             implementation,
             regimes=_regimes(regimes),
             tolerance=Fraction(tolerance),
-            options=tuple(options),
+            options=tuple(chosen),
         )
 
 
@@ -113,22 +100,27 @@ Ends with 0 if no answer was wrong beyond the tolerance (which proves nothing), 
 @click.argument("spec", type=options.SPEC)
 @click.option(
     "--budget",
-    type=NumberOption(0, excluded=True),
+    type=options.NumberOption(0, excluded=True),
     help="Time limit in seconds.  [default: 60, or none with --queries]",
 )
 @click.option(
-    "--queries", type=IntegerOption(1), help="Largest number of rows to ask; without --budget, a run is reproducible."
+    "--queries",
+    type=options.IntegerOption(1),
+    help="Largest number of rows to ask; without --budget, a run is reproducible.",
 )
-@click.option("--seed", type=IntegerOption(0, LARGEST_SEED), default=1, show_default=True)
+@click.option("--seed", type=options.IntegerOption(0, options.LARGEST_SEED), default=1, show_default=True)
 @click.option(
     "--show",
-    type=IntegerOption(0),
+    type=options.IntegerOption(0),
     default=10,
     show_default=True,
     help="Number of kinds of wrong answers to show in full.",
 )
 @click.option(
-    "--out", type=OutputPath(), metavar="FILE", help="A vector file to which the worst row of each kind is added."
+    "--out",
+    type=options.OutputPath(),
+    metavar="FILE",
+    help="A vector file to which the worst row of each kind is added.",
 )
 @about_one_implementation
 @click.pass_context
@@ -287,11 +279,11 @@ Ends with 0 if the answer is right or tolerated, 1 if it is not, 5 if SPEC canno
 @click.option("--formula", metavar="NAME", help="The formula to show.  [default: its own, or one with the same answer]")
 @click.option("--values", is_flag=True, help="The values of a formula that is not the implementation's own, too.")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object, its proof in exact numbers.")
-@PRECISION
-@QUESTION
+@options.PRECISION
+@options.QUESTION
 @click.option("--domain", metavar="JSON", help="The domain where it must be right, instead of the declared domain.")
-@TOLERANCE
-@with_limits
+@options.TOLERANCE
+@options.with_limits
 @click.pass_context
 def replay(
     context: click.Context,

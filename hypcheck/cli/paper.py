@@ -11,7 +11,6 @@ import click
 
 from hypcheck.cli import options
 from hypcheck.cli.commands import CommandGroup
-from hypcheck.cli.options import LARGEST_SEED, MOST_PROCESSES, IntegerOption, NumberOption, OutputPath, with_options
 from hypcheck.cli.progress import watched
 from hypcheck.errors import Exit, InputError
 from hypcheck.messages import printable
@@ -80,8 +79,8 @@ def _write(lines: Iterable[str], output: str) -> None:
             file.write(f"{line}\n".encode())
 
 
-SEED = click.option("--seed", type=IntegerOption(0, LARGEST_SEED), default=1, show_default=True)
-OUT = click.option("--out", type=OutputPath(), help="A folder for the JSON and the pictures.")
+SEED = click.option("--seed", type=options.IntegerOption(0, options.LARGEST_SEED), default=1, show_default=True)
+OUT = click.option("--out", type=options.OutputPath(), help="A folder for the JSON and the pictures.")
 CONTINUOUS = click.option("--continuous", is_flag=True, help="Also decide exactly what happens between the positions.")
 ENDS = click.option(
     "--ends", is_flag=True, help="Also decide exactly beside what ends, not by the centre's height alone."
@@ -96,7 +95,7 @@ FORMAT = click.option(
 )
 SHOW = click.option("--show-scene", is_flag=True, help="Print the file of a shipped scene, for you to change, and end.")
 
-common = with_options(SEED, CONTINUOUS, ENDS, OUT, FORMAT, SHOW)
+common = options.with_options(SEED, CONTINUOUS, ENDS, OUT, FORMAT, SHOW)
 """A decorator of commands: the options that both simulations have."""
 
 
@@ -119,7 +118,7 @@ def simulate() -> None:
     show_default=True,
     help="A scene file, or a shipped scene.",
 )
-@click.option("--steps", type=IntegerOption(0), help="Steps to try.  [default: the scene's]")
+@click.option("--steps", type=options.IntegerOption(0), help="Steps to try.  [default: the scene's]")
 @common
 def forest(name: str, steps: int | None, seed: int, out: Path | None, form: str, **flags: bool) -> None:
     """A walker among trees of both types (section 3.1), by Procedure 1 with the values that Table 2 precomputes.
@@ -149,25 +148,33 @@ def forest(name: str, steps: int | None, seed: int, out: Path | None, form: str,
     help="A scene file, or tower-simplest.",
 )
 @click.option("--table", type=click.Choice(["5"]), help="Reproduce the paper's Table 5.")
-@click.option("--runs", type=IntegerOption(1, 1_000_000), help="Runs of each cell of the table.  [default: 1000]")
+@click.option(
+    "--runs", type=options.IntegerOption(1, 1_000_000), help="Runs of each cell of the table.  [default: 1000]"
+)
 @click.option(
     "--speed",
-    type=NumberOption(1e-6, 1e6),
+    type=options.NumberOption(1e-6, 1e6),
     default=5.0,
     show_default=True,
     help="Speed of the flights in the figure, m/s.",
 )
 @click.option(
-    "--time", type=NumberOption(1e-6, 1e6), default=0.2, show_default=True, help="Response time of these flights, s."
+    "--time",
+    type=options.NumberOption(1e-6, 1e6),
+    default=0.2,
+    show_default=True,
+    help="Response time of these flights, s.",
 )
 @click.option(
     "--pitch",
-    type=NumberOption(0, 90),
+    type=options.NumberOption(0, 90),
     metavar="DEGREES",
     help="Fly the table with a quadcopter tilted by this angle into its movement, and count the wrong answers.",
 )
 @click.option(
-    "--workers", type=IntegerOption(1, MOST_PROCESSES), help="Processes for the table.  [default: one a processor]"
+    "--workers",
+    type=options.IntegerOption(1, options.MOST_PROCESSES),
+    help="Processes for the table.  [default: one a processor]",
 )
 @common
 def tower(

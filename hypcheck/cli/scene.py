@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from hypcheck.cli import options
-from hypcheck.cli.options import OutputPath
 from hypcheck.errors import InputError
 from hypcheck.messages import printable
 
@@ -327,7 +326,7 @@ hypcheck show forest.toml --path path.csv --out view.html
 @click.command(help=_SHOW_HELP, short_help="Write a page that shows a scene, and a flight through it, in 3-D.")
 @click.argument("scene", metavar="SCENE", type=options.SCENE)
 @click.option("--path", metavar="FILE", help="A flight: a CSV file with the columns x, y, z, or - .")
-@click.option("--out", required=True, type=OutputPath(), metavar="FILE", help="The page to write.")
+@click.option("--out", required=True, type=options.OutputPath(), metavar="FILE", help="The page to write.")
 def show(scene: str, path: str | None, out: Path) -> None:
     """Read, draw, and write."""
     from hypcheck.kernel.scene import Scene

@@ -14,21 +14,6 @@ import click
 from click.core import ParameterSource
 
 from hypcheck.cli import options
-from hypcheck.cli.options import (
-    LARGEST_COUNT,
-    LARGEST_SEED,
-    LIMITS,
-    MOST_PROCESSES,
-    TOLERANCE,
-    FreshOption,
-    IntegerOption,
-    OutputPath,
-    isolation_of,
-    limits_of,
-    names_in,
-    seen_text,
-    with_limits,
-)
 from hypcheck.cli.progress import watched
 from hypcheck.cli.recording import label, recording, resumed, run_stages
 from hypcheck.cli.settings import FILE, ProjectSettings, in_effect
@@ -43,30 +28,30 @@ if TYPE_CHECKING:
 _WITH_SPEC = frozenset(
     {
         *("max_abstained", "fail_on", "deterministic", "known_failures", "update", "precision", "question", "domain"),
-        *(*LIMITS, "fresh", "cluster", "resume"),
+        *(*options.LIMITS, "fresh", "cluster", "resume"),
     }
 )
 _WITHOUT_SPEC = frozenset({"oracles", "judged", "roots", "meshes"})
 """Options that only one of the two runs has, by the names of their parameters."""
 
 
-def _plan_of(specs: tuple[str, ...], options: Mapping[str, Any]) -> ConformancePlan:
+def _plan_of(specs: tuple[str, ...], values: Mapping[str, Any]) -> ConformancePlan:
     """The plan of a conformance run. Raises InputError about a wrong option."""
     from hypcheck.implementations.description import parse_domain
     from hypcheck.runs.plan import ConformancePlan
 
-    update, known_failures = options["update"], options["known_failures"]
+    update, known_failures = values["update"], values["known_failures"]
     same = ("count", "seed", "max_abstained", "fail_on", "deterministic", "precision", "question", "workers", "cluster")
     to_be_made = update and known_failures is not None and not known_failures.exists()
     plan = ConformancePlan(
         specs=specs,
-        families=names_in(options["families"]),
-        fresh=_fresh_seed(options["fresh"], options["resume"]),
-        tolerance=Fraction(options["tolerance"]),
+        families=options.names_in(values["families"]),
+        fresh=_fresh_seed(values["fresh"], values["resume"]),
+        tolerance=Fraction(values["tolerance"]),
         known_failures=None if to_be_made else known_failures,
-        domain=None if options["domain"] is None else parse_domain(options["domain"]),
-        limits=limits_of(**{name: options[name] for name in LIMITS}, out=options["out"]),
-        **{name: options[name] for name in same},
+        domain=None if values["domain"] is None else parse_domain(values["domain"]),
+        limits=options.limits_of(**{name: values[name] for name in options.LIMITS}, out=values["out"]),
+        **{name: values[name] for name in same},
     )
     if update and (known_failures is None or plan.filtered):
         raise InputError(
@@ -75,7 +60,7 @@ def _plan_of(specs: tuple[str, ...], options: Mapping[str, Any]) -> ConformanceP
     return plan
 
 
-def _conformance(specs: tuple[str, ...], options: Mapping[str, Any], title: str, settings: SettingsPart | None) -> int:
+def _conformance(specs: tuple[str, ...], values: Mapping[str, Any], title: str, settings: SettingsPart | None) -> int:
     """Run or resume a conformance run, write its reports, and return the exit code. Raises InputError."""
     from hypcheck.implementations.implementation import require_named
     from hypcheck.record.writer import Provenance
@@ -87,11 +72,11 @@ def _conformance(specs: tuple[str, ...], options: Mapping[str, Any], title: str,
     from hypcheck.runs.resume import ResumedRun
 
     require_named(specs)  # before the first of them is asked
-    plan, out, resume = _plan_of(specs, options), options["out"], options["resume"]
-    recorded = _recorded(plan, options)
-    isolation = isolation_of(specs, plan.limits)
+    plan, out, resume = _plan_of(specs, values), values["out"], values["resume"]
+    recorded = _recorded(plan, values)
+    isolation = options.isolation_of(specs, plan.limits)
     title += "" if plan.fresh is None else f"; {counted(plan.count, 'fresh row')} of each family, of seed {plan.fresh}"
-    title += seen_text(plan.limits)
+    title += options.seen_text(plan.limits)
     unknown = not_hashed(plan.specs)
     title += f"; not hashed: {', '.join(unknown)}" if unknown else ""
     cases, files = planned_size(plan), fingerprints(plan.specs, plan.known_failures)
@@ -106,8 +91,8 @@ def _conformance(specs: tuple[str, ...], options: Mapping[str, Any], title: str,
             run.run_conformance(plan, running.recorder, outcome, pace.advance, begun.state, pace.expect)
         changed = unchanged.record_changes(running.recorder)
         running.exit_code = Exit.WRONG if changed and not outcome.exit_code else outcome.exit_code
-    if options["update"] and running.record is not None and not changed:
-        click.echo(printable(update(options["known_failures"], running.record)))
+    if values["update"] and running.record is not None and not changed:
+        click.echo(printable(update(values["known_failures"], running.record)))
     return running.exit_code
 
 
@@ -126,16 +111,16 @@ def _fresh_seed(text: str | None, resume: Path | None) -> int | None:
     return FRESH_SEEDS + secrets.randbelow(FRESH_SEEDS) if in_ci() or text else None
 
 
-def _recorded(plan: ConformancePlan, options: Mapping[str, Any]) -> dict[str, Any]:
+def _recorded(plan: ConformancePlan, values: Mapping[str, Any]) -> dict[str, Any]:
     """The options of the plan as the record's header has them."""
     every = asdict(plan)
     del every["pace"]
     isolation = every["limits"].pop("isolation")
     every["limits"] |= {"isolate": isolation["mode"], "pass_env": isolation["variables"], "see": isolation["seen"]}
-    return {**every, "tolerance": options["tolerance"], "known_failures": str(plan.known_failures or "")}
+    return {**every, "tolerance": values["tolerance"], "known_failures": str(plan.known_failures or "")}
 
 
-def _self_check(options: Mapping[str, Any], title: str, settings: SettingsPart | None) -> Exit:
+def _self_check(values: Mapping[str, Any], title: str, settings: SettingsPart | None) -> Exit:
     """Run the self-check, write its reports, and return the exit code. Raises InputError."""
     from hypcheck.processes import usable_processors
     from hypcheck.record.writer import Provenance
@@ -143,18 +128,18 @@ def _self_check(options: Mapping[str, Any], title: str, settings: SettingsPart |
     from hypcheck.runs.findings import SelfCheckPlan
 
     plan = SelfCheckPlan(
-        families=names_in(options["families"]),
-        oracles=_oracles(options["oracles"]),
-        count=max(1, options["count"]),
-        judged=options["judged"],
-        roots=options["roots"],
-        meshes=options["meshes"],
-        seed=options["seed"],
-        workers=options["workers"] or usable_processors(),
-        tolerance=Fraction(options["tolerance"]),
+        families=options.names_in(values["families"]),
+        oracles=_oracles(values["oracles"]),
+        count=max(1, values["count"]),
+        judged=values["judged"],
+        roots=values["roots"],
+        meshes=values["meshes"],
+        seed=values["seed"],
+        workers=values["workers"] or usable_processors(),
+        tolerance=Fraction(values["tolerance"]),
     )
     outcome = RunOutcome()
-    with recording(options["out"], run.options(plan), title, Provenance(settings=settings)) as running:
+    with recording(values["out"], run.options(plan), title, Provenance(settings=settings)) as running:
         run_stages(run.stages(plan, running.recorder, outcome))
         running.exit_code = outcome.exit_code
     return outcome.exit_code
@@ -163,7 +148,7 @@ def _self_check(options: Mapping[str, Any], title: str, settings: SettingsPart |
 def _oracles(text: str) -> tuple[str, ...]:
     from hypcheck.runs.oracles import ORACLES
 
-    names = names_in(text)
+    names = options.names_in(text)
     unknown = [name for name in names if name not in ORACLES]
     if unknown or not names:
         raise InputError(
@@ -172,7 +157,7 @@ def _oracles(text: str) -> tuple[str, ...]:
     return names
 
 
-_COUNT = IntegerOption(1)
+_COUNT = options.IntegerOption(1)
 
 _THOROUGH = 10
 """Times as many generated rows."""
@@ -181,7 +166,11 @@ _THOROUGH = 10
 @click.command(short_help="Test the implementations that SPEC names; without SPEC, hypcheck itself.")
 @click.argument("specs", nargs=-1, metavar="[SPEC]...", type=options.SPEC)
 @click.option(
-    "--out", type=OutputPath(), default=Path("reports/latest"), show_default=True, help="The folder of the reports."
+    "--out",
+    type=options.OutputPath(),
+    default=Path("reports/latest"),
+    show_default=True,
+    help="The folder of the reports.",
 )
 @click.option(
     "--families",
@@ -189,13 +178,21 @@ _THOROUGH = 10
     help="Names and globs, separated by commas; '*' is all.  [default: all but the extreme ones]",
 )
 @click.option(
-    "--count", type=IntegerOption(0), default=400, show_default=True, help="Number of generated rows of each family."
+    "--count",
+    type=options.IntegerOption(0),
+    default=400,
+    show_default=True,
+    help="Number of generated rows of each family.",
 )
 @click.option("--thorough", is_flag=True, help="Ten times as many generated rows, for narrower faults.")
 @click.option(
-    "--seed", type=IntegerOption(0, LARGEST_SEED), default=1, show_default=True, help="Seed of the generated rows."
+    "--seed",
+    type=options.IntegerOption(0, options.LARGEST_SEED),
+    default=1,
+    show_default=True,
+    help="Seed of the generated rows.",
 )
-@TOLERANCE
+@options.TOLERANCE
 @click.option("--oracles", default="exact,nearest,roots,heights,mesh", show_default=True, help="The oracles to ask.")
 @click.option(
     "--judged",
@@ -216,7 +213,7 @@ _THOROUGH = 10
 )
 @click.option(
     "--workers",
-    type=IntegerOption(1, MOST_PROCESSES),
+    type=options.IntegerOption(1, options.MOST_PROCESSES),
     help="Number of processes.  [default: one a processor; with SPEC, of large runs]",
 )
 @click.option("--precision", help="With SPEC: used instead of the declared precision.")
@@ -224,7 +221,7 @@ _THOROUGH = 10
 @click.option("--domain", help="With SPEC: used instead of the declared domain; JSON.")
 @click.option(
     "--max-abstained",
-    type=IntegerOption(0),
+    type=options.IntegerOption(0),
     default=0,
     show_default=True,
     help="Number of cases that it may answer with cannot say.",
@@ -242,15 +239,15 @@ _THOROUGH = 10
 @click.option("--self", "self_check", is_flag=True, help="Verify hypcheck itself, even if hypcheck.toml names SPECs.")
 @click.option(
     "--fresh",
-    type=FreshOption(),
+    type=options.FreshOption(),
     metavar="SEED",
     help="With SPEC: as many further rows, of this seed; auto draws one, off asks none.  [default: auto if CI is set]",
 )
-@with_limits
+@options.with_limits
 @click.option("--resume", type=click.Path(path_type=Path), help="The record of an interrupted run, to continue it.")
 @click.option("--cluster", metavar="ADDRESS", help="With SPEC: a dask.distributed scheduler; local:N starts one here.")
 @click.pass_context
-def verify(context: click.Context, /, specs: tuple[str, ...], **options: Any) -> None:  # noqa: ANN401  click's options
+def verify(context: click.Context, /, specs: tuple[str, ...], **values: Any) -> None:  # noqa: ANN401  click's options
     """Verify hypcheck itself, or gate the implementations that SPEC names.
 
     Without SPEC: derive the coefficients, prove the formulas, cross-check five oracles, judge every method, time the
@@ -270,19 +267,19 @@ def verify(context: click.Context, /, specs: tuple[str, ...], **options: Any) ->
     read from hypcheck.toml in the working directory, if it exists. Each option that weakens the gate is shown in the
     summary and in every report.
     """
-    chosen = _chosen_specs(context, specs, self_check=options.pop("self_check"))
+    chosen = _chosen_specs(context, specs, self_check=values.pop("self_check"))
     unused = _WITHOUT_SPEC if chosen else _WITH_SPEC
     _refuse_unused(context, unused, chosen=chosen, given=specs)
-    resume = options["resume"]
+    resume = values["resume"]
     if resume and context.get_parameter_source("out") is not ParameterSource.COMMANDLINE:
-        options["out"] = resume if resume.is_dir() else resume.parent
+        values["out"] = resume if resume.is_dir() else resume.parent
     settings = in_effect(context, unused)
-    if options.pop("thorough"):
-        options["count"] = min(_THOROUGH * options["count"], LARGEST_COUNT)
+    if values.pop("thorough"):
+        values["count"] = min(_THOROUGH * values["count"], options.LARGEST_COUNT)
     if chosen:
         title = f"verifying {', '.join(chosen)}{'' if specs else f', named by {FILE}'}"
-        context.exit(_conformance(chosen, options, title, settings))
-    context.exit(_self_check(options, "verifying hypcheck itself, no implementation", settings))
+        context.exit(_conformance(chosen, values, title, settings))
+    context.exit(_self_check(values, "verifying hypcheck itself, no implementation", settings))
 
 
 def in_ci() -> bool:

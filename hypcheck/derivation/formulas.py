@@ -23,24 +23,8 @@ from functools import cache
 from types import MappingProxyType
 from typing import Any
 
+from hypcheck.derivation import listings
 from hypcheck.derivation.evaluation import Arithmetic, Evaluator
-from hypcheck.derivation.listings import (
-    CENTRE,
-    DUAL,
-    EQUATION_14,
-    HESSIAN_DISCRIMINANT,
-    LOCAL_MAXIMUM,
-    ONE_SPHEROID,
-    PROPOSITION_3,
-    SCALED_SIZES,
-    SHARED_CANCELLATION,
-    TABLE_2,
-    TABLE_2_DISCRIMINANT,
-    all_regimes,
-    equation_13,
-    not_all_positive,
-    proposition_5,
-)
 from hypcheck.derivation.paper_listings import ONE_ROTOR, ROTORS, TRIGONOMETRIC, WEIERSTRASS_SWEEP, rotors_decided
 from hypcheck.derivation.program import Operations, Program, count, cut, hoist, program_of
 from hypcheck.geometry.pair import COLUMNS
@@ -94,7 +78,7 @@ _PRINTED_AND_DERIVED = (
         name="table-2",
         title="Table 2, Procedure 1 with constant terms taken out of the loop",
         question="exterior",
-        program=program_of("table-2", COLUMNS, TABLE_2, TABLE_2_DISCRIMINANT, PROPOSITION_3),
+        program=program_of("table-2", COLUMNS, listings.TABLE_2, listings.TABLE_2_DISCRIMINANT, listings.PROPOSITION_3),
         answer="valid",
         source="Table 2",
         regimes=("c2>=a",),
@@ -103,7 +87,9 @@ _PRINTED_AND_DERIVED = (
         name="procedure-1",
         title="Procedure 1 with equations (14) and (13)",
         question="exterior",
-        program=program_of("procedure-1", COLUMNS, EQUATION_14, equation_13(), PROPOSITION_3),
+        program=program_of(
+            "procedure-1", COLUMNS, listings.EQUATION_14, listings.equation_13(), listings.PROPOSITION_3
+        ),
         answer="valid",
         source="Table 1, equations (13) and (14)",
         regimes=("c2>=a",),
@@ -124,11 +110,11 @@ _PRINTED_AND_DERIVED = (
         program=program_of(
             "procedure-2b",
             HULL_INPUTS,
-            EQUATION_14,
-            equation_13(),
+            listings.EQUATION_14,
+            listings.equation_13(),
             "touching = delta <= 0",
             rotors_decided("rotors_valid"),
-            proposition_5(),
+            listings.proposition_5(),
             "valid = touching ? rotors_valid : inside",
         ),
         answer="valid",
@@ -139,7 +125,7 @@ _PRINTED_AND_DERIVED = (
         name="procedure-2a-spheroid",
         title="Procedure 2.a's test of one spheroid, with equations (19) to (21) at l = 0",
         question="interior",
-        program=program_of("procedure-2a-spheroid", COLUMNS, ONE_ROTOR, equation_13(), ONE_SPHEROID),
+        program=program_of("procedure-2a-spheroid", COLUMNS, ONE_ROTOR, listings.equation_13(), listings.ONE_SPHEROID),
         answer="valid",
         source="Table 3, equations (13), (19), (20) and (21)",
         regimes=("a>=1",),
@@ -148,7 +134,9 @@ _PRINTED_AND_DERIVED = (
         name="procedure-2b-spheroid",
         title="Procedure 2.b's test of the bounding spheroid, with equations (14) and (13)",
         question="interior",
-        program=program_of("procedure-2b-spheroid", COLUMNS, EQUATION_14, equation_13(), ONE_SPHEROID),
+        program=program_of(
+            "procedure-2b-spheroid", COLUMNS, listings.EQUATION_14, listings.equation_13(), listings.ONE_SPHEROID
+        ),
         answer="valid",
         source="Table 4, equations (13) and (14)",
         regimes=("a>=1",),
@@ -157,7 +145,9 @@ _PRINTED_AND_DERIVED = (
         name="coefficients",
         title="signs of Δ and of the coefficients, for every size",
         question="position",
-        program=program_of("coefficients", COLUMNS, TABLE_2, TABLE_2_DISCRIMINANT, all_regimes("delta")),
+        program=program_of(
+            "coefficients", COLUMNS, listings.TABLE_2, listings.TABLE_2_DISCRIMINANT, listings.all_regimes("delta")
+        ),
         answer="position",
         source="docs/mathematics.md, coefficient form",
     ),
@@ -165,7 +155,9 @@ _PRINTED_AND_DERIVED = (
         name="hessian",
         title="the coefficient rule with 3Δ = 4 h1 h3 − h2²",
         question="position",
-        program=program_of("hessian", COLUMNS, TABLE_2, HESSIAN_DISCRIMINANT, all_regimes("delta_3")),
+        program=program_of(
+            "hessian", COLUMNS, listings.TABLE_2, listings.HESSIAN_DISCRIMINANT, listings.all_regimes("delta_3")
+        ),
         answer="position",
         source="docs/mathematics.md, Hessian discriminant",
     ),
@@ -173,7 +165,13 @@ _PRINTED_AND_DERIVED = (
         name="shared",
         title="the coefficient rule with one cancellation for both coefficients",
         question="position",
-        program=program_of("shared", COLUMNS, SHARED_CANCELLATION, HESSIAN_DISCRIMINANT, all_regimes("delta_3")),
+        program=program_of(
+            "shared",
+            COLUMNS,
+            listings.SHARED_CANCELLATION,
+            listings.HESSIAN_DISCRIMINANT,
+            listings.all_regimes("delta_3"),
+        ),
         answer="position",
         source="docs/mathematics.md, shared cancellation",
     ),
@@ -181,7 +179,7 @@ _PRINTED_AND_DERIVED = (
         name="local-maximum",
         title="the sign of g at its local maximum",
         question="position",
-        program=program_of("local-maximum", COLUMNS, TABLE_2, LOCAL_MAXIMUM),
+        program=program_of("local-maximum", COLUMNS, listings.TABLE_2, listings.LOCAL_MAXIMUM),
         answer="position",
         source="docs/mathematics.md, local maximum",
     ),
@@ -189,7 +187,7 @@ _PRINTED_AND_DERIVED = (
         name="dual",
         title="the sign of the dual function φ at a given λ",
         question="position",
-        program=program_of("dual", (*COLUMNS, "lambda_"), SCALED_SIZES, CENTRE, DUAL),
+        program=program_of("dual", (*COLUMNS, "lambda_"), listings.SCALED_SIZES, listings.CENTRE, listings.DUAL),
         answer="position",
         source="docs/mathematics.md, dual form",
     ),
@@ -212,7 +210,7 @@ _IN_THE_PLANE_OF_THE_WAIST = """
 """
 
 _HULL = (
-    not_all_positive()
+    listings.not_all_positive()
     + """
     distinct = delta > 0
     inside = distinct and some_negative
@@ -229,9 +227,9 @@ _REPAIRED = (
         program=program_of(
             "procedure-1-repaired",
             COLUMNS,
-            TABLE_2,
-            TABLE_2_DISCRIMINANT,
-            PROPOSITION_3,
+            listings.TABLE_2,
+            listings.TABLE_2_DISCRIMINANT,
+            listings.PROPOSITION_3,
             _IN_THE_PLANE_OF_THE_WAIST,
         ),
         answer="answer",
@@ -243,7 +241,7 @@ _REPAIRED = (
         title="Procedure 2.a put right: Δ > 0 and not (c2 < 0 and c1 > 0) for each rotor",
         question="interior",
         program=program_of(
-            "procedure-2a-repaired", ROTOR_INPUTS, rotors_decided("valid", not_all_positive, "some_negative")
+            "procedure-2a-repaired", ROTOR_INPUTS, rotors_decided("valid", listings.not_all_positive, "some_negative")
         ),
         answer="valid",
         source="docs/mathematics.md, procedures put right",
@@ -256,9 +254,9 @@ _REPAIRED = (
         program=program_of(
             "procedure-2b-repaired",
             HULL_INPUTS,
-            EQUATION_14,
-            equation_13(),
-            rotors_decided("rotors_valid", not_all_positive, "some_negative"),
+            listings.EQUATION_14,
+            listings.equation_13(),
+            rotors_decided("rotors_valid", listings.not_all_positive, "some_negative"),
             _HULL,
         ),
         answer="valid",
@@ -275,7 +273,7 @@ ROOTS_TRIGONOMETRIC = Formula(
     name="roots-trigonometric",
     title="Δ, and where it is positive the signs of the three roots, by cosines",
     question="exterior",
-    program=program_of("roots-trigonometric", COLUMNS, TABLE_2, TRIGONOMETRIC),
+    program=program_of("roots-trigonometric", COLUMNS, listings.TABLE_2, TRIGONOMETRIC),
     answer="valid",
     source="section 3.1, after its words on [13]",
     regimes=("c2>=a",),

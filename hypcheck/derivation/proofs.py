@@ -14,22 +14,11 @@ from functools import cache
 import numpy as np
 import sympy
 
-from hypcheck.derivation import pencil
+from hypcheck.derivation import links, pencil
 from hypcheck.derivation.decisions import DecisionRule, decisions
 from hypcheck.derivation.evaluation import OPERATORS, Arithmetic, evaluate, outputs
 from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS, REPAIRED, Formula
-from hypcheck.derivation.links import (
-    C0,
-    C1,
-    C2,
-    GENERIC_CUBIC,
-    PHI,
-    hessian_coefficients,
-    identities,
-    local_maximum,
-    vanishes,
-)
 from hypcheck.derivation.paper_listings import ROTORS
 from hypcheck.derivation.pencil import (
     ARM,
@@ -119,13 +108,13 @@ def _discriminant() -> Iterable[Obligation]:
 
 
 def _hessian() -> Iterable[Obligation]:
-    for name, expected in zip(("h1", "h2", "h3"), hessian_coefficients(), strict=True):
+    for name, expected in zip(("h1", "h2", "h3"), links.hessian_coefficients(), strict=True):
         yield Obligation(name, expected, _COEFFICIENTS)
     yield Obligation("delta_3", 3 * pencil.discriminant_of_cubic(), _COEFFICIENTS)
 
 
 def _slopes() -> Iterable[Obligation]:
-    slope = sympy.diff(GENERIC_CUBIC, LAMBDA)
+    slope = sympy.diff(links.GENERIC_CUBIC, LAMBDA)
     letters = ("c1", "c2", "A", "B")
     yield Obligation("slope_at_B", slope.subs(LAMBDA, B), letters)
     yield Obligation("slope_at_minus_A", slope.subs(LAMBDA, -A), letters)
@@ -141,16 +130,16 @@ def _in_the_plane() -> Iterable[Obligation]:
 
 
 def _local_maximum() -> Iterable[Obligation]:
-    h1 = hessian_coefficients()[0]
+    h1 = links.hessian_coefficients()[0]
     yield Obligation("h1", h1, ("c1", "c2"))
-    yield Obligation("from_c1", local_maximum(), ("c1", "c2"))
-    yield Obligation("from_c2", local_maximum(), ("c1", "c2"))
-    yield Obligation("g_m", GENERIC_CUBIC.subs(LAMBDA, symbol("lambda_m")), (*_COEFFICIENTS, "lambda_m"))
+    yield Obligation("from_c1", links.local_maximum(), ("c1", "c2"))
+    yield Obligation("from_c2", links.local_maximum(), ("c1", "c2"))
+    yield Obligation("g_m", links.GENERIC_CUBIC.subs(LAMBDA, symbol("lambda_m")), (*_COEFFICIENTS, "lambda_m"))
 
 
 def _dual() -> Iterable[Obligation]:
     yield from (Obligation(name, IN_SEVEN[of]) for name, of in (("A", A), ("B", B), ("P", P), ("Q", Q)))
-    yield Obligation("phi", PHI, ("A", "B", "P", "Q", "lambda_"))
+    yield Obligation("phi", links.PHI, ("A", "B", "P", "Q", "lambda_"))
 
 
 def _four_rotors() -> Iterable[Obligation]:
@@ -161,15 +150,15 @@ def _four_rotors() -> Iterable[Obligation]:
         yield Obligation(f"c1_g{rotor}", c1)
         yield Obligation(f"c2_g{rotor}", c2)
         letters = ("c0_s", f"c1_g{rotor}", f"c2_g{rotor}")
-        renamed = dict(zip((C0, C1, C2), (symbol(name) for name in letters), strict=True))
+        renamed = dict(zip((links.C0, links.C1, links.C2), (symbol(name) for name in letters), strict=True))
         yield Obligation(f"delta_g{rotor}", pencil.discriminant_of_cubic().subs(renamed), letters)
         c1, c2 = next_rotor(c1), next_rotor(c2)
 
 
 def _trigonometric() -> Iterable[Obligation]:
     """λ = (2 √h1 cos θ_k − c2)/3 with cos 3θ = w/(2 h1 √h1), a third of a turn from one θ_k to the next."""
-    h1 = hessian_coefficients()[0]
-    w = 9 * C1 * C2 - 2 * C2**3 - 27 * C0
+    h1 = links.hessian_coefficients()[0]
+    w = 9 * links.C1 * links.C2 - 2 * links.C2**3 - 27 * links.C0
     root, three_theta = symbol("root"), symbol("three_theta")
     yield Obligation("delta_27", 27 * pencil.discriminant_of_cubic(), _COEFFICIENTS)
     yield Obligation("root", sympy.sqrt(h1), ("c1", "c2"))
@@ -177,7 +166,7 @@ def _trigonometric() -> Iterable[Obligation]:
     for number, thirds in ((1, 0), (2, 1), (3, -1)):
         cosine = sympy.cos(three_theta / 3 + thirds * 2 * sympy.pi / 3)
         yield Obligation(f"cosine_{number}", cosine, ("three_theta",))
-        value = (2 * root * symbol(f"cosine_{number}") - C2) / 3
+        value = (2 * root * symbol(f"cosine_{number}") - links.C2) / 3
         yield Obligation(f"r{number}", value, ("c2", "root", f"cosine_{number}"))
 
 
@@ -221,7 +210,7 @@ class Proof:
 @cache
 def prove_formulas() -> tuple[Proof, ...]:
     """Every proof: the identities, each formula, and that procedure-2a-spheroid is one rotor with l = 0."""
-    proofs = [Proof("derivation", text, vanishes(gap), text) for text, gap in identities().items()]
+    proofs = [Proof("derivation", text, links.vanishes(gap), text) for text, gap in links.identities().items()]
     for formula in (*FORMULAS.values(), *REPAIRED.values()):
         proofs.extend(proofs_of(formula))
     proofs.extend(_prove_one_rotor())

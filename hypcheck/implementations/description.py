@@ -13,13 +13,8 @@ from types import MappingProxyType
 from typing import Any, Literal
 
 from hypcheck.errors import InputError
+from hypcheck.geometry import rows
 from hypcheck.geometry.pair import AXIS, CENTER, GROUPS, HEIGHTS, SIZES, Position, trouble_with
-from hypcheck.geometry.rows import (
-    PAIRS,
-    SWEEPS,
-    FixedSizes,
-    Layout,
-)
 from hypcheck.implementations.domain import ORDINARY, PRECISIONS, Domain
 from hypcheck.implementations.output import foreign_text
 from hypcheck.tables.strict_json import object_of, refused_constant, strict_decoder
@@ -40,7 +35,7 @@ class Question:
     answers: tuple[int, ...] = (0, 1)
     contact: int = 0
     position: Position | None = None
-    layout: Layout = PAIRS
+    layout: rows.Layout = rows.PAIRS
     entry: str = "classify"
     forms: tuple[str, str] = ("", "tilted-")
     times: bool = False
@@ -54,7 +49,9 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
             Question("exterior", position=Position.EXTERIOR),
             Question("interior", position=Position.INTERIOR),
             Question("contact", contact=1, position=Position.CONTACT),
-            Question("passage", contact=1, layout=SWEEPS, entry="passage", forms=("passage-", "passage-"), times=True),
+            Question(
+                "passage", contact=1, layout=rows.SWEEPS, entry="passage", forms=("passage-", "passage-"), times=True
+            ),
         )
     }
 )
@@ -243,13 +240,13 @@ def _range(value: object, where: str) -> tuple[float, float]:
     return _number(low, where), _number(high, where)
 
 
-def _settings(value: object, where: str) -> tuple[FixedSizes, ...]:
+def _settings(value: object, where: str) -> tuple[rows.FixedSizes, ...]:
     if not isinstance(value, list) or not value:
         raise _wrong(value, where, "a list of mappings with sizes, and optionally x, y, z, axis")
     return tuple(_setting(item, f"{where}[{place}]") for place, item in enumerate(value))
 
 
-def _setting(value: object, where: str) -> FixedSizes:
+def _setting(value: object, where: str) -> rows.FixedSizes:
     content = object_of(value, where, ("sizes", *CENTER, "axis"), required=("sizes",))
     listed = _list(content["sizes"], len(SIZES), f"{where}'s sizes", f"four numbers, {', '.join(SIZES)}")
     alpha, gamma, b, d = (_number(size, f"{where}'s sizes") for size in listed)
@@ -261,7 +258,7 @@ def _setting(value: object, where: str) -> FixedSizes:
     for key, (low, high) in spans.items():
         if not low <= high:
             raise InputError(f"{where}'s {key} is [{low}, {high}]; it must be two numbers, the least first")
-    return FixedSizes((alpha, gamma, b, d), **spans, axis=_axis(content.get("axis"), f"{where}'s axis"))
+    return rows.FixedSizes((alpha, gamma, b, d), **spans, axis=_axis(content.get("axis"), f"{where}'s axis"))
 
 
 def _axis(value: object, where: str) -> tuple[float, float, float] | Literal["free"] | None:

@@ -25,16 +25,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from hypcheck.errors import Exit, HypcheckError, InputError, limit_reached
-from hypcheck.isolation.view import (
-    PACKAGE,
-    SHARED_MEMORY,
-    TEMPORARY,
-    hidden_paths,
-    needed_paths,
-    private_folders,
-    readable_paths,
-    within,
-)
+from hypcheck.isolation import view
 
 MODES = ("auto", "on", "off")
 
@@ -315,10 +306,10 @@ class Launched:
         isolation: Isolation,
         revealed: Sequence[str],
     ) -> None:
-        needed = needed_paths(words, environment, isolation.seen)
-        private = private_folders(needed)
-        scratch = self._scratch or next((path for path in TEMPORARY if path in private), SHARED_MEMORY)
-        hidden = hidden_paths(isolation.hidden, needed, isolation.seen)
+        needed = view.needed_paths(words, environment, isolation.seen)
+        private = view.private_folders(needed)
+        scratch = self._scratch or next((path for path in view.TEMPORARY if path in private), view.SHARED_MEMORY)
+        hidden = view.hidden_paths(isolation.hidden, needed, isolation.seen)
         options = _options(isolation, scratch, needed, private, hidden, revealed)
         seen = environment_of(environment, scratch, isolation.variables)
         life, self._life = os.pipe()
@@ -397,15 +388,15 @@ def _options(
     options += ["--seccomp"] * means.seccomp + ["--landlock"] * bool(means.landlock)
     if means.namespaces:
         others = [folder for folder in private if folder != scratch]
-        shown = [path for path in needed if any(within(path, folder) for folder in private)]
+        shown = [path for path in needed if any(view.within(path, folder) for folder in private)]
         options += ["--namespaces", f"--scratch={scratch}", "--read=/"]
         options += [f"--private={folder}" for folder in others] + [f"--show={path}" for path in shown]
         options += [f"--hide={path}" for path in hidden] + [f"--reveal={path}" for path in revealed]
-        return options + [f"--write={folder}" for folder in (scratch, SHARED_MEMORY)]
-    read, listed = readable_paths(
+        return options + [f"--write={folder}" for folder in (scratch, view.SHARED_MEMORY)]
+    read, listed = view.readable_paths(
         hidden, (*private, "/dev"), needed
     )  # the launcher opens the devices that hold nothing
     read += revealed
-    listed += [str(PACKAGE.parent)] if revealed else []  # Python lists it, to find this package there
+    listed += [str(view.PACKAGE.parent)] if revealed else []  # Python lists it, to find this package there
     options += [f"--judge={os.getpid()}", f"--write={scratch}"]
     return options + [f"--read={path}" for path in read] + [f"--list={path}" for path in listed]

@@ -12,17 +12,8 @@ from numpy.typing import ArrayLike
 
 from hypcheck.errors import InputError
 from hypcheck.float_environment import in_default_environment
+from hypcheck.geometry import pair
 from hypcheck.geometry.forms import Answers, Argument, pairs_of, points_or_columns
-from hypcheck.geometry.pair import (
-    AXIS,
-    CENTER,
-    SIZES,
-    Axis,
-    Sizes,
-    trouble_with,
-    trouble_with_axis,
-    trouble_with_row,
-)
 from hypcheck.geometry.rows import (
     PAIRS,
     Columns,
@@ -53,8 +44,8 @@ class Prepared:
     Raises InputError for sizes or an axis that are not valid.
     """
 
-    sizes: Sizes
-    axis: Axis | None = None
+    sizes: pair.Sizes
+    axis: pair.Axis | None = None
     like: InitVar[tuple[ArrayLike, ArrayLike, ArrayLike]] = ((), (), ())
     kept: bytes = field(init=False, repr=False, compare=False)
 
@@ -64,14 +55,14 @@ class Prepared:
         if axis is not None:
             axes = _axes(axis)
             if axes.ndim == 2:
-                raise InputError(f"axis is of shape {axes.shape}; it must be three numbers, {', '.join(AXIS)}")
+                raise InputError(f"axis is of shape {axes.shape}; it must be three numbers, {', '.join(pair.AXIS)}")
             axis = _one_axis(axes, "raise")
-        columns = as_columns(CENTER, like)
+        columns = as_columns(pair.CENTER, like)
         kept = kernel().prepared(sizes, (columns[0], columns[1], columns[2]), axis)
         for name, value in (("sizes", sizes), ("axis", axis), ("kept", kept)):
             object.__setattr__(self, name, value)
 
-    def __reduce__(self) -> tuple[type[Prepared], tuple[Sizes, Axis | None]]:
+    def __reduce__(self) -> tuple[type[Prepared], tuple[pair.Sizes, pair.Axis | None]]:
         """Sizes and axis: prepared data are valid only for the build that made them, so a copy prepares them again."""
         return Prepared, (self.sizes, self.axis)
 
@@ -197,13 +188,13 @@ def _of_scene(
     columns: Mapping[str, Any], out: Positions | None, on_invalid: str, question: Question, threads: int | None
 ) -> Positions:
     """The answers about pairs of one spheroid's sizes, which need no rows."""
-    known = (*SIZES, *CENTER, *AXIS)
+    known = (*pair.SIZES, *pair.CENTER, *pair.AXIS)
     for name in columns:
         if name not in known:
             raise InputError(f"there is no column {escaped(repr(name), 60)}; the columns are {', '.join(PAIRS.ended)}")
-    sizes, center = (tuple(columns[name] for name in names) for names in (SIZES, CENTER))
-    axis = [columns[name] for name in AXIS if name in columns]
-    if len(axis) not in (0, len(AXIS)):
+    sizes, center = (tuple(columns[name] for name in names) for names in (pair.SIZES, pair.CENTER))
+    axis = [columns[name] for name in pair.AXIS if name in columns]
+    if len(axis) not in (0, len(pair.AXIS)):
         as_rows(columns, tilted=True, heights=True)  # which says what is missing
     if axis and any(map(np.ndim, axis)):
         return _answered(_sizes(sizes), center, (*axis,), out, (on_invalid, question, threads))
@@ -216,7 +207,7 @@ def _of_scene(
 
 @in_default_environment
 def classify_scene(
-    sizes: Sizes | Prepared,
+    sizes: pair.Sizes | Prepared,
     x: ArrayLike,
     y: ArrayLike | None = None,
     z: ArrayLike | None = None,
@@ -244,14 +235,17 @@ def classify_scene(
     four = _sizes(sizes)
     center = points_or_columns(x, y, z)
     if margin:
-        columns = {**dict(zip(SIZES, four, strict=True)), **dict(zip(CENTER, map(np.atleast_1d, center), strict=True))}
+        columns = {
+            **dict(zip(pair.SIZES, four, strict=True)),
+            **dict(zip(pair.CENTER, map(np.atleast_1d, center), strict=True)),
+        }
         answers = classify(columns, axis=axis, margin=margin, on_invalid=on_invalid, question=question, threads=threads)
         _require_fitting(out, len(np.atleast_1d(answers)))
         return _into(out, np.asarray(answers, np.int8))
     axes = None if axis is None else _axes(axis)
     if axes is not None and axes.ndim == 2:
         return _answered(four, center, (*axes.T,), out, (on_invalid, question, number))
-    u, v, w = as_columns(CENTER, center)
+    u, v, w = as_columns(pair.CENTER, center)
     _require_fitting(out, len(u))
     one = None if axes is None else _one_axis(axes, on_invalid)
     in_place = out is not None and question == "position" and _lie_apart(out, (u, v, w))
@@ -268,17 +262,17 @@ _Options = tuple[str, Question, "int | None"]
 
 
 def _answered(
-    sizes: Sizes, center: Sequence[ArrayLike], axis: Sequence[ArrayLike], out: Positions | None, options: _Options
+    sizes: pair.Sizes, center: Sequence[ArrayLike], axis: Sequence[ArrayLike], out: Positions | None, options: _Options
 ) -> Positions:
     """The answers about one spheroid with an axis for each centre."""
-    columns = as_columns((*CENTER, *AXIS), (*center, *axis))
+    columns = as_columns((*pair.CENTER, *pair.AXIS), (*center, *axis))
     _require_fitting(out, len(columns[0]))
     on_invalid, question, threads = options
     return _into(out, _with_axes(sizes, columns, question, threads, on_invalid))
 
 
 def _with_axes(
-    sizes: Sizes, columns: Sequence[Floats], question: Question, threads: int | None, on_invalid: str
+    sizes: pair.Sizes, columns: Sequence[Floats], question: Question, threads: int | None, on_invalid: str
 ) -> Positions:
     """The answers for centres with an axis each: x, y, z, axis_x, axis_y, axis_z, made into rows some at a time."""
     result = np.empty(len(columns[0]), dtype=np.int8)
@@ -293,29 +287,29 @@ def _with_axes(
 
 def _axes(axis: ArrayLike) -> Floats:
     """The axis or axes, (3,) or (n, 3); a single row is one axis."""
-    wanted = f"it must be three numbers, {', '.join(AXIS)}, or an array (n, 3) of them"
+    wanted = f"it must be three numbers, {', '.join(pair.AXIS)}, or an array (n, 3) of them"
     numbers = as_numbers("axis is", axis, wanted)
-    if numbers.ndim not in (1, 2) or numbers.shape[-1] != len(AXIS):
+    if numbers.ndim not in (1, 2) or numbers.shape[-1] != len(pair.AXIS):
         raise InputError(f"axis is of shape {numbers.shape}; {wanted}")
     return numbers[0] if len(numbers) == 1 and numbers.ndim == 2 else numbers
 
 
-def _one_axis(numbers: Floats, on_invalid: str) -> Axis:
+def _one_axis(numbers: Floats, on_invalid: str) -> pair.Axis:
     vx, vy, vz = numbers.tolist()
-    trouble = trouble_with_axis((vx, vy, vz))
+    trouble = pair.trouble_with_axis((vx, vy, vz))
     if trouble is not None and on_invalid == "raise":
         raise InputError(trouble)
     return vx, vy, vz
 
 
-def _sizes(sizes: Sizes) -> Sizes:
-    wanted = f"they must be four numbers: {', '.join(SIZES)}"
+def _sizes(sizes: pair.Sizes) -> pair.Sizes:
+    wanted = f"they must be four numbers: {', '.join(pair.SIZES)}"
     numbers = as_numbers("the sizes are", sizes, wanted)
-    if numbers.shape != (len(SIZES),):
+    if numbers.shape != (len(pair.SIZES),):
         raise InputError(f"the sizes are of shape {numbers.shape}; {wanted}")
     alpha, gamma, b, d = numbers.tolist()
-    for name, value in zip(SIZES, (alpha, gamma, b, d), strict=True):
-        trouble = trouble_with(name, value)
+    for name, value in zip(pair.SIZES, (alpha, gamma, b, d), strict=True):
+        trouble = pair.trouble_with(name, value)
         if trouble is not None:
             raise InputError(trouble)
     return alpha, gamma, b, d
@@ -324,7 +318,7 @@ def _sizes(sizes: Sizes) -> Sizes:
 def _not_finite(columns: Columns) -> InputError:
     """What is wrong with the first centre that is not finite; there must be one."""
     index = int(np.argmin(np.isfinite(columns).all(axis=0)))
-    trouble = trouble_with_row([float(column[index]) for column in columns], CENTER)
+    trouble = pair.trouble_with_row([float(column[index]) for column in columns], pair.CENTER)
     return InputError(f"row {index}: {trouble}")
 
 

@@ -30,16 +30,9 @@ import numpy as np
 from hypcheck.derivation.float_arithmetic import two_sum
 from hypcheck.geometry.pair import WITHOUT_ENDS, Lengths, Position
 from hypcheck.geometry.rows import CANNOT_SAY, Floats, Indices, Mask, Positions, Rows
+from hypcheck.kernel import scene_pairs
 from hypcheck.kernel.in_use import kernel
 from hypcheck.kernel.scene_index import Bodies
-from hypcheck.kernel.scene_pairs import (
-    GREATEST,
-    LEAST,
-    MARGIN,
-    along_and_across,
-    height_and_distance,
-    larger_and_smaller,
-)
 from hypcheck.scene.model import Mover, is_tilted
 from hypcheck.truth import exact
 
@@ -54,7 +47,7 @@ def limits_of(bodies: Bodies, mover: Mover) -> Floats:
     low, high = bodies.heights.T
     with np.errstate(all="ignore"):
         ends = np.where(np.isinf(bodies.heights), 0, np.abs(bodies.heights)).max(axis=1)
-        far = reach * (1 + MARGIN) + 2.0**-45 * (np.abs(bodies.origins[:, 2]) + reach + ends)
+        far = reach * (1 + scene_pairs.MARGIN) + 2.0**-45 * (np.abs(bodies.origins[:, 2]) + reach + ends)
         limits = np.stack([low - far, high + far, low + far, high - far], axis=1)
     tilted = bodies.tilted & np.isfinite(bodies.spans).any(axis=1)
     limits[tilted] = -inf, inf, inf, -inf
@@ -84,7 +77,11 @@ class _Place:
 
     def between_and_beyond(self) -> tuple[Any, Any]:
         """Whether the mover surely lies between the ends, and beyond an end."""
-        below, above, far = self.along - self.low, self.high - self.along, self.reach * (1 + MARGIN) + self.error
+        below, above, far = (
+            self.along - self.low,
+            self.high - self.along,
+            self.reach * (1 + scene_pairs.MARGIN) + self.error,
+        )
         return (below > far) & (above > far), (below < -far) | (above < -far)
 
     def centre_between_and_beyond(self) -> tuple[Any, Any]:
@@ -98,7 +95,7 @@ class _Place:
         fall = (away + self.error) / self.half
         room = 1 - fall * fall
         radius, least = self.alpha * (1 + share * share) ** 0.5, self.least * ((room + abs(room)) / 2) ** 0.5
-        loose = self.error * (2 + self.alpha / self.gamma) + MARGIN * (radius + self.across + self.least)
+        loose = self.error * (2 + self.alpha / self.gamma) + scene_pairs.MARGIN * (radius + self.across + self.least)
         crosses = (self.across + least > radius + loose) & (self.across - least < radius - loose)
         return crosses & (self.centre_between_and_beyond()[0] | (self.half < inf))
 
@@ -112,11 +109,11 @@ def meets_for_sure(least: Floats, shapes: Rows, spans: Rows, places: Rows, lost:
     with np.errstate(all="ignore"):
         size = np.abs(places).sum(axis=1)
         across = np.hypot(places[:, 0], places[:, 1])
-        error = 2 * lost + MARGIN * size + LEAST
+        error = 2 * lost + scene_pairs.MARGIN * size + scene_pairs.LEAST
         alpha, gamma, low, high = shapes[:, 0], shapes[:, 1], spans[:, 0], spans[:, 1]
         level = np.clip(places[:, 2], low, high)
         place = _Place(alpha, gamma, places[:, 2], across, error, low, high, level, least, least, inf)
-        return np.asarray(place.crosses() & (size < GREATEST))
+        return np.asarray(place.crosses() & (size < scene_pairs.GREATEST))
 
 
 def positions_with_ends(
@@ -130,7 +127,7 @@ def positions_with_ends(
     with np.errstate(all="ignore"):
         upright = (movers[:, :2] == 0).all(axis=1) & ~bodies.tilted[body]
         (alpha, gamma, b, d), (low, high) = sizes.T, spans.T
-        along, across, error = along_and_across(centres, origins, axes)
+        along, across, error = scene_pairs.along_and_across(centres, origins, axes)
         reach, least = np.where(upright, d, np.maximum(b, d)), np.where(upright, b, np.minimum(b, d))
         level, half = np.clip(along, low, high), np.where(upright, d, inf)
         place = _Place(alpha, gamma, along, across, error, low, high, level, reach, least, half)
@@ -163,7 +160,7 @@ def _by_kernel(rows: Rows, centres: Rows, origins: Rows, inner: Mask, outer: Mas
     """
     place, error = two_sum(centres, -origins)
     lost = np.abs(error).sum(axis=1)
-    larger, smaller, fits = larger_and_smaller(rows[:, 2:4], lost)
+    larger, smaller, fits = scene_pairs.larger_and_smaller(rows[:, 2:4], lost)
     around, within = (
         kernel().answer_ended(np.concatenate([rows[:, :2], size, place, rows[:, 4:]], axis=1))
         for size in (larger, smaller)
@@ -190,7 +187,7 @@ def position_with_ends(
     """The same of one pair."""
     (alpha, gamma, b, d), (low, high) = sizes, span
     upright = mover[0] == mover[1] == axis[0] == axis[1] == 0
-    along, across, error = height_and_distance(centre, origin, axis)
+    along, across, error = scene_pairs.height_and_distance(centre, origin, axis)
     reach, least, half = (d, b, d) if upright else (max(b, d), min(b, d), inf)
     level = min(max(along, low), high)
     place = _Place(alpha, gamma, along, across, error, low, high, level, reach, least, half)

@@ -26,14 +26,7 @@ from hypcheck.kernel.scene_ends import limits_of
 from hypcheck.kernel.scene_index import ROOM, Bodies, PlaneGrid, bodies_of, cells_of, grid_of, hashed, in_reach, reaches
 from hypcheck.kernel.scene_pairs import Body
 from hypcheck.kernel.scene_sweeps import Near, near_of
-from hypcheck.scene.arrays import (
-    NO_HYPERBOLOID,
-    checked_hyperboloid,
-    hyperboloids_of,
-    mover_of,
-    point_of,
-    require_valid_model,
-)
+from hypcheck.scene import arrays
 from hypcheck.scene.model import Hyperboloid, Mover, Region, SceneModel, is_tilted
 from hypcheck.scene.reading import parse_scene, read_scene
 
@@ -54,7 +47,7 @@ class PreparedScene:
                 f"the model is of type {type(self.model).__name__}; it must be a SceneModel, or see "
                 "Scene.from_arrays, Scene.from_text and Scene.from_toml"
             )
-        require_valid_model(self.model)
+        arrays.require_valid_model(self.model)
 
     @classmethod
     @in_default_environment
@@ -101,8 +94,8 @@ class PreparedScene:
         array([-1,  1,  0], dtype=int8)
         """
         heights = z_min, z_max, solid
-        bodies = hyperboloids_of(alpha, gamma, center, axis, heights, names)
-        return cls(SceneModel(name, question, bodies, mover_of(mover), region))
+        bodies = arrays.hyperboloids_of(alpha, gamma, center, axis, heights, names)
+        return cls(SceneModel(name, question, bodies, arrays.mover_of(mover), region))
 
     def with_hyperboloid(self, hyperboloid: Hyperboloid) -> Self:
         """The scene with one hyperboloid more, the last; a hundredth of the cost of a new scene of 10⁵ of them.
@@ -113,7 +106,7 @@ class PreparedScene:
         >>> scene.with_hyperboloid(Hyperboloid("new", 1, 17.8, (5, 0, 0))).classify((5, 0, 5))
         -1
         """
-        model, body = self.model, checked_hyperboloid(hyperboloid)
+        model, body = self.model, arrays.checked_hyperboloid(hyperboloid)
         if any(hyperboloid.name == other.name for other in model.hyperboloids):
             raise InputError(f"there is a hyperboloid {hyperboloid.name!r} already; each must have another name")
         return self._changed((*model.hyperboloids, body), len(model.hyperboloids), bodies_of([body]), added=True)
@@ -121,9 +114,9 @@ class PreparedScene:
     def moved(self, which: int | str, center: ArrayLike, axis: ArrayLike | None = None) -> Self:
         """The scene with one hyperboloid, by its number or name, at another centre, and with another axis if given."""
         place, model = self._place(which), self.model
-        new = replace(model.hyperboloids[place], center=point_of("center", center))
-        new = new if axis is None else replace(new, axis=point_of("axis", axis))
-        body = checked_hyperboloid(new)
+        new = replace(model.hyperboloids[place], center=arrays.point_of("center", center))
+        new = new if axis is None else replace(new, axis=arrays.point_of("axis", axis))
+        body = arrays.checked_hyperboloid(new)
         others = (*model.hyperboloids[:place], body, *model.hyperboloids[place + 1 :])
         return self._changed(others, place, bodies_of([body]), added=False)
 
@@ -131,7 +124,7 @@ class PreparedScene:
         """The scene without one hyperboloid, by number or name; the numbers of all later ones are lower by one."""
         place, model = self._place(which), self.model
         if len(model.hyperboloids) == 1:
-            raise InputError(NO_HYPERBOLOID)
+            raise InputError(arrays.NO_HYPERBOLOID)
         model = replace(model, hyperboloids=(*model.hyperboloids[:place], *model.hyperboloids[place + 1 :]))
         grid = grid_without(self._grid, place, renumbered=True)
         return self._with(model, bodies_without(self._bodies, place), grid)
@@ -253,12 +246,12 @@ class PreparedScene:
             bodies = bodies_of(self.model.hyperboloids)
         except (AttributeError, TypeError, ValueError):  # something in the place of a number, a Span or a hyperboloid
             for body in self.model.hyperboloids:
-                checked_hyperboloid(body)
+                arrays.checked_hyperboloid(body)
             raise
         numbers = np.concatenate([bodies.shapes, bodies.origins, bodies.axes], axis=1)
         valid = np.isfinite(numbers).all(axis=1) & (bodies.shapes > 0).all(axis=1) & (bodies.axes != 0).any(axis=1)
         for index in np.flatnonzero(~(valid & (bodies.spans[:, 0] < bodies.spans[:, 1])))[:1].tolist():
-            checked_hyperboloid(self.model.hyperboloids[index])
+            arrays.checked_hyperboloid(self.model.hyperboloids[index])
         return bodies
 
 

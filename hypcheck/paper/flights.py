@@ -18,17 +18,7 @@ from numpy.typing import NDArray
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import Columns, Floats, Mask
-from hypcheck.paper.quadcopter import (
-    EIGHTH,
-    Craft,
-    Direction,
-    Procedures,
-    any_angle,
-    quarter_turns,
-    rims,
-    small_angle,
-    turned,
-)
+from hypcheck.paper import quadcopter
 from hypcheck.scene.model import Flight, Start
 from hypcheck.vectors.draw import Draw, unit_of
 
@@ -58,7 +48,7 @@ class Moves:
     lane: NDArray[np.int64]
     start: Columns
     end: Columns
-    before: Direction
+    before: quadcopter.Direction
     turn: Floats
     accepted: Mask
     refused: Mask
@@ -104,7 +94,7 @@ class _State:
 
     lane: NDArray[np.int64]
     at: Columns
-    heading: Direction
+    heading: quadcopter.Direction
     due: Mask
     left: Counts
     idle: Counts
@@ -134,7 +124,7 @@ class _Chosen:
 
 
 def fly(
-    craft: Craft,
+    craft: quadcopter.Craft,
     flight: Flight,
     step: float,
     moves: int,
@@ -147,7 +137,7 @@ def fly(
     `draw` is the stream of the block; `lanes` of its LANES flights are flown, the first ones. `observe` sees every
     draw. Raises InputError where a flight is stuck: nothing it tries is accepted.
     """
-    procedures, tallies = Procedures(craft), Tallies.of(lanes)
+    procedures, tallies = quadcopter.Procedures(craft), Tallies.of(lanes)
     state = _begin(craft, flight.start, draw, lanes, moves)
     while len(state.lane):
         words = draw.words(2 * LANES).reshape(2, LANES)[:, state.lane]
@@ -165,9 +155,9 @@ def fly(
     return tallies
 
 
-def _begin(craft: Craft, start: Start, draw: Draw, lanes: int, moves: int) -> _State:
+def _begin(craft: quadcopter.Craft, start: Start, draw: Draw, lanes: int, moves: int) -> _State:
     z = draw.between(LANES, start.z.low, start.z.high)
-    radius = rims(craft, start, z) * np.sqrt(draw.unit(LANES))
+    radius = quadcopter.rims(craft, start, z) * np.sqrt(draw.unit(LANES))
     (cosine, sine), heading = _anywhere(draw), _anywhere(draw)
     return _State(
         lane=np.arange(lanes),
@@ -179,10 +169,12 @@ def _begin(craft: Craft, start: Start, draw: Draw, lanes: int, moves: int) -> _S
     )
 
 
-def _anywhere(draw: Draw) -> Direction:
+def _anywhere(draw: Draw) -> quadcopter.Direction:
     """Directions uniform over the circle."""
     words = draw.words(LANES)
-    return quarter_turns(*small_angle((2 * unit_of(words) - 1) * EIGHTH), (words & np.uint64(3)).astype(np.int64))
+    return quadcopter.quarter_turns(
+        *quadcopter.small_angle((2 * unit_of(words) - 1) * quadcopter.EIGHTH), (words & np.uint64(3)).astype(np.int64)
+    )
 
 
 def _choose(flight: Flight, due: Mask, words: NDArray[np.uint64]) -> _Chosen:
@@ -202,7 +194,12 @@ def _choose(flight: Flight, due: Mask, words: NDArray[np.uint64]) -> _Chosen:
 
 
 def _advance(
-    craft: Craft, flight: Flight, step: float, procedures: Procedures, state: _State, words: NDArray[np.uint64]
+    craft: quadcopter.Craft,
+    flight: Flight,
+    step: float,
+    procedures: quadcopter.Procedures,
+    state: _State,
+    words: NDArray[np.uint64],
 ) -> Moves:
     """One draw of every flight under way; the state becomes what it leads to."""
     chosen, start, before = _choose(flight, state.due, words), state.at, state.heading
@@ -225,12 +222,12 @@ def _advance(
     return Moves(state.lane, start, end, before, turn, accepted, refused, vertical, chosen.turning, executed, touching)
 
 
-def _moved(start: Columns, heading: Direction, chosen: _Chosen, step: float) -> Columns:
+def _moved(start: Columns, heading: quadcopter.Direction, chosen: _Chosen, step: float) -> Columns:
     (x, y, z), along = start, chosen.ahead * step
     return x + along * heading[0], y + along * heading[1], z + chosen.up * step
 
 
-def _beyond(craft: Craft, at: Columns) -> Mask:
+def _beyond(craft: quadcopter.Craft, at: Columns) -> Mask:
     """Which positions are outside the modelled height."""
     z = at[2]
     if craft.height is None:
@@ -238,11 +235,11 @@ def _beyond(craft: Craft, at: Columns) -> Mask:
     return np.asarray((z < craft.height.low) | (z > craft.height.high))
 
 
-def _turned(heading: Direction, degrees: Floats) -> Direction:
+def _turned(heading: quadcopter.Direction, degrees: Floats) -> quadcopter.Direction:
     """The headings after a turn; one that does not turn stays as it is, bit for bit."""
     some = np.flatnonzero(degrees)
     cosine, sine = heading[0].copy(), heading[1].copy()
-    cosine[some], sine[some] = turned((cosine[some], sine[some]), any_angle(degrees[some]))
+    cosine[some], sine[some] = quadcopter.turned((cosine[some], sine[some]), quadcopter.any_angle(degrees[some]))
     return cosine, sine
 
 

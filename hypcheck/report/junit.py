@@ -14,16 +14,7 @@ from typing import Any
 from xml.etree import ElementTree as Xml
 
 from hypcheck.messages import escaped
-from hypcheck.record import Record, RecordLine, lines
-from hypcheck.record.measurements import (
-    ComparisonLine,
-    ForestLine,
-    KernelLine,
-    RefusedLine,
-    SceneLine,
-    SpeedLine,
-    UnmeasuredLine,
-)
+from hypcheck.record import Record, RecordLine, lines, measurements
 from hypcheck.report.benchmark_facts import accuracy_facts, facts_of
 from hypcheck.report.facts import Failure, LineFacts
 from hypcheck.report.messages import settings_facts
@@ -148,10 +139,13 @@ def _others(record: Record, failed: list[Failure]) -> Iterator[JunitSuite]:
         yield JunitSuite(f"implementations.{implementation.name}", mine)
     yield JunitSuite("implementations", _cases(facts_of(record, lines.ImplementationLine, lines.NotStartedLine)))
     yield JunitSuite("bench.answers", _cases(accuracy_facts(record)))
-    yield JunitSuite("bench.times", _cases(_by_type(record, SpeedLine, UnmeasuredLine, RefusedLine)))
-    yield JunitSuite("bench.baseline", _cases(facts_of(record, ComparisonLine)))
-    yield JunitSuite("bench.scenes", _cases(_by_type(record, SceneLine, ForestLine)))
-    yield JunitSuite("bench.kernels", _cases(facts_of(record, KernelLine)))
+    yield JunitSuite(
+        "bench.times",
+        _cases(_by_type(record, measurements.SpeedLine, measurements.UnmeasuredLine, measurements.RefusedLine)),
+    )
+    yield JunitSuite("bench.baseline", _cases(facts_of(record, measurements.ComparisonLine)))
+    yield JunitSuite("bench.scenes", _cases(_by_type(record, measurements.SceneLine, measurements.ForestLine)))
+    yield JunitSuite("bench.kernels", _cases(facts_of(record, measurements.KernelLine)))
 
 
 def _by_type(record: Record, *kinds: type[RecordLine]) -> Iterator[LineFacts[Any]]:

@@ -21,18 +21,11 @@ from hypcheck.messages import counted, escaped
 from hypcheck.record import Record
 from hypcheck.record.lines import DriftLine, GroupLine, ImplementationLine, NotStartedLine, OracleLine, ProofLine
 from hypcheck.record.measurements import ComparisonLine, ForestLine, KernelLine, SceneLine
-from hypcheck.report import model
+from hypcheck.report import messages, model
 from hypcheck.report.benchmark_facts import SLOWER, benchmark_failures, failures_of
 from hypcheck.report.document import Code, Column, Row, Strong, TableBlock, TableCell, number, plain, table
 from hypcheck.report.facts import Failure
 from hypcheck.report.measured import by_ratio, measured_methods, reference, timed_workloads
-from hypcheck.report.messages import (
-    families_not_asked,
-    figure,
-    listed,
-    pace,
-    rows_not_asked,
-)
 from hypcheck.runs.judge import Status, in_words, truth_in_words
 
 WITHOUT_COMPARISON = (KernelLine, ForestLine, SceneLine)
@@ -50,14 +43,14 @@ def _method_clauses(record: Record) -> Iterator[str]:
     )
     ratio = None if best is None else best.ratio(scenes[0])
     if best is not None and ratio and against and best.name != against:
-        yield f"right on every row and {pace(ratio, against)}: {best.name}"
+        yield f"right on every row and {messages.pace(ratio, against)}: {best.name}"
     timed = sum(bool(method.speed) for method in methods)
     workloads = {name for method in methods for name in (*method.accuracy, *(name for name, _ in method.speed))}
     compared = f"{counted(len(methods), 'method')} compared on {counted(len(workloads), 'workload')}"
     yield f"{compared}, {timed:,} of them timed"
     exact = [f"{method.name} ({method.asked:,})" for method in methods if method.exact and method.asked]
     if exact:
-        yield f"right on every row: {listed(exact)}"
+        yield f"right on every row: {messages.listed(exact)}"
     held = [line for line in record.of(ComparisonLine) if line.gates]
     if held:
         slower = sum(line.verdict == SLOWER for line in held)
@@ -205,7 +198,7 @@ def _failure_counts(failed: list[Failure]) -> str:
         "measurement": ("failed measurement",),
     }
     counts = {subject: sum(failure.count for failure in failed if failure.subject == subject) for subject in nouns}
-    return listed([counted(number, *nouns[subject]) for subject, number in counts.items() if number])
+    return messages.listed([counted(number, *nouns[subject]) for subject, number in counts.items() if number])
 
 
 def _passed(record: Record) -> Verdict:
@@ -234,7 +227,7 @@ def _passed(record: Record) -> Verdict:
 def _gated_clause(total: model.ImplementationTotal, record: Record) -> str:
     """How many cases of a gated implementation were judged and how they ended, which were skipped, and not asked."""
     ended = ", ".join(f"{number:,} {status}" for status, number in total.statuses.items() if status != "skipped")
-    worst = f"worst backward error {figure(model.worst_error_u(total.worst))} u"
+    worst = f"worst backward error {messages.figure(model.worst_error_u(total.worst))} u"
     parts = [f"{total.name}: {total.judged:,} judged: {ended}", worst]
     if total.fresh is not None:
         parts.append(counted(total.fresh, "fresh row") if total.fresh else "no fresh rows")
@@ -246,13 +239,15 @@ def _gated_clause(total: model.ImplementationTotal, record: Record) -> str:
 
 def _skipped(total: model.ImplementationTotal) -> Iterator[str]:
     """Rows that were skipped, by reason, and families of which all were."""
-    rows = rows_not_asked(total.not_asked)
+    rows = messages.rows_not_asked(total.not_asked)
     if rows:
         yield rows
     empty = [group.family for group in total.groups if group.counts and not group.asked]
     if empty:
         yield (
-            f"all of {listed(empty)}" if len(empty) <= _NAMED else f"all of {counted(len(empty), 'family', 'families')}"
+            f"all of {messages.listed(empty)}"
+            if len(empty) <= _NAMED
+            else f"all of {counted(len(empty), 'family', 'families')}"
         )
 
 
@@ -260,7 +255,7 @@ def _not_asked(total: model.ImplementationTotal, record: Record) -> Iterator[str
     """Families that the run left out."""
     lines = [tested.line for tested in model.under_test(record) if tested.groups == total.groups]
     for line in lines if record.header.options.get("families") else ():
-        families = "" if isinstance(line, NotStartedLine) else families_not_asked(line)
+        families = "" if isinstance(line, NotStartedLine) else messages.families_not_asked(line)
         if families:
             yield families
 
@@ -275,7 +270,7 @@ def _oracle_clause(totals: list[model.OracleTotal]) -> str:
     doubt = f", {undecided:,} undecided" if undecided else ""
     if len(totals) == 1:
         return f"{counted(totals[0].asked, 'case')} asked of {totals[0].name} and of no other oracle{doubt}"
-    oracles = listed([f"{total.name} ({total.asked:,})" for total in totals])
+    oracles = messages.listed([f"{total.name} ({total.asked:,})" for total in totals])
     return f"no disagreement in the cases asked of {oracles}{doubt}"
 
 
@@ -329,7 +324,7 @@ def _passing(total: model.ImplementationTotal) -> str:
         for status, words in reasons
         if total.statuses.get(status)
     ]
-    return f"{AMISS} includes {listed(parts)}" if parts else ""
+    return f"{AMISS} includes {messages.listed(parts)}" if parts else ""
 
 
 def _cell(cases: int, *, right: bool) -> TableCell:

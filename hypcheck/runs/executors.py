@@ -25,18 +25,10 @@ from hypcheck.errors import HypcheckError, limit_reached
 from hypcheck.implementations.implementation import Implementation
 from hypcheck.implementations.session import Allowance
 from hypcheck.processes import end_with_parent, interrupts_held
+from hypcheck.runs import schedule
 from hypcheck.runs.cases import FrozenVectors, keep_loaded, loaded_vectors
 from hypcheck.runs.fingerprint import code_fingerprint
 from hypcheck.runs.results import JudgingRules
-from hypcheck.runs.schedule import (
-    ImplementationOpener,
-    Step,
-    TaskExecution,
-    TaskResult,
-    WorkerLost,
-    WorkersLostError,
-    perform_task,
-)
 
 
 @dataclass(frozen=True, slots=True)
@@ -155,7 +147,7 @@ class _Worker:
     def __init__(self, watch: Watch) -> None:
         self._watch = watch
         self.process: SpawnProcess | None = None
-        self._trouble: BaseException = WorkersLostError("the pool has ended")
+        self._trouble: BaseException = schedule.WorkersLostError("the pool has ended")
 
     def start(self) -> None:
         """Start the process."""
@@ -174,8 +166,8 @@ class _Worker:
         """Let the process enter its context."""
         try:
             self.call(initializer)
-        except WorkerLost as lost:
-            self._trouble, self.process = WorkerLost(lost.workers, lost.last, deaths=0), None
+        except schedule.WorkerLost as lost:
+            self._trouble, self.process = schedule.WorkerLost(lost.workers, lost.last, deaths=0), None
         except BaseException as error:  # noqa: BLE001 - calls raise it
             self._trouble, self.process = error, None
 
@@ -189,7 +181,9 @@ class _Worker:
             result = self._line.recv()
         except (EOFError, OSError):
             self.process.join()
-            raise WorkerLost("processes of hypcheck", f"the last with status {self.process.exitcode}") from None
+            raise schedule.WorkerLost(
+                "processes of hypcheck", f"the last with status {self.process.exitcode}"
+            ) from None
         if isinstance(result, BaseException):
             raise result
         return result
@@ -238,20 +232,22 @@ def is_stopped(process: SpawnProcess) -> bool:
 
 
 @contextmanager
-def execution_here(implementation: Implementation, rules: JudgingRules) -> Iterator[TaskExecution]:
+def execution_here(implementation: Implementation, rules: JudgingRules) -> Iterator[schedule.TaskExecution]:
     """Perform tasks in this process."""
-    function = partial(perform_task, implementation=implementation, rules=rules)
-    yield TaskExecution(SerialExecutor(), function, 0, implementation.allowance, implementation.max_rows, rules)
+    function = partial(schedule.perform_task, implementation=implementation, rules=rules)
+    yield schedule.TaskExecution(
+        SerialExecutor(), function, 0, implementation.allowance, implementation.max_rows, rules
+    )
 
 
 @contextmanager
 def execution_in_pool(
     workers: int,
-    opener: ImplementationOpener,
+    opener: schedule.ImplementationOpener,
     rules: JudgingRules,
     implementation: Implementation,
     watch: Watch = WATCH,
-) -> Iterator[TaskExecution]:
+) -> Iterator[schedule.TaskExecution]:
     """Perform tasks in so many processes, each of which opens the implementation.
 
     A task raises StartError if the implementation describes itself otherwise there than here.
@@ -259,7 +255,7 @@ def execution_in_pool(
     opener = replace(opener, declared=implementation.declared)
     setup = partial(_opened, opener, rules, code_fingerprint(), loaded_vectors())
     with WorkerPool(workers, setup, watch) as executor:
-        yield TaskExecution(
+        yield schedule.TaskExecution(
             executor, _perform_opened, workers, implementation.allowance, implementation.max_rows, rules
         )
 
@@ -270,19 +266,19 @@ _OPENED: ContextVar[tuple[Implementation, JudgingRules]] = ContextVar("opened")
 
 @contextmanager
 def _opened(
-    opener: ImplementationOpener, rules: JudgingRules, fingerprint: str, frozen: dict[str, FrozenVectors]
+    opener: schedule.ImplementationOpener, rules: JudgingRules, fingerprint: str, frozen: dict[str, FrozenVectors]
 ) -> Iterator[None]:
     keep_freed_memory()
     keep_loaded(frozen)
     if code_fingerprint() != fingerprint:
-        raise WorkersLostError("hypcheck's own files were changed while an implementation was asked")
+        raise schedule.WorkersLostError("hypcheck's own files were changed while an implementation was asked")
     with opener.open() as implementation:
         _OPENED.set((implementation, rules))
         yield
 
 
-def _perform_opened(task: Step, allowance: Allowance) -> TaskResult:
-    return perform_task(task, *_OPENED.get(), allowance)
+def _perform_opened(task: schedule.Step, allowance: Allowance) -> schedule.TaskResult:
+    return schedule.perform_task(task, *_OPENED.get(), allowance)
 
 
 def keep_freed_memory() -> None:

@@ -14,20 +14,7 @@ from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import Position
 from hypcheck.geometry.rows import Floats, Mask
-from hypcheck.runs.causes import (
-    FLOAT64,
-    SILENT,
-    AnsweredRows,
-    Answers,
-    Cause,
-    Numbers,
-    Scope,
-    cause,
-    rounded,
-    silent,
-    unit_of,
-    where_kind,
-)
+from hypcheck.runs import causes
 from hypcheck.truth.kinds import Kind
 
 CONTRADICTED = 0.02
@@ -37,17 +24,17 @@ LARGEST_TOLERANCE = 1e-2
 """A larger distance between roots is no tolerance."""
 
 
-def _complex_pair_ignored(answered: AnsweredRows) -> Answers:
+def _complex_pair_ignored(answered: causes.AnsweredRows) -> causes.Answers:
     """A complex pair is left out, and the one real root, which is positive, is taken for all of them.
 
     A double root, or two that are close together, may be a complex pair when it is computed.
     """
     n = answered.numbers
     with np.errstate(all="ignore"):
-        error = n.delta_error(FLOAT64, roots=True)
+        error = n.delta_error(causes.FLOAT64, roots=True)
         pair, close = n.delta < -error, np.abs(n.delta) <= error
     exterior = answered.answers_at(np.full(len(answered.rows), Position.EXTERIOR, dtype=np.int8))
-    return np.where(pair | (close & (answered.given == exterior)), exterior, SILENT).astype(np.int8)
+    return np.where(pair | (close & (answered.given == exterior)), exterior, causes.SILENT).astype(np.int8)
 
 
 _BEYOND = {
@@ -59,16 +46,16 @@ _BEYOND = {
 """Contacts with a double root beyond a pole, and what the signs of the roots alone say."""
 
 
-def _repeated_beyond_a_pole(answered: AnsweredRows) -> Answers:
+def _repeated_beyond_a_pole(answered: causes.AnsweredRows) -> causes.Answers:
     """A double root below −A or above B counts as two roots on the side of its sign."""
     at = (answered.truth == Position.CONTACT) & answered.numbers.possible(2.0**-50, printed=True)[:, (0, 2)].any(axis=1)
-    answers = silent(answered)
+    answers = causes.silent(answered)
     for kind, position in _BEYOND.items():
-        answers = np.minimum(answers, where_kind(at, answered, kind, position))
+        answers = np.minimum(answers, causes.where_kind(at, answered, kind, position))
     return answers
 
 
-def _at_upper_pole(answered: AnsweredRows) -> Answers:
+def _at_upper_pole(answered: causes.AnsweredRows) -> causes.Answers:
     """Where z = 0, B itself is a root: an open interval (0, B) does not contain it, and one root is left.
 
     Not beside the ring, where a root close to B is a reason of its own.
@@ -77,24 +64,24 @@ def _at_upper_pole(answered: AnsweredRows) -> Answers:
     return _contact(answered, at & ~answered.numbers.near_the_ring(2.0**-12))
 
 
-def _at_lower_pole(answered: AnsweredRows) -> Answers:
+def _at_lower_pole(answered: causes.AnsweredRows) -> causes.Answers:
     """Where x = y = 0, −A itself is a root: an open interval (−A, 0) does not contain it, and one root is left."""
     at = (answered.truth == Position.INTERIOR) & (answered.rows[:, 4:6] == 0).all(axis=1)
     return _contact(answered, at)
 
 
-def _contact(answered: AnsweredRows, at: Mask) -> Answers:
-    positions = silent(answered)
+def _contact(answered: causes.AnsweredRows, at: Mask) -> causes.Answers:
+    positions = causes.silent(answered)
     positions[at] = Position.CONTACT
     return answered.answers_at(positions)
 
 
-def _computed_roots(answered: AnsweredRows) -> Answers:
+def _computed_roots(answered: causes.AnsweredRows) -> causes.Answers:
     """What the rounding errors of computed roots may make of the answer."""
-    return rounded(answered, max(unit_of(answered), FLOAT64), roots=True)
+    return causes.rounded(answered, max(causes.unit_of(answered), causes.FLOAT64), roots=True)
 
 
-def _roots(n: Numbers) -> NDArray[np.complex128]:
+def _roots(n: causes.Numbers) -> NDArray[np.complex128]:
     """The three roots of g (n, 3) in float64, sorted by their real parts; not a number where g overflows."""
     c2, c1, c0 = n.c2, n.c1, -n.A * n.B
     with np.errstate(all="ignore"):
@@ -108,30 +95,32 @@ def _roots(n: Numbers) -> NDArray[np.complex128]:
     return zeros
 
 
-def _within(answered: AnsweredRows, sizes: Floats, answers: Answers) -> Answers:
+def _within(answered: causes.AnsweredRows, sizes: Floats, answers: causes.Answers) -> causes.Answers:
     """These answers where a size is within the tolerance; the tolerance is the largest size of an answer so given."""
     with np.errstate(invalid="ignore"):
-        candidates = (answers != SILENT) & (sizes <= LARGEST_TOLERANCE)
+        candidates = (answers != causes.SILENT) & (sizes <= LARGEST_TOLERANCE)
     agree = candidates & (answers == answered.given)
     if not agree.any():
-        return np.full(len(sizes), SILENT, dtype=np.int8)
+        return np.full(len(sizes), causes.SILENT, dtype=np.int8)
     inside = candidates & (sizes <= sizes[agree].max())
     if (inside & ~agree).sum() > CONTRADICTED * agree.sum():
-        return np.full(len(sizes), SILENT, dtype=np.int8)
-    return np.where(inside, answers, SILENT).astype(np.int8)
+        return np.full(len(sizes), causes.SILENT, dtype=np.int8)
+    return np.where(inside, answers, causes.SILENT).astype(np.int8)
 
 
-def _imaginary_part(answered: AnsweredRows) -> Answers:
+def _imaginary_part(answered: causes.AnsweredRows) -> causes.Answers:
     """A complex pair with a small imaginary part is taken for two real roots on the side of their real part."""
     roots = _roots(answered.numbers)
     apart = np.abs(roots.imag).max(axis=1)
     pair = np.take_along_axis(roots, np.abs(roots.imag).argmax(axis=1)[:, None], axis=1)[:, 0].real
     positions = np.where(pair > 0, Position.EXTERIOR, Position.INTERIOR).astype(np.int8)
     at = (answered.truth == Position.CONTACT) & (apart > 0)
-    return _of_either_size(answered, apart, pair, np.where(at, answered.answers_at(positions), SILENT).astype(np.int8))
+    return _of_either_size(
+        answered, apart, pair, np.where(at, answered.answers_at(positions), causes.SILENT).astype(np.int8)
+    )
 
 
-def _separation(answered: AnsweredRows) -> Answers:
+def _separation(answered: causes.AnsweredRows) -> causes.Answers:
     """Two real roots that are close together are taken for one double root."""
     roots = _roots(answered.numbers)
     gaps = np.abs(np.diff(roots, axis=1))
@@ -141,20 +130,22 @@ def _separation(answered: AnsweredRows) -> Answers:
     return _of_either_size(answered, gap, place, _contact(answered, answered.truth != Position.CONTACT))
 
 
-def _of_either_size(answered: AnsweredRows, sizes: Floats, roots: Floats, answers: Answers) -> Answers:
+def _of_either_size(
+    answered: causes.AnsweredRows, sizes: Floats, roots: Floats, answers: causes.Answers
+) -> causes.Answers:
     """What an absolute tolerance explains, or one relative to the root, whichever explains more."""
     with np.errstate(all="ignore"):
         either = [_within(answered, some, answers) for some in (sizes, sizes / np.abs(roots))]
     return max(either, key=lambda some: int((some == answered.given).sum()))
 
 
-ROOT_CAUSES: tuple[Cause, ...] = (
-    cause("complex-pair-ignored", _complex_pair_ignored, Scope.PLACE),
-    cause("repeated-root-beyond-a-pole", _repeated_beyond_a_pole, Scope.PLACE),
-    cause("root-at-upper-pole", _at_upper_pole, Scope.PLACE, slack=4),
-    cause("root-at-lower-pole", _at_lower_pole, Scope.PLACE, slack=4),
-    cause("computed-roots", _computed_roots, Scope.ROUNDING),
-    cause("imaginary-part-tolerance", _imaginary_part, Scope.ROUNDING),
-    cause("root-separation-tolerance", _separation, Scope.ROUNDING),
+ROOT_CAUSES: tuple[causes.Cause, ...] = (
+    causes.cause("complex-pair-ignored", _complex_pair_ignored, causes.Scope.PLACE),
+    causes.cause("repeated-root-beyond-a-pole", _repeated_beyond_a_pole, causes.Scope.PLACE),
+    causes.cause("root-at-upper-pole", _at_upper_pole, causes.Scope.PLACE, slack=4),
+    causes.cause("root-at-lower-pole", _at_lower_pole, causes.Scope.PLACE, slack=4),
+    causes.cause("computed-roots", _computed_roots, causes.Scope.ROUNDING),
+    causes.cause("imaginary-part-tolerance", _imaginary_part, causes.Scope.ROUNDING),
+    causes.cause("root-separation-tolerance", _separation, causes.Scope.ROUNDING),
 )
 """The causes of code that computes roots, those in exact arithmetic first."""

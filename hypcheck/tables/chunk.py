@@ -17,17 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import (
-    AXIS,
-    COLUMNS,
-    END,
-    HEIGHTS,
-    REFUSED,
-    UPRIGHT,
-    WITHOUT_ENDS,
-    Position,
-    trouble_with_row,
-)
+from hypcheck.geometry import pair
 from hypcheck.geometry.rows import PAIRS, SWEEPS, Layout, Positions, Rows
 from hypcheck.tables.numbers import shown
 
@@ -36,7 +26,7 @@ WITH_MARGIN = "position_with_margin"
 ADDED_TO_SWEEPS = ("hit", "label", "first_lower", "first_upper")
 """The names of what is added to a row, and to one with an end."""
 
-_GIVEN = frozenset((*COLUMNS, *END, *AXIS, *HEIGHTS))
+_GIVEN = frozenset((*pair.COLUMNS, *pair.END, *pair.AXIS, *pair.HEIGHTS))
 _MOST_COMPARED = 200
 _ALSO_CALLED = {"α": "alpha", "γ": "gamma", "x0": "x", "y0": "y", "z0": "z", "xc": "x", "yc": "y", "zc": "z"}
 
@@ -68,30 +58,37 @@ def columns_of(names: Iterable[str]) -> tuple[str, ...]:
     Of heights those that are there: what is missing of them stands for no end, or for an open one.
     """
     folded = {name.casefold() for name in names}
-    heights = tuple(name for name in HEIGHTS if name in folded)
-    return COLUMNS + (END if folded & set(END) else ()) + (AXIS if folded & set(AXIS) else ()) + heights
+    heights = tuple(name for name in pair.HEIGHTS if name in folded)
+    return (
+        pair.COLUMNS
+        + (pair.END if folded & set(pair.END) else ())
+        + (pair.AXIS if folded & set(pair.AXIS) else ())
+        + heights
+    )
 
 
 def layout_of(columns: Sequence[str]) -> Layout:
     """The layout of rows of these columns."""
-    return SWEEPS if END[0] in columns else PAIRS
+    return SWEEPS if pair.END[0] in columns else PAIRS
 
 
 def in_layout(numbers: Rows, columns: Sequence[str], layout: Layout) -> Rows:
     """The rows of numbers (n, len(columns)) of these columns: with heights all that a row with heights has."""
-    if frozenset(HEIGHTS).isdisjoint(columns):
+    if frozenset(pair.HEIGHTS).isdisjoint(columns):
         return numbers
     base = len(layout.upright)
     rows = np.empty((len(numbers), len(layout.ended)))
     rows[:, :base] = numbers[:, :base]
-    for place, (name, otherwise) in enumerate(zip((*AXIS, *HEIGHTS), (*UPRIGHT, *WITHOUT_ENDS), strict=True)):
+    for place, (name, otherwise) in enumerate(
+        zip((*pair.AXIS, *pair.HEIGHTS), (*pair.UPRIGHT, *pair.WITHOUT_ENDS), strict=True)
+    ):
         rows[:, base + place] = numbers[:, columns.index(name)] if name in columns else otherwise
     return rows
 
 
 def added_to(columns: Sequence[str]) -> tuple[str, ...]:
     """The names of all that may be added to rows of these columns: what a column of the table cannot be called."""
-    return ADDED_TO_SWEEPS if END[0] in columns else (*ADDED, WITH_MARGIN)
+    return ADDED_TO_SWEEPS if pair.END[0] in columns else (*ADDED, WITH_MARGIN)
 
 
 def first_double(names: Sequence[str]) -> str | None:
@@ -114,19 +111,19 @@ def _advice(names: Sequence[str], missing: Sequence[str]) -> str:
             return f"{shown(near[0])} must be written {wanted}, if that is what it means"
     if len(names) == 1 and any(mark in names[0] for mark in ";\t"):
         return "columns are separated by commas"
-    if set(missing) <= set(AXIS):
-        return f"an axis needs {', '.join(AXIS)}, in any order"
-    if set(missing) <= set(HEIGHTS):
-        return f"heights are written {', '.join(HEIGHTS)}"
-    if set(missing) <= set(END):
-        return f"the end of a sweep needs {', '.join(END)}, in any order"
-    return f"it needs {', '.join(COLUMNS)}, in any order"
+    if set(missing) <= set(pair.AXIS):
+        return f"an axis needs {', '.join(pair.AXIS)}, in any order"
+    if set(missing) <= set(pair.HEIGHTS):
+        return f"heights are written {', '.join(pair.HEIGHTS)}"
+    if set(missing) <= set(pair.END):
+        return f"the end of a sweep needs {', '.join(pair.END)}, in any order"
+    return f"it needs {', '.join(pair.COLUMNS)}, in any order"
 
 
 CHUNK = 8192
 """Rows at a time: memory stays flat, and a chunk fits into the cache."""
 
-LABELS = {int(position): position.label for position in Position} | {REFUSED: "refused"}
+LABELS = {int(position): position.label for position in pair.Position} | {pair.REFUSED: "refused"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -161,7 +158,7 @@ class Table:
     chunks: Iterator[UnreadChunk]
     header: str | None = None
     line_end: str = "\n"
-    columns: tuple[str, ...] = COLUMNS
+    columns: tuple[str, ...] = pair.COLUMNS
     margin: bool = False
 
     @property
@@ -205,7 +202,7 @@ class SweepAnswers:
             yield hit, SWEEP_LABELS[hit], lower, upper
 
 
-SWEEP_LABELS = {1: "contact", 0: "clear", REFUSED: "refused"}
+SWEEP_LABELS = {1: "contact", 0: "clear", pair.REFUSED: "refused"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -262,7 +259,7 @@ def read_values(
             rows.append([math.nan] * len(layout.upright))
             refused.append(True)
     width = max(map(len, rows), default=len(layout.upright))
-    filling = (*UPRIGHT, *WITHOUT_ENDS)
+    filling = (*pair.UPRIGHT, *pair.WITHOUT_ENDS)
     wide = [[*row, *filling[len(row) - len(layout.upright) : width - len(layout.upright)]] for row in rows]
     return np.array(wide, dtype=np.float64).reshape(len(wide), width), np.array(refused, dtype=np.bool_)
 
@@ -271,12 +268,12 @@ def _numbers(values: Mapping[str, Value], number_of: Callable[[str, Value], floa
     """The row of these values. Raises ValueError as `number_of`."""
     numbers = {name: number_of(name, value) for name, value in values.items()}
     row = [numbers[name] for name in layout.base]
-    ended = not frozenset(HEIGHTS).isdisjoint(numbers)
-    if ended or AXIS[0] in numbers:
-        row += [numbers.get(name, value) for name, value in zip(AXIS, UPRIGHT, strict=True)]
+    ended = not frozenset(pair.HEIGHTS).isdisjoint(numbers)
+    if ended or pair.AXIS[0] in numbers:
+        row += [numbers.get(name, value) for name, value in zip(pair.AXIS, pair.UPRIGHT, strict=True)]
     if ended:
-        row += [numbers.get(name, value) for name, value in zip(HEIGHTS, WITHOUT_ENDS, strict=True)]
-    trouble = trouble_with_row(row, layout.base)
+        row += [numbers.get(name, value) for name, value in zip(pair.HEIGHTS, pair.WITHOUT_ENDS, strict=True)]
+    trouble = pair.trouble_with_row(row, layout.base)
     if trouble is not None:
         raise ValueError(trouble)
     return row

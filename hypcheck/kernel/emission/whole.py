@@ -24,16 +24,9 @@ import numpy as np
 
 from hypcheck.errors import InputError
 from hypcheck.kernel.choice import NUMBER_OF, POSITION_OF
+from hypcheck.kernel.emission import kernel
 from hypcheck.kernel.emission.dialects import DIALECTS, Dialect
 from hypcheck.kernel.emission.functions import setting_function
-from hypcheck.kernel.emission.kernel import (
-    PREFIX,
-    description,
-    description_in_language,
-    prologue,
-    require_prefix,
-    search_text,
-)
 from hypcheck.kernel.emission.plan_text import whole_header
 from hypcheck.kernel.scene_index import bodies_of, reaches
 from hypcheck.kernel.specialise.last_stages import DualSearch
@@ -161,19 +154,21 @@ def _taller(body: Hyperboloid, reach: float) -> Hyperboloid:
     return replace(body, height=Span(low, high), solid=False)
 
 
-def whole(scene: SceneModel, plan: ScenePlan, language: str, command: Sequence[str], prefix: str = PREFIX) -> str:
+def whole(
+    scene: SceneModel, plan: ScenePlan, language: str, command: Sequence[str], prefix: str = kernel.PREFIX
+) -> str:
     """The text of the kernel of a scene, whose plan is whole_plan's. Raises InputError."""
-    require_prefix(prefix, language)
+    kernel.require_prefix(prefix, language)
     dialect = DIALECTS[language]
     searched = any(isinstance(stages.last, DualSearch) for stages in plan.settings)
     shapes = _shapes(plan, dialect)
     parts = {
         "header": whole_header(plan, scene, command, dialect.comment),
         "prefix": prefix,
-        **prologue(dialect),
+        **kernel.prologue(dialect),
         "number": dialect.number_of(plan.format.name),
         "round": "Math.fround" if plan.format.name == "float32" else "Number",
-        "search": search_text(plan, dialect) if searched else "",
+        "search": kernel.search_text(plan, dialect) if searched else "",
         "tables": "\n\n".join(_tables(scene, plan, shapes, searched, dialect)),
         "shapes": ("\n\n\n" if language == "python" else "\n\n").join(shapes.texts),
         "cases": "\n".join(_TABLES[language]["case"].format(place=place) for place in range(len(shapes.texts))),
@@ -185,7 +180,7 @@ def whole(scene: SceneModel, plan: ScenePlan, language: str, command: Sequence[s
         "yes": str(POSITION_OF.get(scene.question, NO_POSITION)),
         "radian": repr(radians(1.0)),
         "constants": ", ".join(f"constants_{place}" for place in range(len(shapes.texts))) + ",",
-        "description": description_in_language(description(plan, language), language, prefix),
+        "description": kernel.description_in_language(kernel.description(plan, language), language, prefix),
     }
     return dialect.filled("whole", parts).strip("\n") + "\n"
 

@@ -17,17 +17,12 @@ from pathlib import Path
 
 from hypcheck.geometry.pair import Position
 from hypcheck.paper.derive.selection import Selection
+from hypcheck.paper.ledger import statements
 from hypcheck.paper.ledger.book import entries
 from hypcheck.paper.ledger.checks import by_12
 from hypcheck.paper.ledger.counts import figures
 from hypcheck.paper.ledger.entry import LedgerEntry
 from hypcheck.paper.ledger.points import LeaningWitness, PointFacts, PointWitness
-from hypcheck.paper.ledger.statements import (
-    Quadcopter,
-    cleared_by_its_rotors,
-    part_beyond_the_wall,
-    refused_though_inside,
-)
 from hypcheck.paper.tower import PRINTED
 from hypcheck.tables.streams import replace_output
 from hypcheck.version import VERSION
@@ -88,10 +83,10 @@ def _quadcopters(ledger: dict[str, LedgerEntry]) -> dict[str, str]:
         "rotor-arm": f"${rotor.point.r}$",
         **_named("hull", hull),
         **_named("low-hull", low),
-        **_sizes("low", refused_though_inside(low)),
+        **_sizes("low", statements.refused_though_inside(low)),
         **_named("crossing", crossing.facts),
-        **_sizes("crossing", cleared_by_its_rotors(crossing.facts)),
-        "crossing-part": _point(part_beyond_the_wall(crossing)),
+        **_sizes("crossing", statements.cleared_by_its_rotors(crossing.facts)),
+        "crossing-part": _point(statements.part_beyond_the_wall(crossing)),
     }
 
 
@@ -108,7 +103,7 @@ def _named(name: str, facts: PointFacts, shown: PointFacts | None = None) -> dic
     return {name: pair, f"{name}-numbers": f"{first}, {second} and {third}"}
 
 
-def _sizes(name: str, quadcopter: Quadcopter | None) -> dict[str, str]:
+def _sizes(name: str, quadcopter: statements.Quadcopter | None) -> dict[str, str]:
     if quadcopter is None:
         raise ValueError(f"{name}: the ledger's witness has no quadcopter")
     return {f"{name}-size": f"${quadcopter.size}$", f"{name}-arm": f"${quadcopter.arm}$"}

@@ -16,45 +16,8 @@ from hypcheck.derivation.links import known
 from hypcheck.derivation.pencil import read, symbol
 from hypcheck.derivation.printed_equations import check, equality, printed_claims
 from hypcheck.geometry.pair import UPRIGHT, Pair, Position
-from hypcheck.paper.ledger.counts import (
-    columns_fall,
-    directions_of_rotors,
-    discriminant_falls_at_each_height,
-    discriminant_is_no_distance,
-    discriminants_closest_to_zero,
-    divisions_of_table_2,
-    equal_steps,
-    greatest_share,
-    operations_of_roots,
-    operations_of_the_sizes,
-    rows_fall,
-    second_row_read_as_a_quarter,
-    share_of_discriminants,
-)
+from hypcheck.paper.ledger import counts, points, statements
 from hypcheck.paper.ledger.entry import Evidence, by_printed, described, signs, with_counterexample
-from hypcheck.paper.ledger.points import (
-    LARGEST,
-    PointFacts,
-    Rational,
-    SquaredRatios,
-    Statement,
-    coefficients,
-    first_change,
-    quadcopter_pairs,
-    rational,
-    with_c2,
-)
-from hypcheck.paper.ledger.statements import (
-    exterior,
-    interior,
-    printed_interior,
-    refused_for_a_zero_coefficient,
-    refused_though_the_hull_is_in_contact,
-    tall,
-    three_positive,
-    valid_though_the_body_meets_the_wall,
-    wider,
-)
 from hypcheck.proofs.build import pattern_table
 from hypcheck.truth import exact
 from hypcheck.truth.certificate import check_certificate
@@ -111,11 +74,11 @@ def _meaning(kind: Kind) -> str:
 
 
 REMARK_4 = (
-    (SquaredRatios("1", "3", "9/32", "175/32"), SquaredRatios("2/5", "15/2", "147/1580", "44/79")),
+    (points.SquaredRatios("1", "3", "9/32", "175/32"), points.SquaredRatios("2/5", "15/2", "147/1580", "44/79")),
     ("-3/4", "-1/2", "8"),
 )
 REMARK_6 = (
-    (SquaredRatios("12/5", "5/2", "1683/245", "3/98"), SquaredRatios("12", "1/2", "91/5", "3/10")),
+    (points.SquaredRatios("12/5", "5/2", "1683/245", "3/98"), points.SquaredRatios("12", "1/2", "91/5", "3/10")),
     ("1", "2", "3"),
 )
 """Two pairs each, the first in the clear and the second in contact, and the roots of the g that both have."""
@@ -132,22 +95,22 @@ def same_cubic_of_exterior_and_contact() -> Evidence:
 
 
 def _same_cubic(
-    case: tuple[tuple[SquaredRatios, SquaredRatios], tuple[str, str, str]],
+    case: tuple[tuple[points.SquaredRatios, points.SquaredRatios], tuple[str, str, str]],
     clear: Position,
-    regime: Callable[[SquaredRatios], bool],
+    regime: Callable[[points.SquaredRatios], bool],
 ) -> Evidence:
     """Two pairs of a regime with the same g, one in the clear and one in contact: no function of g tells which."""
     pairs, roots = case
     first, second, third = map(Fraction, roots)
     expected = (-(first + second + third), first * second + first * third + second * third, -first * second * third)
-    holds = all(regime(pair) and coefficients(pair) == expected for pair in pairs)
+    holds = all(regime(pair) and points.coefficients(pair) == expected for pair in pairs)
     positions = tuple(_position_by_roots(first, second, pair) for pair in pairs)
     labels = "; ".join(f"{pair}: {position.label}" for pair, position in zip(pairs, positions, strict=True))
     text = f"g = (λ − {first})(λ − {second})(λ − {third}) for {labels}".replace("− -", "+ ").replace("-", "−")
     return Evidence("identity", text, holds and positions == (clear, Position.CONTACT))
 
 
-def _position_by_roots(low: Fraction, high: Fraction, pair: SquaredRatios) -> Position:
+def _position_by_roots(low: Fraction, high: Fraction, pair: points.SquaredRatios) -> Position:
     """The position of a pair whose g has these two least roots: g > 0 between them, and above the third.
 
     The third is at least B, so only these matter (docs/mathematics.md, "The rule that needs no hypothesis").
@@ -158,30 +121,34 @@ def _position_by_roots(low: Fraction, high: Fraction, pair: SquaredRatios) -> Po
 
 
 @cache
-def _c2_of_12() -> Rational:
+def _c2_of_12() -> points.Rational:
     """The coefficient of λ² that (12) prints, in a, c, x_c, y_c and z_c."""
     (claim,) = (claim for claim in printed_claims() if claim.number == "12")
     ((right, _),) = claim.pairs
     letters = (pencil.SMALL_A, pencil.SMALL_C, pencil.XC, pencil.YC, pencil.ZC)
-    return rational(letters, sympy.Poly(right, pencil.LAMBDA).coeff_monomial(pencil.LAMBDA**2))
+    return points.rational(letters, sympy.Poly(right, pencil.LAMBDA).coeff_monomial(pencil.LAMBDA**2))
 
 
-def by_12(facts: PointFacts) -> PointFacts:
+def by_12(facts: points.PointFacts) -> points.PointFacts:
     """The facts of a pair if g were what (12) prints; the position stays what it is."""
     point = facts.point
-    return with_c2(facts, _c2_of_12()(point.a, point.c, point.r, 0, point.z))
+    return points.with_c2(facts, _c2_of_12()(point.a, point.c, point.r, 0, point.z))
 
 
 _MISLED_BY_12 = (
-    Statement(
+    points.Statement(
         "by (12) and Proposition 3 as printed exterior ⟹ exterior",
-        tall,
-        lambda facts: exterior(facts) or not (by_12(facts).delta > 0 and three_positive(by_12(facts))),
+        statements.tall,
+        lambda facts: (
+            statements.exterior(facts) or not (by_12(facts).delta > 0 and statements.three_positive(by_12(facts)))
+        ),
     ),
-    Statement(
+    points.Statement(
         "by (12) and Proposition 5 as printed interior ⟹ interior",
-        wider,
-        lambda facts: interior(facts) or not (by_12(facts).delta > 0 and printed_interior(by_12(facts))),
+        statements.wider,
+        lambda facts: (
+            statements.interior(facts) or not (by_12(facts).delta > 0 and statements.printed_interior(by_12(facts)))
+        ),
     ),
 )
 
@@ -286,10 +253,10 @@ def tilted_spheroid_is_another() -> Evidence:
 def changed_by_leaning() -> Evidence:
     """Simplest pairs in the regime of Procedures 2.a and 2.b whose position is another once they are tilted."""
     searches = (
-        first_change(
+        points.first_change(
             Position.INTERIOR, Position.CONTACT, "dangerous: the upright body is clear, the tilted one is not"
         ),
-        first_change(
+        points.first_change(
             Position.CONTACT, Position.INTERIOR, "needless: the upright body is refused, the tilted one is clear"
         ),
     )
@@ -318,13 +285,13 @@ def missed_by_the_centres_height() -> Evidence:
 
 
 def _above_the_end() -> Pair:
-    pairs = (_ending(row, row[6] - 1) for row in quadcopter_pairs(LARGEST))
+    pairs = (_ending(row, row[6] - 1) for row in points.quadcopter_pairs(points.LARGEST))
     decided = ((pair, exact.decide(pair.lengths)) for pair in pairs)
     return next(pair for pair, decision in decided if decision.position is Position.CONTACT and not decision.tangent)
 
 
 def _below_the_end() -> Pair:
-    pairs = (_ending((*row[:6], -row[6]), -row[6]) for row in quadcopter_pairs(LARGEST))
+    pairs = (_ending((*row[:6], -row[6]), -row[6]) for row in points.quadcopter_pairs(points.LARGEST))
     return next(
         pair
         for pair in pairs
@@ -345,16 +312,18 @@ def _with_end(pair: Pair) -> str:
 
 
 CHECKS: dict[str, Callable[[], Evidence]] = {
-    each.__name__: each
-    for each in (
+    check.__name__: check
+    for check in (
         discriminant_and_coefficients, listed_patterns, patterns_in_coq, same_cubic_of_interior_and_contact,
         same_cubic_of_exterior_and_contact, misled_by_12, regime_of_section_4, roots_of_f, scaling_of_the_spheroid,
         mirrored_cubic, constant_of_the_cubic, squares_of_t1_and_t2, radius_at_a_height, probabilities,
-        spheroid_after_a_turn, tilted_spheroid, tilted_spheroid_is_another, changed_by_leaning, divisions_of_table_2,
-        operations_of_the_sizes, operations_of_roots, directions_of_rotors, share_of_discriminants,
-        discriminants_closest_to_zero, discriminant_is_no_distance, discriminant_falls_at_each_height, greatest_share,
-        rows_fall, columns_fall, equal_steps, second_row_read_as_a_quarter, refused_for_a_zero_coefficient,
-        refused_though_the_hull_is_in_contact, valid_though_the_body_meets_the_wall, missed_by_the_centres_height,
+        spheroid_after_a_turn, tilted_spheroid, tilted_spheroid_is_another, changed_by_leaning,
+        counts.divisions_of_table_2, counts.operations_of_the_sizes, counts.operations_of_roots,
+        counts.directions_of_rotors, counts.share_of_discriminants, counts.discriminants_closest_to_zero,
+        counts.discriminant_is_no_distance, counts.discriminant_falls_at_each_height, counts.greatest_share,
+        counts.rows_fall, counts.columns_fall, counts.equal_steps, counts.second_row_read_as_a_quarter,
+        statements.refused_for_a_zero_coefficient, statements.refused_though_the_hull_is_in_contact,
+        statements.valid_though_the_body_meets_the_wall, missed_by_the_centres_height,
     )
 }  # fmt: skip
 """By the names that claims.toml has."""

@@ -14,20 +14,14 @@ from typing import Any
 
 import numpy as np
 
-from hypcheck.derivation.formulas import (
-    FORMULAS,
-    ROOTS_TRIGONOMETRIC,
-    cost_of,
-    discriminant_share,
-    loop_as_printed,
-)
+from hypcheck.derivation import formulas
 from hypcheck.paper.ledger.entry import Evidence
 from hypcheck.paper.ledger.points import SquaredRatios, discriminant
 from hypcheck.paper.tower import PRINTED, SPEEDS, TIMES
 
 Floats = np.ndarray[Any, np.dtype[np.float64]]
 
-_TABLE_2, _COSINES = cost_of(FORMULAS["table-2"]), cost_of(ROOTS_TRIGONOMETRIC)
+_TABLE_2, _COSINES = formulas.cost_of(formulas.FORMULAS["table-2"]), formulas.cost_of(formulas.ROOTS_TRIGONOMETRIC)
 
 
 def divisions_of_table_2() -> Evidence:
@@ -39,7 +33,7 @@ def divisions_of_table_2() -> Evidence:
 
 def operations_of_the_sizes() -> Evidence:
     """Evidence that more could leave the loop of Table 2 than what it prints before it."""
-    scene, left = _TABLE_2.scene.rounded, loop_as_printed().rounded - _TABLE_2.query.rounded
+    scene, left = _TABLE_2.scene.rounded, formulas.loop_as_printed().rounded - _TABLE_2.query.rounded
     return Evidence("count", f"{scene} operations depend on the sizes alone", 0 < left < scene)
 
 
@@ -52,15 +46,15 @@ def operations_of_roots() -> Evidence:
 
 def directions_of_rotors() -> Evidence:
     """Evidence that one cosine and one sine serve all rotors."""
-    formula = FORMULAS["procedure-2a"]
-    angles, cost = [name for name in formula.program.inputs if name in {"cosine", "sine"}], cost_of(formula)
+    formula = formulas.FORMULAS["procedure-2a"]
+    angles, cost = [name for name in formula.program.inputs if name in {"cosine", "sine"}], formulas.cost_of(formula)
     text = f"{len(angles)} inputs tell the direction of four rotors, and no step takes a cosine"
     return Evidence("count", text, len(angles) == 2 and cost.scene.functions + cost.query.functions == 0)
 
 
 def share_of_discriminants() -> Evidence:
     """Evidence that more than half of Procedure 2.a's operations are those of discriminants; the half is ours."""
-    share, whole = discriminant_share()
+    share, whole = formulas.discriminant_share()
     return Evidence("count", f"{share} of {whole} is more than half", 2 * share > whole)
 
 
@@ -198,13 +192,13 @@ BENCH = {
 @cache
 def figures() -> dict[str, str]:
     """The numbers that sentences of claims.toml have in braces."""
-    share, whole = discriminant_share()
+    share, whole = formulas.discriminant_share()
     numbers = {
         "query": _TABLE_2.query.rounded,
         "divisions": _TABLE_2.query.divisions,
         "scene_divisions": _TABLE_2.scene.divisions,
-        "loop": loop_as_printed().rounded,
-        "could_leave": loop_as_printed().rounded - _TABLE_2.query.rounded,
+        "loop": formulas.loop_as_printed().rounded,
+        "could_leave": formulas.loop_as_printed().rounded - _TABLE_2.query.rounded,
         "cosines": _COSINES.query.functions,
         "by_cosines": _COSINES.query.rounded,
         "of_discriminants": share,

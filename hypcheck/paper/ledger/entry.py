@@ -11,16 +11,7 @@ from hypcheck.derivation.chain_book import chains, proved
 from hypcheck.derivation.formulas import Formula
 from hypcheck.derivation.links import known, printed
 from hypcheck.derivation.proofs import proofs_of
-from hypcheck.paper.ledger.points import (
-    Condition,
-    LeaningWitness,
-    PointFacts,
-    PointWitness,
-    Search,
-    Statement,
-    counterexample,
-    witness,
-)
+from hypcheck.paper.ledger import points
 from hypcheck.proofs.build import proves
 
 PROVED, DEFINITION, MISPRINT, FALSE, QUESTION, NOT_CHECKABLE = VERDICTS = (
@@ -49,9 +40,9 @@ class Evidence:
     kind: str
     text: str
     holds: bool
-    witnesses: tuple[PointWitness, ...] = ()
+    witnesses: tuple[points.PointWitness, ...] = ()
     chain: str = ""
-    leaning: tuple[LeaningWitness, ...] = ()
+    leaning: tuple[points.LeaningWitness, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -141,41 +132,41 @@ def by_programs(*formulas: Formula) -> Evidence:
     return Evidence("programs", text, bool(proofs) and all(proof.holds for proof in proofs))
 
 
-def without_counterexample(statement: Statement) -> Evidence:
+def without_counterexample(statement: points.Statement) -> Evidence:
     """Evidence that no point of the whole space contradicts the statement."""
-    search = counterexample(statement)
+    search = points.counterexample(statement)
     return Evidence(
         "search", f"no counterexample among {search.tried:,} pairs", search.found is None and search.tried > 0
     )
 
 
-def harmless_where(statement: Statement, where: Condition) -> Evidence:
+def harmless_where(statement: points.Statement, where: points.Condition) -> Evidence:
     """Evidence that no point at which `where` holds contradicts a statement that is false elsewhere."""
     evidence = without_counterexample(replace(statement, where=lambda facts: statement.where(facts) and where(facts)))
     return replace(evidence, text=f"harmless there: {evidence.text}")
 
 
-def with_counterexample(*statements: Statement) -> Evidence:
+def with_counterexample(*statements: points.Statement) -> Evidence:
     """Evidence that each statement is false: the simplest point which contradicts it, its position certified."""
-    searches = [(statement, counterexample(statement)) for statement in statements]
+    searches = [(statement, points.counterexample(statement)) for statement in statements]
     return _found([(search, f"contradicts: {statement.text}") for statement, search in searches])
 
 
-def _found(searches: list[tuple[Search[PointFacts], str]]) -> Evidence:
-    witnesses = tuple(witness(search.found, shows) for search, shows in searches if search.found is not None)
+def _found(searches: list[tuple[points.Search[points.PointFacts], str]]) -> Evidence:
+    witnesses = tuple(points.witness(search.found, shows) for search, shows in searches if search.found is not None)
     tried = [search.tried for search, _ in searches]
     holds = len(witnesses) == len(searches) > 0 and all(each.holds for each in witnesses)
     text = "; ".join(described(each.facts) for each in witnesses) or f"nothing found among {sum(tried):,} pairs"
     return Evidence("search", text, holds, witnesses)
 
 
-def described(facts: PointFacts) -> str:
+def described(facts: points.PointFacts) -> str:
     """A point, its position and its numbers: "a = 1, c = 2, C = (5/2, 0, 0): exterior, Δ = 0, c2 = −33/4, c1 = 18"."""
     point = facts.point
     text = f"a = {point.a}, c = {point.c}, C = ({point.r}, 0, {point.z}): {facts.position.label}, {signs(facts)}"
     return text.replace("-", "−")
 
 
-def signs(facts: PointFacts) -> str:
+def signs(facts: points.PointFacts) -> str:
     """The numbers whose signs the propositions ask for: "Δ = 0, c2 = −33/4, c1 = 18"."""
     return f"Δ = {facts.delta}, c2 = {facts.c2}, c1 = {facts.c1}".replace("-", "−")

@@ -20,30 +20,9 @@ from matplotlib.transforms import Bbox
 
 from hypcheck.messages import escaped
 from hypcheck.record import Record
-from hypcheck.report.measured import (
-    BATCH,
-    TIERS,
-    WayTotal,
-    lost,
-    measured_methods,
-    principal,
-    way_totals,
-    workloads,
-)
+from hypcheck.report import measured
 from hypcheck.report.messages import figure
-from hypcheck.report.plots.style import (
-    DASHES,
-    MARKERS,
-    WIDTH,
-    Mark,
-    Plot,
-    colour,
-    decades,
-    draw_marks,
-    log_axis,
-    new_figure,
-    power_of_ten,
-)
+from hypcheck.report.plots import style
 
 _PLACES = (
     (7, 0, "left", "center"),
@@ -128,7 +107,14 @@ def place_labels(
 def _leader(across: str, upward: str) -> dict[str, Any]:
     """The line from the corner of a name that stands farther away to its point."""
     corner = (0.0 if across == "left" else 1.0, 0.0 if upward == "bottom" else 1.0)
-    return {"arrowstyle": "-", "relpos": corner, "linewidth": 0.7, "color": colour("soft"), "shrinkA": 0, "shrinkB": 3}
+    return {
+        "arrowstyle": "-",
+        "relpos": corner,
+        "linewidth": 0.7,
+        "color": style.colour("soft"),
+        "shrinkA": 0,
+        "shrinkB": 3,
+    }
 
 
 def _within(box: Any, outer: Any) -> bool:  # noqa: ANN401 - matplotlib's boxes
@@ -146,7 +132,7 @@ class MethodMark:
     name: str
     tier: str
     exact: bool
-    mark: Mark
+    mark: style.Mark
     shown: bool = True
 
 
@@ -155,25 +141,25 @@ def _draw_methods(axes: Axes, name: str, methods: Sequence[MethodMark]) -> dict[
     exact = [method.mark for method in methods if method.exact]
     axes.plot([mark.x for mark in exact], [mark.y for mark in exact], **RING)
     tips: dict[str, list[str]] = {}
-    for number, tier in reversed(list(enumerate(TIERS))):
+    for number, tier in reversed(list(enumerate(measured.TIERS))):
         for shown in (True, False):
             mine = [method.mark for method in methods if (method.tier, method.shown) == (tier, shown)]
-            tips |= draw_marks(axes, f"{name}-{number}-{shown}", mine, **_mark_style(number, shown=shown))
+            tips |= style.draw_marks(axes, f"{name}-{number}-{shown}", mine, **_mark_style(number, shown=shown))
     return tips
 
 
 def _mark_style(number: int, *, shown: bool) -> dict[str, Any]:
     """The mark of a tier, by its number; hollow if too few answers were judged to show 1 wrong in 1000."""
-    own = colour(f"series-{number + 1}")
-    face = own if shown else colour("surface")
-    return {"marker": MARKERS[number], "markersize": 6, "markeredgecolor": own, "markerfacecolor": face}
+    own = style.colour(f"series-{number + 1}")
+    face = own if shown else style.colour("surface")
+    return {"marker": style.MARKERS[number], "markersize": 6, "markeredgecolor": own, "markerfacecolor": face}
 
 
 RING: dict[str, Any] = {
     "marker": "o",
     "markersize": 10.5,
     "markerfacecolor": "none",
-    "markeredgecolor": colour("ink"),
+    "markeredgecolor": style.colour("ink"),
     "markeredgewidth": 0.9,
     "linestyle": "none",
 }
@@ -184,7 +170,7 @@ def _legend(drawn: Figure, methods: Sequence[MethodMark], *others: Line2D) -> No
     """The tiers above the axes; below them the other entries, the ring and the hollow marks."""
     handles = [
         Line2D([], [], linestyle="none", label=tier, **_mark_style(number, shown=True))
-        for number, tier in enumerate(TIERS)
+        for number, tier in enumerate(measured.TIERS)
         if any(method.tier == tier for method in methods)
     ]
     drawn.legend(handles=handles, loc="outside upper left", ncols=5, handlelength=1.2)
@@ -192,7 +178,7 @@ def _legend(drawn: Figure, methods: Sequence[MethodMark], *others: Line2D) -> No
     if any(method.exact for method in methods):
         below.append(Line2D([], [], label="ringed: promises never to be wrong", **RING))
     if not all(method.shown for method in methods):
-        soft: dict[str, Any] = {"markeredgecolor": colour("soft"), "markerfacecolor": colour("surface")}
+        soft: dict[str, Any] = {"markeredgecolor": style.colour("soft"), "markerfacecolor": style.colour("surface")}
         few = f"hollow: under {ENOUGH:,} answers judged, too few to show 1 in 1000"
         below.append(Line2D([], [], linestyle="none", marker="o", markersize=6, label=few, **soft))
     if below:
@@ -229,9 +215,9 @@ class ParetoPoint:
 def points(record: Record, workload: str, *, everywhere: bool = False) -> list[ParetoPoint]:
     """The methods that were judged and timed on the workload; `everywhere`: with the errors of all workloads."""
     marks = []
-    for method in measured_methods(record):
-        speed, here = method.speed.get((workload, BATCH)), method.accuracy.get(workload)
-        if speed is None or lost(speed) or here is None:
+    for method in measured.measured_methods(record):
+        speed, here = method.speed.get((workload, measured.BATCH)), method.accuracy.get(workload)
+        if speed is None or measured.lost(speed) or here is None:
             continue
         errors = method if everywhere else here
         reliable_above, time_ns = errors.reliable_above, speed.median_ns
@@ -250,24 +236,24 @@ def front(candidates: Sequence[ParetoPoint]) -> list[ParetoPoint]:
     return kept
 
 
-def pareto_plots(record: Record) -> Iterator[Plot]:
+def pareto_plots(record: Record) -> Iterator[style.Plot]:
     """A plot for each timed workload, but not the one in `front_plots` if there are others."""
-    found_on = {name: methods for name in workloads(record) if (methods := points(record, name))}
-    for place, (name, line) in enumerate(workloads(record).items()):
+    found_on = {name: methods for name in measured.workloads(record) if (methods := points(record, name))}
+    for place, (name, line) in enumerate(measured.workloads(record).items()):
         methods = found_on.get(name, [])
-        if methods and (name != principal(record) or len(found_on) == 1):
+        if methods and (name != measured.principal(record) or len(found_on) == 1):
             yield _plot(f"pareto-{place}", f"Error against run time, {line.title}", methods)
 
 
-def front_plots(record: Record) -> Iterator[Plot]:
+def front_plots(record: Record) -> Iterator[style.Plot]:
     """Two plots with names where there is room: the workload near contact, and the worst of all workloads.
 
     Of a benchmark of sweeps: missed contacts, and false contacts.
     """
-    if way_totals(record):
+    if measured.way_totals(record):
         yield from _way_plots(record)
         return
-    known, name = workloads(record), principal(record)
+    known, name = measured.workloads(record), measured.principal(record)
     near, everywhere = points(record, name), points(record, name, everywhere=True)
     if near:
         where = known[name].title
@@ -275,37 +261,37 @@ def front_plots(record: Record) -> Iterator[Plot]:
         yield _plot("front-all", f"On the worst of {len(known)} workloads", everywhere, 400, timed=where)
 
 
-def _plot(name: str, title: str, methods: Sequence[ParetoPoint], height: float = 375, timed: str = "") -> Plot:
+def _plot(name: str, title: str, methods: Sequence[ParetoPoint], height: float = 375, timed: str = "") -> style.Plot:
     """A plot with names along the front and of the user's methods, or with all if they are few; others have tooltips.
 
     `timed` names the workload of the times if the title does not.
     """
-    drawn = new_figure(WIDTH, height)
+    drawn = style.new_figure(style.WIDTH, height)
     axes = drawn.subplots()
     best = front(methods)
     heights = _axes(axes, methods, timed)
     steps = _steps(best, heights, axes.get_xlim()[1])
     for (x0, y0), (x1, y1) in steps:
-        axes.plot((x0, x1), (y0, y1), color=colour("soft"), linewidth=1.2, linestyle=DASHES[1], zorder=1.5)
+        axes.plot((x0, x1), (y0, y1), color=style.colour("soft"), linewidth=1.2, linestyle=style.DASHES[1], zorder=1.5)
     marks = [
         MethodMark(
             method.name,
             method.tier,
             method.exact,
-            Mark(method.time_ns, heights[method.reliable_above], method.tip),
+            style.Mark(method.time_ns, heights[method.reliable_above], method.tip),
             method.shown,
         )
         for method in methods
     ]
     tips = _draw_methods(axes, name, marks)
-    _legend(drawn, marks, Line2D([], [], color=colour("soft"), linestyle=DASHES[1], label=_UNBEATEN))
+    _legend(drawn, marks, Line2D([], [], color=style.colour("soft"), linestyle=style.DASHES[1], label=_UNBEATEN))
     important = sorted(methods, key=lambda point: (not point.foreign, point not in best, point.time_ns))
     first = sum(point.foreign or point in best for point in methods)
     names = [point.label if place < first or len(methods) <= _FEW else None for place, point in enumerate(important)]
     places = [(point.time_ns, heights[point.reliable_above]) for point in important]
     place_labels(axes, places, names, steps, first)
     description = f"The front, from the fastest: {'; '.join(point.tip for point in best)}."
-    return Plot(name, title, description, drawn, tips)
+    return style.Plot(name, title, description, drawn, tips)
 
 
 _FEW = 10
@@ -322,19 +308,19 @@ def _axes(axes: Axes, methods: Sequence[ParetoPoint], timed: str) -> dict[float,
     never, always = low - 0.1 * span, high + 0.1 * span
     heights = {0.0: never, math.inf: always}
     heights |= {p.reliable_above: math.log10(p.reliable_above) for p in methods if 0 < p.reliable_above < math.inf}
-    ticks = [(float(k), power_of_ten(k)) for k in decades(10.0**low, 10.0**high)]
+    ticks = [(float(k), style.power_of_ten(k)) for k in style.decades(10.0**low, 10.0**high)]
     if any(point.reliable_above == 0 for point in methods):
         ticks.insert(0, (never, "none wrong"))
-        axes.axhspan(never - 0.06 * span, never + 0.05 * span, color=colour("rule"), alpha=0.45, linewidth=0)
+        axes.axhspan(never - 0.06 * span, never + 0.05 * span, color=style.colour("rule"), alpha=0.45, linewidth=0)
     if any(point.reliable_above == math.inf for point in methods):
         ticks.append((always, "at no distance"))
-        axes.axhspan(always - 0.05 * span, always + 0.06 * span, color=colour("rule"), alpha=0.45, linewidth=0)
+        axes.axhspan(always - 0.05 * span, always + 0.06 * span, color=style.colour("rule"), alpha=0.45, linewidth=0)
     axes.set_yticks([height for height, _ in ticks], [label for _, label in ticks])
     axes.set_ylim(ticks[0][0] - 0.08 * span, ticks[-1][0] + 0.08 * span)
     axes.set_ylabel("reliable beyond this distance (share of the size)")
     times = [point.time_ns for point in methods]
     least, most = min(times) / 2, max(times) * 3
-    log_axis(axes, "x", least, most)
+    style.log_axis(axes, "x", least, most)
     axes.set_xlabel(f"nanoseconds a query in a batch{', ' if timed else ''}{escaped(timed, 18)}")
     return heights
 
@@ -360,29 +346,33 @@ _LEAST = 0.01
 """The axis of shares goes at least to 1 %."""
 
 
-def _way_plots(record: Record) -> Iterator[Plot]:
+def _way_plots(record: Record) -> Iterator[style.Plot]:
     """Missed contacts, then false contacts, of all workloads together; the time is that of the principal one."""
-    timed = [(total, total.time_ns / 1000) for total in way_totals(record) if total.time_ns is not None]
+    timed = [(total, total.time_ns / 1000) for total in measured.way_totals(record) if total.time_ns is not None]
     if timed:
-        where = str(workloads(record)[principal(record)].title)
+        where = str(measured.workloads(record)[measured.principal(record)].title)
         yield _way_plot("front-missed", "Missed contacts", timed, where, lambda total: total.missed)
         yield _way_plot("front-false", "False contacts", timed, where, lambda total: total.false)
 
 
 def _way_plot(
-    name: str, title: str, timed: Sequence[tuple[WayTotal, float]], where: str, mistakes: Callable[[WayTotal], int]
-) -> Plot:
+    name: str,
+    title: str,
+    timed: Sequence[tuple[measured.WayTotal, float]],
+    where: str,
+    mistakes: Callable[[measured.WayTotal], int],
+) -> style.Plot:
     """A plot of the share of these mistakes against microseconds."""
-    drawn = new_figure(WIDTH, HEIGHT)
+    drawn = style.new_figure(style.WIDTH, HEIGHT)
     axes = drawn.subplots()
     marks = []
     for method, time in timed:
         share = method.share(mistakes(method))
         tip = f"{method.name}, {figure(time)} µs, {figure(100 * share)} % of {method.asked:,}"
-        marks.append(MethodMark(method.name, method.tier, method.exact, Mark(time, share, tip)))
+        marks.append(MethodMark(method.name, method.tier, method.exact, style.Mark(time, share, tip)))
     most = max(_LEAST, *(method.mark.y for method in marks))
     times = [method.mark.x for method in marks]
-    log_axis(axes, "x", min(times) / 2, max(times) * 3)
+    style.log_axis(axes, "x", min(times) / 2, max(times) * 3)
     axes.set_ylim(-(_ABOVE - 1) * most, _ABOVE * most)
     axes.yaxis.set_major_formatter(lambda value, _: f"{100 * value:g} %" if value >= 0 else "")
     axes.set_xlabel(f"µs a sweep in a batch, {escaped(where, 40)}")
@@ -393,4 +383,4 @@ def _way_plot(
     names = [escaped(method.name.removeprefix("passage-"), 28) for method in by_need]
     place_labels(axes, [method.mark[:2] for method in by_need], names)
     description = f"{title}, of all sweeps that a method was asked: {'; '.join(method.mark.tip for method in by_need)}."
-    return Plot(name, title, description, drawn, tips)
+    return style.Plot(name, title, description, drawn, tips)

@@ -8,17 +8,9 @@ from collections.abc import Iterator, Sequence
 from msgspec import UNSET
 
 from hypcheck.implementations.description import QUESTIONS
-from hypcheck.record import Record
+from hypcheck.record import Record, measurements
 from hypcheck.record.fields import numbers_of
 from hypcheck.record.lines import FaultPart, GroupLine, WrongAnswer
-from hypcheck.record.measurements import (
-    AccuracyLine,
-    BoundingLine,
-    ConvergenceLine,
-    PlacesLine,
-    SpeedLine,
-    StabilityLine,
-)
 from hypcheck.report.document import (
     NONE,
     Block,
@@ -202,11 +194,11 @@ _PLACES = tuple((role, words) for words, role in MISTAKES.values())
 
 def error_sections(record: Record) -> Iterator[Section]:
     """The errors of a benchmark's methods: by distance, by workload, by size and by place."""
-    if record.of(AccuracyLine):
+    if record.of(measurements.AccuracyLine):
         about_ways = list(way_sections(record))
         yield from about_ways
         blocks: tuple[Block, ...] = (Paragraph(_FRONT), FRONT, PARETO)
-        if record.of(SpeedLine) and not about_ways:
+        if record.of(measurements.SpeedLine) and not about_ways:
             yield Section("Error against run time", blocks)
         others = Details("On the other workloads, the methods that are wrong there", (Figures("other-errors"),))
         distance = _SIZE_DISTANCE if about_ways else _WORKLOAD_DISTANCE
@@ -229,7 +221,7 @@ def _workload_table(record: Record) -> Block:
     return table("wrong answers by workload", columns, rows)
 
 
-def _workload_row(line: AccuracyLine) -> Row:
+def _workload_row(line: measurements.AccuracyLine) -> Row:
     worst = max(line.worst, key=lambda case: case.flip_distance, default=None)
     reliable = line.reliable_above
     return (
@@ -245,14 +237,15 @@ def _workload_row(line: AccuracyLine) -> Row:
 
 
 def _maps(record: Record) -> Iterator[Section]:
-    if record.of(StabilityLine):
+    if record.of(measurements.StabilityLine):
         words = "Share of wrong answers over the sizes of the bodies, α/b across and γ/d up, in half decades."
         figures = Figures("stability", small=True, legend=HEAT)
         never = _never_wrong(
-            "Wrong nowhere: ", [stability_title(line) for line in record.of(StabilityLine) if not is_unstable(line)]
+            "Wrong nowhere: ",
+            [stability_title(line) for line in record.of(measurements.StabilityLine) if not is_unstable(line)],
         )
         yield Section("Stability", (Paragraph(words), figures, never), page=True)
-    places = record.of(PlacesLine)
+    places = record.of(measurements.PlacesLine)
     if places:
         wrong = {line.method for line in places if is_wrong_somewhere(line)}
         words = "Grid points of the half plane, distance from the axis across and height up, in metres."
@@ -280,14 +273,16 @@ _BOUNDS = prose(
 
 def peer_sections(record: Record) -> Iterator[Section]:
     """The price of meshes and bounding volumes, in answers and in time."""
-    if record.of(ConvergenceLine):
-        yield Section("Meshes", (Paragraph(_MESHES), Figures("convergence"), _meshes(record.of(ConvergenceLine))))
-    if record.of(BoundingLine):
-        lines = record.of(BoundingLine)
+    if record.of(measurements.ConvergenceLine):
+        yield Section(
+            "Meshes", (Paragraph(_MESHES), Figures("convergence"), _meshes(record.of(measurements.ConvergenceLine)))
+        )
+    if record.of(measurements.BoundingLine):
+        lines = record.of(measurements.BoundingLine)
         yield Section("Bounding volumes", (Paragraph(_BOUNDS), Figures("bounding"), _bounds(lines), _overlaps(lines)))
 
 
-def _meshes(lines: list[ConvergenceLine]) -> TableBlock:
+def _meshes(lines: list[measurements.ConvergenceLine]) -> TableBlock:
     rows = [
         (
             Code(line.method),
@@ -304,7 +299,7 @@ def _meshes(lines: list[ConvergenceLine]) -> TableBlock:
     return table("meshes", columns, rows)
 
 
-def _bounds(lines: list[BoundingLine]) -> TableBlock:
+def _bounds(lines: list[measurements.BoundingLine]) -> TableBlock:
     rows = [
         (
             line.shape,
@@ -320,7 +315,7 @@ def _bounds(lines: list[BoundingLine]) -> TableBlock:
     return table("bounding volumes", columns, rows)
 
 
-def _overlaps(lines: list[BoundingLine]) -> TableBlock:
+def _overlaps(lines: list[measurements.BoundingLine]) -> TableBlock:
     rows = [
         (
             line.shape,
