@@ -21,7 +21,7 @@ from hypcheck.float_environment import in_default_environment
 from hypcheck.geometry.forms import Answers, points_or_columns
 from hypcheck.geometry.pair import AXIS, CENTER, trouble_with_axis
 from hypcheck.geometry.rows import Floats, Indices, Positions, as_numbers
-from hypcheck.kernel import scene_nearest
+from hypcheck.kernel import scene_nearest, scene_pairs, scene_queries
 from hypcheck.kernel.choice import POSITION_OF
 from hypcheck.kernel.clearance import checked_margin
 from hypcheck.kernel.passages import First, Passages
@@ -36,26 +36,10 @@ from hypcheck.kernel.scene_flights import (
     require_for_each,
     shown_flight,
 )
-from hypcheck.kernel.scene_index import (
-    near_sweeps,
-)
+from hypcheck.kernel.scene_index import near_sweeps
 from hypcheck.kernel.scene_least import Flights, Least, least_distances
 from hypcheck.kernel.scene_nearest import Nearest
-from hypcheck.kernel.scene_pairs import (
-    position_beside,
-    positions_beside,
-    tilted_position,
-    tilted_positions,
-)
 from hypcheck.kernel.scene_prepared import PreparedScene
-from hypcheck.kernel.scene_queries import (
-    are_one,
-    directions,
-    finite_columns,
-    finite_numbers,
-    places_of_parts,
-    sweeps_of,
-)
 from hypcheck.kernel.scene_sweeps import (
     Spheroid,
     Sweep,
@@ -66,8 +50,7 @@ from hypcheck.kernel.scene_sweeps import (
     is_clear,
     point_at_once,
 )
-from hypcheck.pictures.page import ScenePage, page_of
-from hypcheck.pictures.plot import plot_of
+from hypcheck.pictures import ScenePage, page_of, plot_of
 from hypcheck.scene.model import FREE, UPRIGHT, Point, is_tilted
 
 if TYPE_CHECKING:
@@ -115,15 +98,15 @@ class Scene(PreparedScene):
         if margin:
             positions = self._kept_apart(positions, center, heading, axis, margin)
         answers = self._answers(positions)
-        return int(answers[0]) if are_one(center, heading, axis) else answers
+        return int(answers[0]) if scene_queries.are_one(center, heading, axis) else answers
 
     def _positions(self, center: Sequence[ArrayLike], heading: ArrayLike, axis: ArrayLike | None) -> Positions:
         axes = self._axes(axis) if axis is not None or self._is_tilted else ()
         names = (*_ASKED, *AXIS[: len(axes)])
-        columns = finite_columns(names, (*center, heading, *axes))
+        columns = scene_queries.finite_columns(names, (*center, heading, *axes))
         centres = np.stack(columns[:3], axis=1)
         query, body = self._pairs(centres)
-        movers = directions(columns[4:]) if axes else None
+        movers = scene_queries.directions(columns[4:]) if axes else None
         replies = self._replies(query, body, centres, columns[3], movers)
         return _combined(replies, query, len(centres))
 
@@ -162,9 +145,9 @@ class Scene(PreparedScene):
         if y is None or z is None or margin:
             x, y, z = points_or_columns(x, y, z)
         ordinary = axis is None and float is type(x) is type(y) is type(z)
-        if margin or not (ordinary or are_one((x, y, z), heading, axis)):
+        if margin or not (ordinary or scene_queries.are_one((x, y, z), heading, axis)):
             return self.classify(x, y, z, heading, axis=axis, margin=margin)
-        x, y, z, heading = finite_numbers(x, y, z, heading)
+        x, y, z, heading = scene_queries.finite_numbers(x, y, z, heading)
         if axis is not None or self._is_tilted:
             return self._tilted_position((x, y, z), heading, axis)
         mover, answer = self.model.mover, EXTERIOR
@@ -172,7 +155,7 @@ class Scene(PreparedScene):
             body, low, high, inner_low, inner_high = self._body(index)
             if z < low or z > high:  # beyond an end
                 continue
-            reply = position_beside(body, mover.b, mover.d, x, y, z)
+            reply = scene_pairs.position_beside(body, mover.b, mover.d, x, y, z)
             if reply != EXTERIOR and not inner_low <= z <= inner_high:
                 reply = self._with_ends(reply, index, (mover.b, mover.d), (x, y, z), UPRIGHT)
             if reply == CONTACT and mover.parts:
@@ -273,8 +256,8 @@ class Scene(PreparedScene):
         """Straight sweeps, and which pairs of them and of hyperboloids have contact."""
         bodies, mover = self._bodies, self.model.mover
         axes = self._axes(axis) if axis is not None or is_tilted(mover.axis) else ()
-        starts, ends, headings, *columns = sweeps_of(start, end, heading, axes)
-        movers = directions(columns) if columns else None
+        starts, ends, headings, *columns = scene_queries.sweeps_of(start, end, heading, axes)
+        movers = scene_queries.directions(columns) if columns else None
         query, body = near_sweeps(bodies, mover, self.model.region.z, self._grid, self._reaches, starts, ends)
         sizes = np.broadcast_to((mover.b, mover.d), (len(body), 2))
         own = hits_beside(bodies, body, sizes, starts[query], ends[query], None if movers is None else movers[query])
@@ -323,7 +306,7 @@ class Scene(PreparedScene):
         mover, heading = self.model.mover, float(swept.headings[sweep])
         start, end = swept.starts[sweep].tolist(), swept.ends[sweep].tolist()
         axis = UPRIGHT if swept.movers is None else swept.movers[sweep].tolist()
-        places = (places_of_parts(mover.parts, at, heading, axis) for at in (start, end))
+        places = (scene_queries.places_of_parts(mover.parts, at, heading, axis) for at in (start, end))
         parts = [
             (part.b, part.d, Sweep(here, there, axis)) for part, here, there in zip(mover.parts, *places, strict=True)
         ]
@@ -349,10 +332,10 @@ class Scene(PreparedScene):
         mover = self.model.mover
         axes = self._axes(axis) if axis is not None or is_tilted(mover.axis) else ()
         center = points_or_columns(x, y, z)
-        columns = finite_columns((*CENTER, *AXIS[: len(axes)]), (*center, *axes))
-        movers = directions(columns[3:]) if axes else None
+        columns = scene_queries.finite_columns((*CENTER, *AXIS[: len(axes)]), (*center, *axes))
+        movers = scene_queries.directions(columns[3:]) if axes else None
         result = scene_nearest.nearest(self._bodies, mover, np.stack(columns[:3], axis=1), movers)
-        return scene_nearest.first_of(result) if are_one(center, 0, axis) else result
+        return scene_nearest.first_of(result) if scene_queries.are_one(center, 0, axis) else result
 
     def _tilted_position(self, centre: Point, heading: float, axis: ArrayLike | None) -> int:
         """The position where the mover or a hyperboloid is tilted."""
@@ -374,7 +357,7 @@ class Scene(PreparedScene):
     ) -> int:
         """The position of one spheroid with these semi-axes beside a hyperboloid."""
         body = self.model.hyperboloids[index]
-        whole = tilted_position((body.alpha, body.gamma, *semi_axes), centre, body.center, axis, body.axis)
+        whole = scene_pairs.tilted_position((body.alpha, body.gamma, *semi_axes), centre, body.center, axis, body.axis)
         return whole if body.height is None else self._with_ends(whole, index, semi_axes, centre, axis)
 
     def _with_ends(
@@ -424,9 +407,9 @@ class Scene(PreparedScene):
         sizes = np.concatenate([bodies.shapes[body], np.broadcast_to((mover.b, mover.d), (len(body), 2))], axis=1)
         pairs = centres[query], bodies.origins[body]
         if movers is None:
-            result = positions_beside(sizes, *pairs)
+            result = scene_pairs.positions_beside(sizes, *pairs)
         else:
-            result = tilted_positions(sizes, *pairs, movers[query], bodies.axes[body])
+            result = scene_pairs.tilted_positions(sizes, *pairs, movers[query], bodies.axes[body])
         result[beyond] = EXTERIOR
         some = np.flatnonzero(~between & (result != EXTERIOR))
         if len(some):
@@ -442,7 +425,7 @@ class Scene(PreparedScene):
     def _of_parts(self, index: int, centre: Sequence[float], heading: float, mover: Sequence[float]) -> int:
         """The position that all parts of a mover with this axis have in common beside a hyperboloid, else contact."""
         common = CONTACT
-        for number, place in enumerate(places_of_parts(self.model.mover.parts, centre, heading, mover)):
+        for number, place in enumerate(scene_queries.places_of_parts(self.model.mover.parts, centre, heading, mover)):
             part = self.model.mover.parts[number]
             reply = self._of_one(index, (part.b, part.d), place, mover)
             if reply == CONTACT or (number and reply != common):

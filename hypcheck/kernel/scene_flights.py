@@ -24,7 +24,7 @@ from hypcheck.kernel.passages import First, Passages
 from hypcheck.kernel.scene_least import Least
 from hypcheck.kernel.scene_queries import places_of_parts
 from hypcheck.messages import counted
-from hypcheck.pictures.page import ShownContact, ShownFlight
+from hypcheck.pictures import ShownContact, ShownFlight
 from hypcheck.scene.model import FREE, SceneModel
 
 _PATH = "it must be points (T, 3), an array (k, T, 3), or a list of such points"

@@ -1,4 +1,4 @@
-// Draws a scene, and a flight through it, from the numbers in #data. See hypcheck/pictures/page.py for their meaning.
+// Draws a scene, and a flight through it, from the numbers in #data. See hypcheck/pictures/__init__.py for their meaning.
 const element = (id) => document.getElementById(id);
 const data = JSON.parse(element('data').textContent);
 
