@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from hypcheck.geometry.forms import Answers
 from hypcheck.kernel import classify as step_by_step
 from hypcheck.kernel.choice import choice
+from hypcheck.kernel.compiled_kernel import extension
 
 __all__ = ["classify", "classify_scene"]
 
@@ -23,8 +24,6 @@ Call = Callable[..., Answers]
 def _calls() -> tuple[Call, Call]:
     if choice().kernel == "numpy":
         return step_by_step.classify, step_by_step.classify_scene
-    from hypcheck.kernel.compiled_kernel import extension  # noqa: PLC0415 - only where it is there
-
     module = extension()
     module.set_slow_calls(step_by_step.classify, step_by_step.classify_scene, step_by_step.Prepared)
     return module.classify, module.classify_scene

@@ -30,6 +30,7 @@ from hypcheck.geometry.rows import PAIRS, Floats, Indices, Mask, Positions, Rows
 from hypcheck.kernel.choice import POSITION_OF, Question, required
 from hypcheck.kernel.clearance_bounds import Clearance, clearances_without_ends
 from hypcheck.kernel.in_use import positions_of_rows
+from hypcheck.kernel.scene_gaps import gaps
 
 _ROUNDED = 2.0**-47
 
@@ -118,8 +119,6 @@ def _ended_clearances(rows: Rows, threads: int | None = None) -> Clearance:
 
 def _measure_gaps(result: Clearance, rows: Rows, clear: Indices) -> None:
     """Replace bounds of distances, and nearest points, by better ones where the gap can be measured."""
-    from hypcheck.kernel.scene_gaps import gaps  # noqa: PLC0415 - as above
-
     some = rows[clear]
     measured = gaps(
         some[:, :4], some[:, 4:7], some[:, 7:10], some[:, 10:12], some[:, 12] != 0, result.distance_upper[clear]

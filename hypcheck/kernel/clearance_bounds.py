@@ -32,6 +32,7 @@ from hypcheck.float_environment import in_default_environment
 from hypcheck.geometry.pair import COLUMNS, REFUSED
 from hypcheck.geometry.rows import PAIRS, Floats, Indices, Integers, Mask, Positions, Rows, invalid
 from hypcheck.kernel import clearance_points as points
+from hypcheck.kernel import compiled_kernel
 from hypcheck.kernel.choice import choice
 from hypcheck.kernel.in_use import kernel
 from hypcheck.kernel.numpy_kernel import is_tilted
@@ -185,8 +186,6 @@ def _fill_ties(result: Clearance, queries: Rows, threads: int | None) -> None:
 
 def _compiled(rows: Rows, threads: int | None) -> Clearance:
     """The result of the compiled kernel for rows (n, 7), by the same steps; touch_error is inf if it has no bound."""
-    from hypcheck.kernel import compiled_kernel  # noqa: PLC0415 - only where it is there
-
     position, numbers = compiled_kernel.near_rows(rows, threads)
     lower, upper, error, least, most = numbers[:, :5].T
     error[error == _LARGEST] = np.inf

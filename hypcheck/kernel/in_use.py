@@ -9,6 +9,7 @@ import numpy as np
 
 from hypcheck.geometry.pair import REFUSED, Axis, Lengths, Position, Sizes
 from hypcheck.geometry.rows import CANNOT_SAY, PAIRS, Columns, Floats, Positions, Rows
+from hypcheck.kernel import compiled_kernel
 from hypcheck.kernel.choice import Question, choice
 
 
@@ -58,8 +59,6 @@ def kernel() -> Kernel:
 @cache
 def _kernel_named(name: str) -> Kernel:
     if name == "compiled":
-        from hypcheck.kernel import compiled_kernel  # noqa: PLC0415 - only where it is there
-
         return compiled_kernel
     from hypcheck.kernel import numpy_kernel  # noqa: PLC0415 - the compiled kernel does without
 

@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, overload
 
+from hypcheck.errors import InputError
 from hypcheck.float_environment import in_default_environment
 from hypcheck.geometry.pair import SIZES
 from hypcheck.truth import swept
@@ -84,8 +85,6 @@ def passage(
     from hypcheck.kernel.passages import passages  # noqa: PLC0415 - it loads numpy, and one sweep does without
 
     if upward is not None:
-        from hypcheck.errors import InputError  # noqa: PLC0415 - as above
-
         raise InputError("upward is given, and the sweeps are many; a scene has tilted hyperboloids")
     return passages(ways, columns, axis, (z_min, z_max, solid))
 

@@ -167,13 +167,16 @@ def chosen_families(plan: ConformancePlan, used: Description) -> tuple[Family, .
     naming one that does not exist.
     """
     named = select(plan.families, tilted=True, ended=True, layout=None)
-    return tuple(
-        family
-        for family in named
-        if (used.tilt or not family.tilted)
-        and (used.heights or not family.ended)
-        and family.layout == used.asked.layout
-    )
+    return tuple(family for family in named if not _lacking(used, family))
+
+
+def _lacking(used: Description, family: Family) -> str:
+    """What an implementation lacks to answer a family, as domain.FAMILIES has it; "" if nothing."""
+    if family.layout != used.asked.layout:
+        return "question"
+    if family.ended and not used.heights:
+        return "heights"
+    return "tilt" if family.tilted and not used.tilt else ""
 
 
 def planned_size(plan: ConformancePlan) -> int:
@@ -205,10 +208,8 @@ def families_not_asked(plan: ConformancePlan, used: Description) -> dict[str, di
     for name, cases in _cases_of(plan, ALL.values()).items():
         if name in planned or not cases:
             continue
-        other = ALL[name].layout != used.asked.layout
-        lacking = "heights" if ALL[name].ended and not used.heights else "tilt"
         unwanted = "filter" if plan.filtered else "extreme" if ALL[name].extreme else ""
-        reason = unwanted if name not in chosen and unwanted else "question" if other else lacking
+        reason = unwanted if name not in chosen and unwanted else _lacking(used, ALL[name])
         by_reason[reason][name] = cases
     searched = () if not plan.filtered or used.asked.layout.has_end else searched_chunks()
     by_reason["filter"] |= {chunk.family: len(chunk) for chunk in searched}
@@ -223,21 +224,14 @@ def require_named(plan: ConformancePlan, used: Description) -> None:
     rules = rules_of(plan, used)
     for name in (name for name in plan.families if name in ALL):
         family = ALL[name]
-        if family.layout != used.asked.layout:
+        lacking = _lacking(used, family)
+        if lacking == "question":
             raise InputError(
                 f"--families names {name}, which has no cases for the question {used.question!r}; "
                 f"leave it out, or name an implementation whose question is {_QUESTION_ABOUT[family.layout]}"
             )
-        if family.ended and not used.heights:
-            raise InputError(
-                f"--families names {name}, a family of hyperboloids that end, and {used.name} takes no heights; leave "
-                'it out, or let its description say "takes": ["heights"]'
-            )
-        if family.tilted and not used.tilt:
-            raise InputError(
-                f"--families names {name}, a family of tilted spheroids, and {used.name} takes none; leave it out, or "
-                'let its description say "tilt": true'
-            )
+        if lacking:
+            raise InputError(f"--families names {name}, {_HAS_MORE[lacking].format(used.name)}")
         reasons = _reasons_for(plan, family, rules)
         if reasons:
             raise InputError(
@@ -248,6 +242,13 @@ def require_named(plan: ConformancePlan, used: Description) -> None:
 
 
 _QUESTION_ABOUT = {PAIRS: "position", SWEEPS: "passage"}
+
+_HAS_MORE = {
+    "heights": "a family of hyperboloids that end, and {} takes no heights; leave it out, or let its description say "
+    '"takes": ["heights"]',
+    "tilt": 'a family of tilted spheroids, and {} takes none; leave it out, or let its description say "tilt": true',
+}
+"""What rows of a family have that the named implementation does not take, and the remedy."""
 
 
 def _reasons_for(plan: ConformancePlan, family: Family, rules: JudgingRules) -> dict[str, int]:

@@ -182,6 +182,11 @@ class TableAnswers:
     clearance: NDArray[np.float64]
     with_margin: Positions | None = None
 
+    @property
+    def integers(self) -> Positions:
+        """The one integer of each row: its position, with the margin if one is given."""
+        return self.positions if self.with_margin is None else self.with_margin
+
 
 @dataclass(frozen=True, slots=True)
 class SweepAnswers:
@@ -194,6 +199,11 @@ class SweepAnswers:
     hits: Positions
     first_lower: NDArray[np.float64]
     first_upper: NDArray[np.float64]
+
+    @property
+    def integers(self) -> Positions:
+        """The one integer of each row: whether it hits."""
+        return self.hits
 
     def cells(self) -> Iterator[tuple[int, str, float | None, float | None]]:
         """What is added to each row, None for what it does not have."""

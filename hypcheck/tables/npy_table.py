@@ -66,9 +66,7 @@ def write_npy(writer: Writer, _table: Table) -> Iterator[Sink]:
 
 
 def _render(_chunk: TableChunk, answers: TableAnswers | SweepAnswers) -> bytes:
-    if isinstance(answers, SweepAnswers):
-        return answers.hits.tobytes()
-    return (answers.positions if answers.with_margin is None else answers.with_margin).tobytes()
+    return answers.integers.tobytes()
 
 
 @dataclass(frozen=True, slots=True)
