@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from hypcheck.cli import options
-from hypcheck.cli.recording import recording, run_stages
+from hypcheck.cli.running import recording, run_stages
 from hypcheck.cli.settings import in_effect
 from hypcheck.errors import Exit, InputError, RunOutcome
 

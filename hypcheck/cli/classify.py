@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import click
 
-from hypcheck.cli.progress import watched
+from hypcheck.cli.running import watched
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import AXIS, CENTER, END, NO_DIRECTION, SIZES, Pair, trouble_with
 from hypcheck.tables.numbers import number_of_text

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from hypcheck.cli import options
-from hypcheck.cli.progress import is_terminal
+from hypcheck.cli.running import is_terminal
 from hypcheck.cli.settings import print_file_settings
 from hypcheck.errors import Exit, NothingJudgedError, first_that_applies
 from hypcheck.geometry.pair import Pair

@@ -11,7 +11,7 @@ import click
 
 from hypcheck.cli import options
 from hypcheck.cli.commands import CommandGroup
-from hypcheck.cli.progress import watched
+from hypcheck.cli.running import watched
 from hypcheck.errors import Exit, InputError
 from hypcheck.messages import printable
 from hypcheck.paper.derive import FORMATS, PARTS

@@ -10,7 +10,7 @@ import click
 
 from hypcheck.cli.commands import CommandGroup
 from hypcheck.cli.options import OutputPath
-from hypcheck.cli.progress import summary_options
+from hypcheck.cli.running import summary_options
 from hypcheck.errors import Exit, InputError
 from hypcheck.messages import counted, escaped, printable
 from hypcheck.report.formats import REPORTS, kept_formats

@@ -14,8 +14,7 @@ import click
 from click.core import ParameterSource
 
 from hypcheck.cli import options
-from hypcheck.cli.progress import watched
-from hypcheck.cli.recording import label, recording, resumed, run_stages
+from hypcheck.cli.running import label, recording, resumed, run_stages, watched
 from hypcheck.cli.settings import FILE, ProjectSettings, in_effect
 from hypcheck.errors import Exit, InputError, RunOutcome
 from hypcheck.messages import counted, escaped, printable

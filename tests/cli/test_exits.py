@@ -18,7 +18,7 @@ from hypcheck.cli import commands
 from hypcheck.cli import main as cli_main
 from hypcheck.cli.commands import ending_of
 from hypcheck.cli.main import main
-from hypcheck.cli.progress import in_colour
+from hypcheck.cli.running import in_colour
 from hypcheck.errors import (
     PRECEDENCE,
     Exit,

@@ -9,9 +9,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from hypcheck.cli import progress
+from hypcheck.cli import running
 from hypcheck.cli.main import main
-from hypcheck.cli.progress import watched
+from hypcheck.cli.running import watched
 
 
 class Screen(io.StringIO):
@@ -29,7 +29,7 @@ class Screen(io.StringIO):
 @pytest.fixture
 def screen(monkeypatch):
     found = Screen()
-    monkeypatch.setattr(progress, "sys", SimpleNamespace(stderr=found))
+    monkeypatch.setattr(running, "sys", SimpleNamespace(stderr=found))
     return found
 
 
@@ -37,7 +37,7 @@ def screen(monkeypatch):
 def clock(monkeypatch):
     """A list whose only element is the time."""
     now = [100.0]
-    monkeypatch.setattr(progress.time, "monotonic", lambda: now[0])
+    monkeypatch.setattr(running.time, "monotonic", lambda: now[0])
     return now
 
 

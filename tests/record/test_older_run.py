@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from hypcheck.cli.main import main
-from hypcheck.cli.recording import recording
+from hypcheck.cli.running import recording
 from hypcheck.record import Recorder
 from hypcheck.record.lines import DriftLine
 from hypcheck.record.reader import FILE, GROWING

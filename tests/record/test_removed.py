@@ -10,7 +10,7 @@ import stat
 import pytest
 from msgspec import structs
 
-from hypcheck.cli.recording import recording
+from hypcheck.cli.running import recording
 from hypcheck.errors import InputError, SystemLimitError
 from hypcheck.record import read
 from hypcheck.record.fields import Histogram, as_json, decoded
