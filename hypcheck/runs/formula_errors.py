@@ -350,8 +350,11 @@ TILTED_FORMULA_ERRORS = _errors(
 SAME_TIME = 1e-9
 """Two times of a sweep, from 0 to 1, that a rule and an implementation may compute differently."""
 
+_FAR_OFF = 1e-3
+"""Times that differ by more are different times, whatever the tolerance."""
+
 _MOST_SWEEPS = 512
-"""Deciding a sweep exactly costs a millisecond, so only so many sweeps of a chunk are asked again."""
+"""Where bounds do not decide a sweep, it costs milliseconds, so only so many sweeps of a chunk are asked again."""
 
 
 def _touches(answered: AnsweredRows, place: int) -> Answers:
@@ -383,13 +386,13 @@ def _between(answered: AnsweredRows) -> Answers:
 
 
 def _other_sweeps(*order: int) -> Rule:
-    """The exact hits on sweeps with their columns in this order; nothing about tilted spheroids."""
+    """The hits on sweeps with their columns in this order; nothing about tilted spheroids."""
 
     def rule(answered: AnsweredRows) -> Answers:
         answers, times = silent(answered), np.zeros(len(answered.rows))
         if SWEEPS.has_axis(answered.rows):
             return answers
-        answers[:_MOST_SWEEPS], times[:_MOST_SWEEPS] = sweeps.exact(
+        answers[:_MOST_SWEEPS], times[:_MOST_SWEEPS] = sweeps.certified_times(
             np.ascontiguousarray(answered.rows[:_MOST_SWEEPS, order])
         )
         return _timed(answered, answers, times)
@@ -409,7 +412,12 @@ def _where_time(answered: AnsweredRows, holds: Callable[[tuple[float, ...], floa
 
 def _times_from_the_end(answered: AnsweredRows) -> Answers:
     """The answer given where its time, counted from the end, is right."""
-    return _where_time(answered, lambda row, time: time_is_right(row, 1 - time, answered.criterion))
+
+    def counted_back(row: tuple[float, ...], time: float) -> bool:
+        near = abs(1 - time - passage_of(row).first_lower) < _FAR_OFF
+        return near and time_is_right(row, 1 - time, answered.criterion)
+
+    return _where_time(answered, counted_back)
 
 
 def _times_off(answered: AnsweredRows, *, late: bool) -> Answers:
@@ -417,7 +425,7 @@ def _times_off(answered: AnsweredRows, *, late: bool) -> Answers:
 
     def is_off(row: tuple[float, ...], time: float) -> bool:
         off = time - passage_of(row).first_lower
-        return 0 < abs(off) < 1e-3 and (off > 0) is late and not time_is_right(row, time, answered.criterion)
+        return 0 < abs(off) < _FAR_OFF and (off > 0) is late and not time_is_right(row, time, answered.criterion)
 
     return _where_time(answered, is_off)
 

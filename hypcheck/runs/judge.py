@@ -307,14 +307,17 @@ def _judged_sweeps(
     rows: Rows, answers: NDArray[np.int8], wrong: Indices, criterion: Criterion, times: Floats | None
 ) -> Iterator[WrongCase]:
     for start in range(0, len(wrong), _TOGETHER):
-        part = wrong[start : start + _TOGETHER]
-        some = np.ascontiguousarray(rows[part])
-        for index, numbers, near in zip(part.tolist(), some.tolist(), rough_exponents(some).tolist(), strict=True):
-            row, answer = tuple(numbers), int(answers[index])
-            if passage_of(row).hit == bool(answer) and times is not None:
+        part = wrong[start : start + _TOGETHER].tolist()
+        right = [
+            times is not None and passage_of(tuple(rows[index].tolist())).hit == bool(answers[index]) for index in part
+        ]
+        near = iter(rough_exponents(rows[[index for index, hit in zip(part, right, strict=True) if not hit]]).tolist())
+        for index, only_late in zip(part, right, strict=True):
+            row = tuple(rows[index].tolist())
+            if times is not None and only_late:
                 yield _wrong_time(index, row, float(times[index]))
             else:
-                yield _wrong_hit(index, row, answer, criterion, near)
+                yield _wrong_hit(index, row, int(answers[index]), criterion, next(near))
 
 
 def _wrong_time(index: int, row: tuple[float, ...], time: float) -> WrongCase:

@@ -25,7 +25,8 @@ import numpy as np
 from hypcheck.geometry.pair import SIZES, SWEEP_COLUMNS, TILTED_SWEEP_COLUMNS, UPRIGHT, WITHOUT_ENDS
 from hypcheck.geometry.rows import Positions, Rows
 from hypcheck.truth.rationals import octave, power_of_two, rounded_toward
-from hypcheck.truth.swept import Passage, Rational, passage
+from hypcheck.truth.sweep import StraightSweep
+from hypcheck.truth.swept import WIDTH_BITS, Passage, Rational, meets, passage_on, sweep_of
 
 Row = tuple[float, ...]
 
@@ -55,13 +56,17 @@ class SizeError:
 
 def scaled_passage(row: Sequence[Rational], scale: Rational = 1) -> Passage:
     """What happens on the row's sweep, with b and d multiplied by `scale` > 0. Raises InputError as `passage` does."""
+    return passage_on(_sweep(row, scale))
+
+
+def _sweep(row: Sequence[Rational], scale: Rational = 1, until: Rational = 1) -> StraightSweep:
+    """The row's sweep, or its part up to a time, with b and d multiplied by `scale`."""
     alpha, gamma, b, d = row[: len(SIZES)]
     start, end, axis = row[4:7], row[7:10], _axis_of(row)
-    low, high, solid = row[len(TILTED_SWEEP_COLUMNS) :] or WITHOUT_ENDS
     if scale != 1:
         b, d = Fraction(b) * Fraction(scale), Fraction(d) * Fraction(scale)
-    sizes = (alpha, gamma, b, d)
-    return passage(sizes, start, end, axis or None, z_min=float(low), z_max=float(high), solid=bool(solid))
+    sweep = sweep_of((alpha, gamma, b, d), start, end, axis or None, None, _heights_of(row))
+    return sweep if until == 1 else sweep.until(Fraction(until))
 
 
 @lru_cache(_REMEMBERED)
@@ -85,9 +90,14 @@ def _axis_of(row: Sequence[Rational]) -> Sequence[Rational]:
     return row[len(SWEEP_COLUMNS) : len(TILTED_SWEEP_COLUMNS)]
 
 
+def _heights_of(row: Sequence[Rational]) -> tuple[float, float, float]:
+    low, high, solid = row[len(TILTED_SWEEP_COLUMNS) :] or WITHOUT_ENDS
+    return float(low), float(high), float(solid)
+
+
 def hits_at_size(row: Sequence[Rational], scale: Rational = 1) -> bool:
     """Whether the row's sweep has contact with b and d multiplied by `scale` > 0: exact, monotone in `scale`."""
-    return scaled_passage(row, scale).hit
+    return meets(_sweep(row, scale))
 
 
 def size_error(row: Sequence[Rational], answer: bool) -> SizeError:
@@ -150,35 +160,31 @@ def tolerance(row: Sequence[Rational], units: Rational, roundoff: Rational) -> F
     return change * (1 + far + (1 + bounded) * (ratio + bounded) + stretch * (far + 2 * ratio) + more)
 
 
-def time_window(row: Sequence[Rational], change: Rational) -> tuple[Fraction | None, Fraction | None]:
-    """The earliest and the latest time that a right answer may give for the first contact.
+def time_is_within(row: Sequence[Rational], time: Rational, change: Rational) -> bool:
+    """Whether a time, from 0 to 1, is right for the first contact of some size that differs by a part `change` at most.
 
-    The first contact of the spheroid grown by `change`, rounded down, and of it shrunk by `change`, rounded up; None
-    where there is none: without the second there is no upper end, without the first no time is right. A change of 1
-    leaves nothing to shrink.
+    It is too early where the spheroid grown by `change` is clear up to it, and too late where the one that is shrunk
+    has contact before it; with a change of 1 nothing is left to shrink. Both are asked at times that differ from it by
+    2^−60 of itself, in its favour: first contacts are not enclosed more narrowly.
     """
-    part = Fraction(change)
-    grown = scaled_passage(row, 1 + part).first
-    shrunk = scaled_passage(row, 1 - part).first if part < 1 else None
-    return None if grown is None else grown[0], None if shrunk is None else shrunk[1]
+    exact, part = Fraction(time), Fraction(change)
+    slack = exact / 2**WIDTH_BITS
+    if not meets(_sweep(row, 1 + part, min(exact + slack, Fraction(1)))):
+        return False
+    return not exact or part >= 1 or not meets(_sweep(row, 1 - part, exact - slack))
 
 
 @lru_cache(_REMEMBERED)
-def _window(row: Row, change: Fraction) -> tuple[Fraction | None, Fraction | None]:
-    return time_window(row, change)
-
-
 def time_is_tolerated(row: Row, time: float, units: Rational, roundoff: Rational) -> bool:
-    """Whether a time of first contact is right for the sizes changed by the `tolerance`, on a sweep with contact."""
+    """Whether a time of first contact is right for sizes changed by the `tolerance`, on a sweep with contact.
+
+    Remembered, since likely causes of wrong times ask it again.
+    """
     passage = passage_of(row)
     if passage.first_lower <= time <= passage.first_upper:
         return True
     change = tolerance(row, units, roundoff)
-    if not change:
-        return False
-    earliest, latest = _window(row, change)
-    exact = Fraction(time)
-    return earliest is not None and earliest <= exact and (latest is None or exact <= latest)
+    return bool(change) and time_is_within(row, time, change)
 
 
 def radii_off(row: Row, time: float) -> float:

@@ -102,7 +102,15 @@ class StraightSweep:
 
     def at(self, time: Fraction) -> Lengths:
         """The pair at a rational time."""
-        n, m = time.numerator, time.denominator
+        return self._moved(time.numerator, time.denominator)
+
+    def until(self, time: Fraction) -> StraightSweep:
+        """The part of the sweep from its start to a rational time."""
+        u, v, w = (part * time.numerator for part in self.step)
+        return StraightSweep(self._moved(0, time.denominator), (u, v, w))
+
+    def _moved(self, n: int, m: int) -> Lengths:
+        """The pair at the time n/m, in units that are m times as fine."""
         here, (u, v, w) = self.start, self.step
         x, y, z = here.x * m + u * n, here.y * m + v * n, here.z * m + w * n
         low, high = (None if end is None else end * m for end in (here.low, here.high))

@@ -41,6 +41,7 @@ from hypcheck.geometry.pair import (
     trouble_with_heights,
 )
 from hypcheck.messages import counted, escaped
+from hypcheck.truth import ended_sweeps
 from hypcheck.truth.ended_sweeps import EndedSweep, first_contact, grazes
 from hypcheck.truth.polynomial_roots import Interval, narrowed, roots_from_0_to_1
 from hypcheck.truth.polynomials import Polynomial, value
@@ -55,6 +56,9 @@ SHORTEST = Fraction(1, 2**240)
 """A step below this, or so many steps, says that steps decide nothing here."""
 
 _STEP_BITS = 40
+
+_NEAR = Fraction(1, 2**20)
+"""Where some contact is known, an earlier one is looked for behind steps shorter than this part of their time."""
 
 Piece = tuple[Fraction, Fraction]
 """A multiplier, and the time up to which it proves the spheroid clear, from where the piece before ends, or from 0."""
@@ -76,12 +80,15 @@ class Steps:
         return self.pieces[-1][1]
 
 
-def steps(sweep: StraightSweep) -> Steps | None:
-    """The steps of a sweep that begins clear, or None where they decide nothing."""
+def steps(sweep: StraightSweep, bits: int | None = WIDTH_BITS) -> Steps | None:
+    """The steps of a sweep that begins clear, or None where they decide nothing.
+
+    The first contact is enclosed to 2^−bits of itself; without `bits` any contact ends the search.
+    """
     pencil, time = sweep.pencil, Fraction(0)
     pieces: list[Piece] = []
     contact = Fraction(1) if _crosses(sweep, Fraction(1)) else None
-    while len(pieces) < MOST_STEPS and not _narrow(time, contact):
+    while len(pieces) < MOST_STEPS and not _narrow(time, contact, bits):
         multiplier, step = _step(sweep, pencil, time)
         if step is None or time + step >= 1:
             return Steps((*pieces, (multiplier, Fraction(1))), None)
@@ -90,13 +97,14 @@ def steps(sweep: StraightSweep) -> Steps | None:
         time += step
         pieces.append((multiplier, time))
         beyond = time + step / 2
-        if beyond < (contact or 1) and _crosses(sweep, beyond):
+        if beyond < (contact or 1) and (contact is None or step < _NEAR * time) and _crosses(sweep, beyond):
             contact = beyond
-    return Steps(tuple(pieces), contact) if pieces and contact is not None and _narrow(time, contact) else None
+    return Steps(tuple(pieces), contact) if _narrow(time, contact, bits) else None
 
 
-def _narrow(time: Fraction, contact: Fraction | None) -> bool:
-    return contact is not None and (contact - time) * 2**WIDTH_BITS <= time
+def _narrow(time: Fraction, contact: Fraction | None, bits: int | None) -> bool:
+    """Whether a time up to which the sweep is clear, and one of contact, are near enough."""
+    return contact is not None and (bits is None or (contact - time) * 2**bits <= time)
 
 
 def _crosses(sweep: StraightSweep, time: Fraction) -> bool:
@@ -199,10 +207,27 @@ def passage(
     size is not finite and > 0, a coordinate not finite, an axis without direction, z_min not less than z_max, or their
     number not 4, 3, 3, 3 and 3.
     """
-    sweep = sweep_of(sizes, start, end, axis, upward, (z_min, z_max, solid))
+    return passage_on(sweep_of(sizes, start, end, axis, upward, (z_min, z_max, solid)))
+
+
+def passage_on(sweep: StraightSweep) -> Passage:
+    """What happens on a sweep."""
     if sweep.start.has_ends:
         return beside_ends(sweep)
     return by_steps(sweep) or by_roots(sweep)
+
+
+def meets(sweep: StraightSweep) -> bool:
+    """Whether there is contact somewhere on a sweep: what its passage says, but sooner, since no time is enclosed."""
+    if sweep.start.has_ends:
+        return ended_sweeps.meets(EndedSweep(sweep))
+    here, there = sweep.position(Fraction(0)), sweep.position(Fraction(1))
+    if here is not there or here is Position.CONTACT:
+        return True
+    if not sweep.moves:
+        return False
+    result = steps(sweep, bits=None)
+    return by_roots(sweep).hit if result is None else result.contact is not None
 
 
 def beside_ends(sweep: StraightSweep) -> Passage:
@@ -273,22 +298,20 @@ def sweep_of(
     trouble = trouble_with_heights(heights)
     if trouble is not None:
         raise InputError(trouble)
-    ends = [Fraction(height) for height in heights[:2] if math.isfinite(height)]
-    alpha, gamma, b, d, x0, y0, z0 = checked(sizes, start)
-    x1, y1, z1 = checked(sizes, end)[len(SIZES) :]
+    ends = [height for height in heights[:2] if math.isfinite(height)]
+    alpha, gamma, b, d, x0, y0, z0 = _required(sizes, start)
+    x1, y1, z1 = _required(sizes, end)[len(SIZES) :]
     direction, tower = (checked_axis(UPRIGHT if given is None else given) for given in (axis, upward))
     if (any(direction[:2]) and b != d) or any(tower[:2]):
-        a, c, w, h, x, u, y, v, z, s, *ended = integers(
-            alpha, gamma, b, d, x0, x1 - x0, y0, y1 - y0, z0, z1 - z0, *ends
-        )
+        a, c, w, h, x, x1, y, y1, z, z1, *ended = integers(alpha, gamma, b, d, x0, x1, y0, y1, z0, z1, *ends)
         axes = _three(direction), _three(tower)
     else:
-        a, w, x, u, y, v = integers(alpha, b, x0, x1 - x0, y0, y1 - y0)
-        c, h, z, s, *ended = integers(gamma, d, z0, z1 - z0, *ends)
+        a, w, x, x1, y, y1 = integers(alpha, b, x0, x1, y0, y1)
+        c, h, z, z1, *ended = integers(gamma, d, z0, z1, *ends)
         axes = (0, 0, 1), (0, 0, 1)
     low, high = ended[0] if math.isfinite(heights[0]) else None, ended[-1] if math.isfinite(heights[1]) else None
     low, high = counted_along(axes[1], tower, low, high)
-    return StraightSweep(Lengths(a, w, x, y, c, h, z, *axes, low, high, bool(heights[2])), (u, v, s))
+    return StraightSweep(Lengths(a, w, x, y, c, h, z, *axes, low, high, bool(heights[2])), (x1 - x, y1 - y, z1 - z))
 
 
 def _three(axis: Sequence[Fraction]) -> Vector:
@@ -298,16 +321,25 @@ def _three(axis: Sequence[Fraction]) -> Vector:
 
 def checked(sizes: Sequence[Rational], center: Sequence[Rational]) -> tuple[Fraction, ...]:
     """α, γ, b, d, x, y, z as fractions. Raises InputError naming the first that cannot be."""
+    return tuple(Fraction(number) for number in _required(sizes, center))
+
+
+def _required(sizes: Sequence[Rational], center: Sequence[Rational]) -> tuple[Rational, ...]:
+    """α, γ, b, d, x, y, z, each of which has an exact value. Raises InputError naming the first that has none."""
     numbers = (*checked_sequence("the sizes", SIZES, sizes), *checked_sequence("a centre", CENTER, center))
-    return tuple(_exact(name, number) for name, number in zip(COLUMNS, numbers, strict=True))
+    for name, number in zip(COLUMNS, numbers, strict=True):
+        _require(name, number)
+    return numbers
 
 
 def checked_axis(axis: Sequence[Rational]) -> tuple[Fraction, ...]:
     """axis_x, axis_y, axis_z as fractions. Raises InputError where they cannot be, or are all 0."""
-    numbers = tuple(map(_exact, AXIS, checked_sequence("the axis", AXIS, axis)))
+    numbers = checked_sequence("the axis", AXIS, axis)
+    for name, number in zip(AXIS, numbers, strict=True):
+        _require(name, number)
     if not any(numbers):
         raise InputError(NO_DIRECTION)
-    return numbers
+    return tuple(Fraction(number) for number in numbers)
 
 
 def checked_sequence(subject: str, names: Sequence[str], values: object) -> tuple[Rational, ...]:
@@ -323,17 +355,14 @@ def checked_sequence(subject: str, names: Sequence[str], values: object) -> tupl
     return numbers
 
 
-def _exact(name: str, number: Rational) -> Fraction:
+def _require(name: str, number: Rational) -> None:
     if isinstance(number, Fraction):
         if name in SIZES and number <= 0:
             raise InputError(f"{name} is {number}; a semi-axis must be greater than 0")
-        return number
-    trouble = trouble_with(name, number)
-    if trouble is not None:
+    elif (trouble := trouble_with(name, number)) is not None:
         raise InputError(trouble)
-    return Fraction(number)
 
 
-def integers(*numbers: Fraction) -> tuple[int, ...]:
+def integers(*numbers: Rational) -> tuple[int, ...]:
     """The numbers multiplied by one positive number that makes each an integer."""
     return tuple(over_one_denominator(numbers)[0])

@@ -15,7 +15,7 @@ from hypcheck.vectors.families import ENDED_SWEEP_FAMILIES, SWEEP_FAMILIES
 from hypcheck.vectors.frozen import SWEEP_NAMES, load
 from tests.support.ended_sweeps import near_a_rim, past_a_tower
 from tests.support.inside import answer_sweeps as compiled_answer_sweeps
-from tests.support.inside import numpy_kernel_answer_sweeps, time_window, tolerance
+from tests.support.inside import numpy_kernel_answer_sweeps, time_is_within, tolerance
 from tests.tools.attack.rounding import DIRECTED, TO_NEAREST, rounded
 
 compiled = pytest.importorskip("hypcheck.kernel._compiled")
@@ -162,8 +162,7 @@ def wrong_times(rows, times):
     """The rows with a time that `hypcheck verify` calls wrong by default, as docs/judging.md says: 8 units."""
     wrong = []
     for row, time in zip(rows.tolist(), times.tolist(), strict=True):
-        earliest, latest = time_window(row, tolerance(row, 8, Fraction(1, 2**53)))
-        if math.isnan(time) or not earliest <= Fraction(time) <= (1 if latest is None else latest):
+        if math.isnan(time) or not time_is_within(row, time, tolerance(row, 8, Fraction(1, 2**53))):
             wrong.append((row, time))
     return wrong
 

@@ -119,7 +119,7 @@ from hypcheck.truth.passage_error import (
     passage_of,
     scaled_passage,
     size_error,
-    time_window,
+    time_is_within,
     tolerance,
 )
 from hypcheck.truth.pencil import cubic, quartic, sign_at
@@ -293,7 +293,7 @@ __all__ = [
     "thresholds",
     "tilted",
     "tilted_search",
-    "time_window",
+    "time_is_within",
     "tolerance",
     "tolerated",
     "truth_nearest",

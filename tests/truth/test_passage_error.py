@@ -10,7 +10,7 @@ from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from hypcheck.truth.rationals import octave
-from tests.support.inside import hits_at_size, is_tolerated, passage, size_error, time_window, tolerance
+from tests.support.inside import hits_at_size, is_tolerated, size_error, time_is_within, tolerance
 
 BESIDE = (2.0, 3.0, 1.0, 1.0, -4.0, 3.5, 0.0, 4.0, 3.5, 0.0)
 """Past the waist at 3.5 from the axis: 1.5 from the surface, so that it touches when grown by a half."""
@@ -114,9 +114,8 @@ def test_contact_far_from_a_small_spheroid_is_tolerated_where_the_tolerance_mult
     assert not hits_at_size(far)
     assert is_tolerated(far, True, Fraction(4))
     assert not is_tolerated(far, True, Fraction(2))
-    earliest, latest = time_window(far, Fraction(4))
-    assert earliest is not None
-    assert latest is None
+    assert time_is_within(far, 1, Fraction(4))  # nothing is left of the smaller spheroid, so no time is too late
+    assert not time_is_within(far, 1, Fraction(2))
 
 
 def test_tolerance_of_a_way_is_the_sum_of_the_effects_of_each_input():
@@ -125,20 +124,19 @@ def test_tolerance_of_a_way_is_the_sum_of_the_effects_of_each_input():
     assert tolerance(row, 8, unit) / (8 * unit) == pytest.approx(1 + 22 + 24, rel=1e-5)
 
 
-def test_time_window_holds_the_first_contacts_of_smaller_and_larger_spheroids():
-    earliest, latest = time_window(ACROSS, Fraction(1, 100))
-    assert float(earliest) == pytest.approx((5 - 3.01) / 5)
-    assert float(latest) == pytest.approx((5 - 2.99) / 5)
-    first = passage(ACROSS[:4], ACROSS[4:7], ACROSS[7:]).first
-    assert earliest < first[0] <= first[1] < latest
+def test_times_are_right_from_the_first_contact_of_a_larger_spheroid_to_that_of_a_smaller_one():
+    earliest, latest, hair = Fraction("1.99") / 5, Fraction("2.01") / 5, Fraction(1, 10**9)
+    right = (earliest + hair, Fraction(2, 5), latest - hair)
+    assert [time_is_within(ACROSS, time, Fraction(1, 100)) for time in right] == [True] * 3
+    wrong = (0, earliest - hair, latest + hair, 1)
+    assert [time_is_within(ACROSS, time, Fraction(1, 100)) for time in wrong] == [False] * 4
 
 
-def test_time_window_has_no_upper_end_if_the_smaller_spheroid_is_clear():
+def test_no_time_is_too_late_if_the_smaller_spheroid_is_clear():
     touching = (2.0, 3.0, 1.0, 1.0, -4.0, 3.0, 0.0, 4.0, 3.0, 0.0)
-    earliest, latest = time_window(touching, Fraction(1, 2**20))
-    assert 0 < earliest < Fraction(1, 2)
-    assert latest is None
-    assert time_window(BESIDE, Fraction(1, 2**20)) == (None, None)
+    change = Fraction(1, 2**20)
+    assert [time_is_within(touching, time, change) for time in (0, 0.25, 0.5, 1)] == [False, False, True, True]
+    assert not any(time_is_within(BESIDE, time, change) for time in (0, 0.5, 1))
 
 
 @pytest.mark.parametrize(
