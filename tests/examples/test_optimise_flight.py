@@ -11,6 +11,7 @@ import pytest
 EXAMPLE = Path(__file__).parents[2] / "examples" / "optimise_flight.py"
 
 
+@pytest.mark.thorough
 def test_optimised_flight_keeps_its_distance_at_each_point_and_is_hardly_longer():
     pytest.importorskip("scipy", reason="the optimiser; pip install 'hypcheck[examples]' brings it")
     example = runpy.run_path(str(EXAMPLE))

@@ -173,7 +173,7 @@ def test_an_implementation_that_stops_its_parent_does_not_hang_the_run(token):
 
 
 @needs_proc
-@pytest.mark.parametrize("limits", ["LIMITS", "NOT_ISOLATED"])
+@pytest.mark.parametrize("limits", ["LIMITS", pytest.param("NOT_ISOLATED", marks=pytest.mark.thorough)])
 @pytest.mark.parametrize("name", ["loops", "ignores_goodbye", "detaches"])
 def test_no_process_outlives_hypcheck_even_if_it_is_killed(name, limits, token):
     """An endless loop does not see that its input ended, nor does a child: the guard does, or the launcher."""

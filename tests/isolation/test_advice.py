@@ -154,7 +154,7 @@ def test_a_program_that_is_not_isolated_is_not_said_to_be(monkeypatch, tmp_path,
         (("replay", ROW, "SPEC"), 1),
         (("hunt", "SPEC", "--queries", "4"), 1),
         (("minimise", "SPEC", ROW), None),
-        (
+        pytest.param(
             (
                 "bench",
                 "python:imports.py:classify",
@@ -167,6 +167,7 @@ def test_a_program_that_is_not_isolated_is_not_said_to_be(monkeypatch, tmp_path,
                 "out",
             ),
             5,
+            marks=pytest.mark.thorough,
         ),
     ],
     ids=lambda words: words[0] if isinstance(words, tuple) else "",

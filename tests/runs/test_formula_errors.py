@@ -53,12 +53,14 @@ def test_ways_of_these_tests_have_contacts_at_the_start_in_between_and_none():
         ("only-the-ends", STARTS | ENDS),
         ("way-always-0", np.zeros(COUNT)),
         ("way-always-1", np.ones(COUNT)),
-        ("way-x-z", hits_of(lambda r: [*r[:4], r[6], r[5], r[4], r[9], r[8], r[7]])),
-        ("way-b-d", hits_of(lambda r: [r[0], r[1], r[3], r[2], *r[4:]])),
-        ("way-level", hits_of(lambda r: [*r[:9], r[6]])),
+        ("way-x-z", lambda r: [*r[:4], r[6], r[5], r[4], r[9], r[8], r[7]]),
+        ("way-b-d", lambda r: [r[0], r[1], r[3], r[2], *r[4:]]),
+        ("way-level", lambda r: [*r[:9], r[6]]),
     ],
 )
 def test_rule_of_a_slip_gives_the_answers_of_an_implementation_with_that_slip(name, given):
+    """A function stands for the exact answers about the rows that it makes of the right ones."""
+    given = hits_of(given) if callable(given) else given
     assert RULES[name](answered(given)).tolist() == np.asarray(given, dtype=np.int8).tolist()
 
 

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
+from functools import cache
 from pathlib import Path
 from typing import Any
-
-from jsonschema import Draft202012Validator
-from jsonschema.validators import extend
 
 from hypcheck.geometry.rows import PAIRS
 from hypcheck.record.fields import Unsigned, row_fields
@@ -60,14 +58,22 @@ def resealed(lines):
     return data
 
 
-_INTEGERS = Draft202012Validator.TYPE_CHECKER.redefine("integer", lambda _, value: type(value) is int)
-_Checker = extend(Draft202012Validator, type_checker=_INTEGERS)
-"""Takes 500.0 for no integer, as whatever reads JSON or TOML here does."""
+@cache
+def _checker() -> Any:
+    """The class of validators that takes 500.0 for no integer, as whatever reads JSON or TOML here does.
+
+    The library takes two seconds to load, so that tests without a schema do not load it.
+    """
+    from jsonschema import Draft202012Validator
+    from jsonschema.validators import extend
+
+    integers = Draft202012Validator.TYPE_CHECKER.redefine("integer", lambda _, value: type(value) is int)
+    return extend(Draft202012Validator, type_checker=integers)
 
 
 def violations(value: Any, schema: dict[str, Any], *, closed: bool = False) -> list[str]:
     """What is wrong with the value, a sentence each; with `closed`, so is a property that the schema does not name."""
-    checker = _Checker(_closed(schema) if closed else schema)
+    checker = _checker()(_closed(schema) if closed else schema)
     return [f"{error.json_path}: {error.message[:300]}" for error in checker.iter_errors(value)]
 
 

@@ -270,7 +270,7 @@ PARTS = (
 SUFFIXES = {"c": ".c", "cpp": ".cpp"}
 
 
-@pytest.mark.parametrize("language", SUFFIXES)
+@pytest.mark.parametrize("language", ["c", pytest.param("cpp", marks=pytest.mark.thorough)])  # of the same templates
 @pytest.mark.parametrize(
     ("compiler", "option"),
     [
@@ -305,7 +305,9 @@ def refusals(folder, language, option, compiler=None):
 
 @needs_clang
 @pytest.mark.skipif(platform.machine() != "x86_64", reason="clang takes options back on x86-64 and on aarch64 alone")
-@pytest.mark.parametrize("option", ["-funsafe-math-optimizations", *PARTS[2:]])
+@pytest.mark.parametrize(
+    "option", ["-funsafe-math-optimizations", *(pytest.param(part, marks=pytest.mark.thorough) for part in PARTS[2:])]
+)
 def test_emitted_kernels_undo_options_that_clang_does_not_report(tmp_path, option):
     """No operation carries a flag that lets clang reorder a sum or replace a quotient.
 
@@ -322,7 +324,7 @@ def test_emitted_kernels_undo_options_that_clang_does_not_report(tmp_path, optio
 
 HARMLESS = (
     "-O3 -ffp-contract=fast -fno-signed-zeros -fno-trapping-math -fno-math-errno",
-    "-O1 -frounding-math",
+    pytest.param("-O1 -frounding-math", marks=pytest.mark.thorough),
     pytest.param("-mfpmath=387", marks=[needs_gcc, needs_x87]),
 )
 
@@ -339,7 +341,13 @@ def test_emitted_exact_pair_code_is_right_with_options_that_change_no_bound(tmp_
 
 @needs_clang
 @needs_flags
-@pytest.mark.parametrize("option", ["-O2", "-O3 -march=native", "-funsafe-math-optimizations"])
+@pytest.mark.parametrize(
+    "option",
+    [
+        "-O3 -march=native",
+        *(pytest.param(option, marks=pytest.mark.thorough) for option in ("-O2", "-funsafe-math-optimizations")),
+    ],
+)
 def test_emitted_exact_pair_code_that_clang_compiles_is_right_in_every_arithmetic(
     tmp_path, control, rows, positions, option
 ):
@@ -360,7 +368,7 @@ def of_size(length):
 @needs_compiler
 @needs_flags
 @pytest.mark.parametrize("precision", ["float64", "float32"])
-@pytest.mark.parametrize("language", COMPILED)
+@pytest.mark.parametrize("language", ["c", pytest.param("cpp", marks=pytest.mark.thorough), "rust"])
 def test_emitted_scene_kernels_are_within_their_bound_where_subnormal_numbers_are_flushed(
     tmp_path, control, language, precision
 ):
@@ -391,7 +399,7 @@ def test_emit_refuses_an_axis_with_a_subnormal_number():
 
 @needs_compiler
 @needs_flags
-@pytest.mark.parametrize("language", [*COMPILED, "python"])
+@pytest.mark.parametrize("language", ["c", pytest.param("cpp", marks=pytest.mark.thorough), "rust", "python"])
 def test_emitted_kernels_for_a_tilted_mover_are_never_wrong_where_subnormal_numbers_are_flushed(
     tmp_path, control, language
 ):

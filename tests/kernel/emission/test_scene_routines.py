@@ -103,17 +103,20 @@ def test_emitted_sweeps_of_a_scene_answer_as_the_scene(tmp_path, language, text)
     free, count = text is FREE, 20 if language == "python" else 150
     rows = rows_of(count, 2, free=free)
     rows[::2, :6] = beside_ring(len(rows[::2]))
-    passage = hypcheck.Scene.from_text(text).passage(
-        rows[:, :3], rows[:, 3:6], **({"axis": rows[:, 6:]} if free else {})
-    )
+    scene = hypcheck.Scene.from_text(text)
+
+    def passage(sweeps):
+        return scene.passage(sweeps[:, :3], sweeps[:, 3:6], **({"axis": sweeps[:, 6:]} if free else {}))
+
     found, times = answers_of(emitted(tmp_path, text, language, "--sweeps"), language, "sweep", rows)
-    assert ((found == passage.hit) | (found == 2)).all()
+    assert ((found == passage(rows).hit) | (found == 2)).all()
     assert (found[1::2] == 2).mean() < 0.15 or language == "python"  # of 10
-    hits = found == 1
-    assert hits.any()
+    hits = np.flatnonzero(found == 1)[:: max(1, count // 30)]  # an exact time beside ends takes a tenth of a second
+    assert len(hits)
     if len(times):
-        assert not (times[hits] > passage.first_upper[hits]).any()
-        assert np.median(passage.first_lower[hits] - times[hits]) < 1e-9
+        exact = passage(rows[hits])
+        assert not (times[hits] > exact.first_upper).any()
+        assert np.median(exact.first_lower - times[hits]) < 1e-9
 
 
 @pytest.mark.parametrize(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import cache
 
 import pytest
 
@@ -11,25 +12,28 @@ from hypcheck.scene.model import FREE
 from tests.support.inside import ONE_SIDED, plan_of, scaled, whole_plan
 from tests.tools.evidence.emitted_kernels import _scenes, _whole_scenes
 
-UPRIGHT = [(name, plan_of(scene, precision)) for name, scene, precision in _scenes()]
-PLANS = dict([*UPRIGHT, *((name, whole_plan(scene)) for name, scene in _whole_scenes())])
-LINES_FIRST = [name for name in PLANS if name.startswith(("forest", "tower")) or name == "whole, parts"]
+UPRIGHT = {name: (scene, precision) for name, scene, precision in _scenes()}
+WHOLE = dict(_whole_scenes())
+LINES_FIRST = [name for name in (*UPRIGHT, *WHOLE) if name.startswith(("forest", "tower")) or name == "whole, parts"]
+
+
+@cache
+def plan_named(name):
+    """The plan of a scene, made when a test first asks for it."""
+    return plan_of(*UPRIGHT[name]) if name in UPRIGHT else whole_plan(WHOLE[name])
 
 
 def line_of(stages, side):
     """The intercept and the slope of the first line of a side in P and Q, as real numbers."""
     line = next(line for line in stages.lines if line.side is side)
-    of, where = scaled(stages.setting.sizes, FORMAT), line.multiplier
+    of, where = scaled(stages.setting.sizes, plan_named("tower float64").format), line.multiplier
     return (of.A + where) * (1 + 1 / where), (of.A + where) / (of.B - where)
-
-
-FORMAT = PLANS["tower float64"].format
 
 
 @pytest.mark.parametrize("name", LINES_FIRST)
 def test_every_centre_whose_maximum_is_nearer_to_a_pole_is_beyond_a_line(name):
     """In P and Q, 2⁻¹⁸ apart at least: more than the roundings of float32 and the lines' own margin together."""
-    plan, slack = PLANS[name], 1 + Fraction(1, 2**18)
+    plan, slack = plan_named(name), 1 + Fraction(1, 2**18)
     asked = [stages for stages in plan.settings if stages.searches]
     assert asked
     for stages in asked:
@@ -58,7 +62,7 @@ def test_every_centre_whose_maximum_is_nearer_to_a_pole_is_beyond_a_line(name):
     ],
 )
 def test_within_a_modelled_height_the_line_for_exterior_begins_before_the_box_of_the_discriminant_ends(name):
-    cut = [stages for stages in PLANS[name].settings if stages.setting.cut is not None]
+    cut = [stages for stages in plan_named(name).settings if stages.setting.cut is not None]
     assert cut
     for stages in cut:
         (line,) = (line for line in stages.lines if line.side is Position.EXTERIOR)
@@ -72,7 +76,8 @@ def test_within_a_modelled_height_the_line_for_exterior_begins_before_the_box_of
 
 
 def test_the_larger_term_of_a_frame_has_the_same_sign_at_every_axis_of_the_scenes_for_any_axis():
-    free = [stages.setting.sizes for plan in PLANS.values() if plan.axis == FREE for stages in plan.settings]
+    plans = [plan_named(name) for name in (*UPRIGHT, *WHOLE)]
+    free = [stages.setting.sizes for plan in plans if plan.axis == FREE for stages in plan.settings]
     assert len(free) == 4
     for alpha, gamma, b, d in free:
         p, s, t = ((each / b) ** 2 for each in (alpha, gamma, d))
