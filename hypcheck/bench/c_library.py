@@ -96,8 +96,8 @@ def _kernel(folder: Path) -> str:
     """The object file of the fast path."""
     program, code, target = compiler_here(), folder / "fast.c", folder / "fast.o"
     code.write_text('#define HYPCHECK_IMPLEMENTATION\n#include "hypcheck.h"\n', encoding="ascii")
-    done = run_compiler([program, *KERNEL_FLAGS, _INCLUDE, "-c", str(code), "-o", str(target)])
-    _require(done, "compile the fast path")
+    result = run_compiler([program, *KERNEL_FLAGS, _INCLUDE, "-c", str(code), "-o", str(target)])
+    _require(result, "compile the fast path")
     return str(target)
 
 
@@ -119,11 +119,11 @@ def run_compiler(words: list[str]) -> subprocess.CompletedProcess[str]:
         raise UnavailableError(f"{words[0]} cannot be run: {error}") from None
 
 
-def _require(done: subprocess.CompletedProcess[str], what: str) -> None:
+def _require(result: subprocess.CompletedProcess[str], what: str) -> None:
     """Raise UnavailableError if the compiler did not do `what`."""
-    if done.returncode != 0:
-        first_line = (done.stderr.strip().splitlines() or ["it says nothing"])[0]
-        raise UnavailableError(f"{done.args[0]} does not {what}: {first_line}")
+    if result.returncode != 0:
+        first_line = (result.stderr.strip().splitlines() or ["it says nothing"])[0]
+        raise UnavailableError(f"{result.args[0]} does not {what}: {first_line}")
 
 
 _SIZE, _POINTER = ctypes.c_size_t, ctypes.c_void_p
@@ -166,7 +166,7 @@ class InC(LoadedMethod):
         return self._by_rows("bench_rows", rows).answers()
 
     def batch(self, rows: Rows) -> PreparedWork:
-        """One call, by scene if all rows share their sizes."""
+        """A call for all rows: the entry for scenes if they share their sizes, else that for rows."""
         sizes = scene_of(rows)
         if sizes is None:
             return self._by_rows("bench_rows", rows)

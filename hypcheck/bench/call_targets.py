@@ -144,7 +144,7 @@ def textbook(alpha: float, gamma: float, b: float, d: float, x: float, y: float,
 
 
 def one_call(rounds: int) -> Iterator[KernelLine]:
-    """One pair at a time, from a loop in Python whose own time is subtracted."""
+    """Targets of calls about one pair, made in a loop in Python, whose own time is subtracted."""
     rows = [tuple(row) for row in tower_rows(uniform_columns(CALLS)).tolist()]
     each = "for alpha, gamma, b, d, x, y, z in rows:"
     ask = f"{each} ask(alpha, gamma, b, d, x, y, z)"
@@ -190,7 +190,7 @@ def forms_of_ten_centres(rounds: int) -> Iterator[KernelLine]:
 
 
 def forms_of_ten_rows(rounds: int) -> Iterator[KernelLine]:
-    """The same of rows, of positions and of clearances."""
+    """Targets of the forms of calls about ten rows, for positions and for clearances."""
     rows = tower_rows(uniform_columns(TEN))
     names = {"rows": rows, "fortran": np.asfortranarray(rows), "strided": np.repeat(rows, 2, axis=0)[::2]}
     names |= {"single": rows.astype(np.float32), "list": rows.tolist()}

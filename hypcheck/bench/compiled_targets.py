@@ -322,7 +322,7 @@ def _of_stream(library: CBaseline, total: int, parts: Sequence[Columns], out: Po
     """A row in a stream of `total` parts, in times of reading it; the median of the repeats of a short stream."""
     streams = []
     for start in range(max(1, LEAST_PARTS // total)):
-        asked = read = 0
+        answering = reading = 0
         for k in range(start, start + total):
             other, these = parts[(k + len(parts) // 2) % len(parts)], parts[k % len(parts)]
             read_other = library.reading(other)
@@ -330,8 +330,8 @@ def _of_stream(library: CBaseline, total: int, parts: Sequence[Columns], out: Po
             read_other(1)
             between = thread_time_ns()
             _answered(these, out)
-            read, asked = read + between - began, asked + thread_time_ns() - between
-        streams.append(asked / read)
+            reading, answering = reading + between - began, answering + thread_time_ns() - between
+        streams.append(answering / reading)
     return median(streams)
 
 

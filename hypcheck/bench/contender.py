@@ -57,7 +57,7 @@ class LoadedMethod:
     trouble: str = ""
 
     def answer(self, rows: Rows) -> Answers:
-        """Its answers, which are judged."""
+        """The method's answers, which are judged."""
         raise NotImplementedError
 
     def batch(self, rows: Rows) -> PreparedWork | None:
@@ -93,7 +93,7 @@ class InPython(LoadedMethod):
         return self.function(rows)
 
     def batch(self, rows: Rows) -> PreparedWork:
-        """One call, of the scene if all rows share their sizes."""
+        """A call for all rows: by the function for scenes if they share their sizes."""
         return prepared(len(rows), self._work(rows))
 
     def single(self, rows: Rows) -> PreparedWork:
@@ -196,7 +196,7 @@ class InEngine(LoadedMethod):
     meshes: dict[tuple[Sizes, float], BuiltMesh] = field(default_factory=dict)
 
     def answer(self, rows: Rows) -> Answers:
-        """Its answers, scene by scene; missing meshes are built and kept."""
+        """The engine's answers, scene by scene; missing meshes are built and kept."""
         answers = np.full(len(rows), CANNOT_SAY, dtype=np.int8)
         for sizes, places in rows_by_sizes(rows):
             answers[places] = self.mesh(sizes, rows[places]).answers(rows[places])
@@ -210,12 +210,12 @@ class InEngine(LoadedMethod):
         return self.meshes[key]
 
     def batch(self, rows: Rows) -> PreparedWork:
-        """Every row, with meshes that exist."""
+        """A call for all rows, with meshes that exist."""
         work = partial(self._ready(rows), rows)
         return prepared(len(rows), work)
 
     def single(self, rows: Rows) -> PreparedWork:
-        """The same by a call for each row."""
+        """A call for each row, with meshes that exist."""
         return one_by_one(self._ready(rows), [rows[place : place + 1] for place in range(len(rows))])
 
     def _ready(self, rows: Rows) -> Callable[[Rows], Answers]:

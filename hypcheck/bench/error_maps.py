@@ -77,7 +77,7 @@ def stability_lines(task: tuple[BenchPlan, str]) -> list[StabilityLine]:
 
 
 def stability_rows(plan: BenchPlan) -> tuple[Rows, NDArray[np.intp]]:
-    """The same number of rows for each cell, and the cell of each row."""
+    """Rows, as many in each cell, and the cell of each row."""
     side, draw = LAST - FIRST + 1, Draw("bench-stability", 1, plan.seed)
     cells = np.repeat(np.arange(side * side), plan.amounts.cell)
     edges = np.sqrt(10.0) ** np.arange(FIRST, LAST + 2)

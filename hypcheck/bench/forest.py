@@ -84,7 +84,7 @@ def _tree(number: int, kind: int, place: tuple[float, float]) -> Hyperboloid:
 
 
 def forest_of(trees: int, seed: int) -> Forest:
-    """That number of trees, uniform on a square."""
+    """A forest of so many trees, uniform on a square."""
     draw = np.random.Generator(np.random.PCG64([seed, trees]))
     side = float(np.sqrt(ROOM * trees))
     return Forest(side, side * draw.random((trees, 2)), draw.integers(0, len(KINDS), trees))
@@ -94,17 +94,17 @@ def walk(scene: Scene, forest: Forest, steps: int, seed: int) -> list[Point]:
     """The centres that a walker asks about: each is one step from her place, where she goes if it is clear."""
     draw = np.random.Generator(np.random.PCG64([seed, steps]))
     x = y = forest.side / 2
-    heading, asked = 0.0, []
+    heading, centres = 0.0, []
     for turn, side in draw.random((steps, 2)).tolist():
         to_x = x + STEP * float(np.cos(np.deg2rad(heading)))
         to_y = y + STEP * float(np.sin(np.deg2rad(heading)))
-        asked.append((to_x, to_y, 0.0))
+        centres.append((to_x, to_y, 0.0))
         if 0 < to_x < forest.side and 0 < to_y < forest.side and scene.position(to_x, to_y, 0.0) == 1:
             x, y = to_x, to_y
             heading += LARGEST_TURN * (2 * turn - 1)
         else:
             heading += REFUSED_TURN if side < 0.5 else -REFUSED_TURN
-    return asked
+    return centres
 
 
 Clear = Callable[[float, float, float], int]

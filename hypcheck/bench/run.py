@@ -134,15 +134,15 @@ def load() -> tuple[float, float, float] | None:
 
 def codes_of(lines: Iterable[RecordLine]) -> set[Exit]:
     """How a run with these lines of kernels, forests and scenes ends: wrong answers, and missed targets."""
-    found = set()
+    codes = set()
     for line in lines:
         if isinstance(line, measurements.KernelLine) and not line.met:
-            found.add(Exit.SLOWER)
+            codes.add(Exit.SLOWER)
         elif (isinstance(line, measurements.ForestLine) and line.exact and line.wrong) or (
             isinstance(line, measurements.SceneLine) and line.wrong
         ):
-            found.add(Exit.WRONG)
-    return found
+            codes.add(Exit.WRONG)
+    return codes
 
 
 def _kernel(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome, advance: Advance) -> None:
@@ -199,12 +199,12 @@ class MethodsRun:
     @property
     def mesh_and_memory_stages(self) -> Sequence[Stage]:
         """The stages about positions of upright spheroids that come last."""
-        found = []
+        stages = []
         if any(contender.needs == FCL.title for contender in self.found.values()):
-            found.append(Stage("meshes", error_maps.convergence_steps(self.plan), self.refine))
+            stages.append(Stage("meshes", error_maps.convergence_steps(self.plan), self.refine))
         if self.plan.amounts.memory:
-            found.append(Stage("memory", len(self.timed), self.weigh))
-        return found
+            stages.append(Stage("memory", len(self.timed), self.weigh))
+        return stages
 
     @property
     def timed(self) -> list[str]:
@@ -275,11 +275,11 @@ class MethodsRun:
         )
         with processes(self.plan.workers) as executor:
             for lines_of, names in maps:
-                found = {}
+                lines_by_name = {}
                 for (_, name), lines in perform(lines_of, [(self.plan, name) for name in names], executor):
-                    found[name] = lines
+                    lines_by_name[name] = lines
                     advance(1)
-                for line in (line for name in names for line in found[name]):
+                for line in (line for name in names for line in lines_by_name[name]):
                     self.recorder.add(line)
 
     def bound(self, advance: Advance) -> None:
@@ -291,18 +291,18 @@ class MethodsRun:
     def measure(self, advance: Advance) -> None:
         """Time all methods, and the claims about costs."""
         before = load()
-        found = speed.measurements_of(self.plan, speed.expected_prints(self.answers), advance)
+        measured = speed.measurements_of(self.plan, speed.expected_prints(self.answers), advance)
         self.recorder.add(
             measurements.ConditionsLine(
                 governor=governor(), processors=usable_processors(), load_before=before, load_after=load()
             )
         )
-        for line in speed.speed_lines(found, self.plan.reference):
+        for line in speed.speed_lines(measured, self.plan.reference):
             self.recorder.add(line)
             self.speeds.append(line)
             if isinstance(line, measurements.RefusedLine):
                 self.outcome.codes.add(Exit.WRONG)
-        for claim in speed.cost_lines(self.plan, found):
+        for claim in speed.cost_lines(self.plan, measured):
             self.recorder.add(claim)
 
     def compare(self, baseline: Baseline, advance: Advance) -> None:

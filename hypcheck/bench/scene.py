@@ -127,7 +127,7 @@ def _saving(own: Samples, other: Samples) -> dict[str, Any]:
 
 
 def _saving_text(kernel_ns: float, printed_ns: float, ratio: float, ratio_ci95: Sequence[float]) -> str:
-    """The same as a part of a sentence."""
+    """What a kernel saves, as a part of a sentence."""
     low, high = ratio_ci95
     how = f"{1 / ratio:.2f} times as fast as" if ratio <= 1 else f"{ratio:.2f} times as slow as"
     return (
@@ -259,7 +259,7 @@ def _all_of(parts: Sequence[Clocked]) -> Clocked:
     """The work of all parts as one."""
 
     def run(repeat: int) -> tuple[int, int]:
-        done = [part(repeat) for part in parts]
-        return sum(took for took, _ in done), sum(total for _, total in done)
+        times = [part(repeat) for part in parts]
+        return sum(took for took, _ in times), sum(total for _, total in times)
 
     return run

@@ -113,7 +113,7 @@ def with_powers(sizes: Sizes, x: Floats, y: Floats, z: Floats) -> NDArray[np.int
 
 
 def with_products(sizes: Sizes, x: Floats, y: Floats, z: Floats) -> NDArray[np.int8]:
-    """The same with products instead of powers, which numpy computes by a function of the C library."""
+    """As with_powers, with products instead of powers, which numpy computes by a function of the C library."""
     alpha, gamma, b, d = sizes
     A, B = (alpha / b) ** 2, (gamma / d) ** 2
     c0, bb, dd = -A * B, b * b, d * d

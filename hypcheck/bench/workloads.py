@@ -99,7 +99,7 @@ def _families(*names: str) -> _Block:
 
 
 def _in_turn(stream: str, *names: str) -> _Rows:
-    """The same, from random numbers of that name."""
+    """As _families, with random numbers from the stream of that name."""
     return _in_blocks(_families(*names), len(family_of(names[0]).columns), stream, *names)
 
 

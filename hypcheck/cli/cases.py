@@ -47,9 +47,11 @@ def show(name: str, as_json: bool) -> None:
 @click.argument("family", metavar="FAMILY", type=options.Names(options.families))
 @click.option("--seed", type=options.IntegerOption(0, options.LARGEST_SEED), default=1, show_default=True)
 @click.option("--count", type=options.IntegerOption(1), default=100, show_default=True, help="Number of rows.")
-@click.option("--format", "said", type=click.Choice(_FORMATS), help="By default the ending of --output, or json.")
+@click.option(
+    "--format", "format_name", type=click.Choice(_FORMATS), help="By default the ending of --output, or json."
+)
 @click.option("--output", "target", metavar="FILE", default="-", help="By default standard output.")
-def generate(family: str, seed: int, count: int, said: str | None, target: str) -> None:
+def generate(family: str, seed: int, count: int, format_name: str | None, target: str) -> None:
     """Make rows of a family: the same bytes on every machine, and more rows begin with those of fewer.
 
     FAMILY is one that `cases list` shows, or one for given sizes, such as razor@2.0,17.8,0.25,0.15,z=-17.8:17.8.
@@ -58,7 +60,7 @@ def generate(family: str, seed: int, count: int, said: str | None, target: str) 
     """
     from hypcheck.vectors.showing import generate as write
 
-    write(family, seed, count, said or _format_of(target), target)
+    write(family, seed, count, format_name or _format_of(target), target)
 
 
 @cases.command(short_help="Prove every label of the frozen files, or of yours.")

@@ -66,7 +66,7 @@ output is written as the rows come.
 )
 @click.option("--output", "target", metavar="FILE", help="Where its answers go: .csv, .jsonl, .npy, or - .")
 @click.option(
-    "--format", "said", type=click.Choice(FORMATS), help="The format of - and of names without a known ending."
+    "--format", "format_name", type=click.Choice(FORMATS), help="The format of - and of names without a known ending."
 )
 @click.option(
     "--on-invalid",
@@ -88,7 +88,7 @@ def classify(
     as_json: bool,
     source: str | None,
     target: str | None,
-    said: str | None,
+    format_name: str | None,
     on_invalid: str | None,
 ) -> None:
     """Answer about one pair, or about a table if --input names one."""
@@ -97,10 +97,14 @@ def classify(
     heights = {"--z-min": z_min is not None, "--z-max": z_max is not None, "--solid": solid}
     length = None if margin is None else _margin(margin, end)
     for_a_pair = {"--json": as_json} | {f"--{name}": text is not None for name, text in sizes.items()}
-    for_a_table = {"--output": target is not None, "--format": said is not None, "--on-invalid": on_invalid is not None}
+    for_a_table = {
+        "--output": target is not None,
+        "--format": format_name is not None,
+        "--on-invalid": on_invalid is not None,
+    }
     if source is not None:
         _refuse(for_a_pair | vectors | heights, "is for one pair, and --input for a table; use one of them")
-        _answer_table(source, target, said, length, mark=on_invalid == "flag")
+        _answer_table(source, target, format_name, length, mark=on_invalid == "flag")
         return
     _refuse(for_a_table, "is for tables; name one with --input")
     pair = _with_heights(_pair_of(sizes, center, axis), z_min, z_max, solid)
@@ -141,10 +145,12 @@ def _refuse(options: dict[str, bool], reason: str) -> None:
         raise InputError(f"{given[0]} {reason}")
 
 
-def _answer_table(source: str, target: str | None, said: str | None, margin: float | None, *, mark: bool) -> None:
+def _answer_table(
+    source: str, target: str | None, format_name: str | None, margin: float | None, *, mark: bool
+) -> None:
     if target is None:
         raise InputError("--output is missing; name a file for the answers, or - for standard output")
-    streams = route(source, target, said)
+    streams = route(source, target, format_name)
     from hypcheck.answers import classify_table
 
     classify_table(streams, mark=mark, watch=_watch, margin=margin)

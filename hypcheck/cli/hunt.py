@@ -311,11 +311,11 @@ def replay(
     with _opened(spec, question, precision, domain, limits) as implementation:
         used = implementation.description
         criterion = Criterion(used.question, used.precision, Fraction(tolerance))
-        done = run(case_asked, implementation, criterion, formula)
+        replayed = run(case_asked, implementation, criterion, formula)
     shown = values or formula is not None
-    for line in [replay_as_json(done)] if as_json else replay_lines(done, _in_ledger, values=shown):
+    for line in [replay_as_json(replayed)] if as_json else replay_lines(replayed, _in_ledger, values=shown):
         click.echo(printable(line))
-    context.exit(Exit.HELD if done.judgement.passes else Exit.WRONG)
+    context.exit(Exit.HELD if replayed.judgement.passes else Exit.WRONG)
 
 
 def _in_ledger(number: str) -> tuple[str, str, str]:

@@ -50,11 +50,11 @@ def report(record: Path, formats: tuple[str, ...], out: Path | None, against: Pa
         raise InputError(f"{len(wanted)} formats need a folder: --out FOLDER")
     from hypcheck.record.reader import file_and_newer
 
-    found, other = _read(record, record), None if against is None else _read(against, record)
+    shown, other = _read(record, record), None if against is None else _read(against, record)
     if out is None:
-        _print(found, wanted[0] if wanted else "terminal", other)
+        _print(shown, wanted[0] if wanted else "terminal", other)
     elif target is None:
-        _into_folder(found, out, wanted or kept_formats(), other)
+        _into_folder(shown, out, wanted or kept_formats(), other)
     else:
         if any(
             same_file(str(out), str(file_and_newer(other_record)[0]))
@@ -62,7 +62,7 @@ def report(record: Path, formats: tuple[str, ...], out: Path | None, against: Pa
             if other_record is not None
         ):
             raise InputError(f"--out {out} is a record that is being read; name another file")
-        _into_file(found, record, out, target, other)
+        _into_file(shown, record, out, target, other)
 
 
 def _require_comparing(wanted: Sequence[str], against: Path | None) -> None:
@@ -81,10 +81,10 @@ def _file_format(out: Path, wanted: Sequence[str]) -> str | None:
     named = [name for name, report in REPORTS.items() if report.file == out.name]
     alike = [name for name, report in REPORTS.items() if report.by_suffix and Path(report.file).suffix == out.suffix]
     usual = [name for name in alike if name in kept_formats()]
-    found = named or usual or alike
-    if len(found) != 1:
+    names = named or usual or alike
+    if len(names) != 1:
         raise InputError(f"--out {out}: its name does not say which report it is; use --format {', '.join(REPORTS)}")
-    return found[0]
+    return names[0]
 
 
 def _read(path: Path, subject: Path) -> Record:

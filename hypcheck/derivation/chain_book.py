@@ -166,7 +166,7 @@ def _attained_at_B() -> Link:
 
 
 def _s_lemma() -> Link:
-    """Its hypothesis on either side: the constraint h ≤ 0, or −h ≤ 0, holds strictly somewhere."""
+    """The S-lemma, and its hypothesis on either side: the constraint h ≤ 0, or −h ≤ 0, holds strictly somewhere."""
     a = symbol("a")
     return link(
         "So the largest φ is dist(C, H)² − 1. The S-lemma says the same in general: |X − C|² ≥ ρ² wherever h ≤ 0 (or "

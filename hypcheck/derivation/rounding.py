@@ -128,8 +128,8 @@ class FloatFormat:
 
 
 FLOAT_FORMATS = {
-    each.name: each
-    for each in (
+    float_format.name: float_format
+    for float_format in (
         FloatFormat("float16", 11, -14, 15),
         FloatFormat("float32", 24, -126, 127),
         FloatFormat("float64", 53, -1022, 1023),

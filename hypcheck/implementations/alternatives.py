@@ -232,7 +232,7 @@ def by_eigenvectors(rows: Rows, turns: int = TURNS) -> Positions:
 
 
 def by_eigenvectors_scene(sizes: Sizes, x: Floats, y: Floats, z: Floats, axis: Axis) -> Positions:
-    """The same for many centres of one spheroid, whose eigenvectors are found once."""
+    """As by_eigenvectors, for many centres of one spheroid, whose eigenvectors are found once."""
     with np.errstate(all="ignore"):
         return _by_dual(*_eigenbasis(np.array([sizes]), np.array([axis])), np.column_stack([x, y, z]), TURNS)
 
@@ -300,6 +300,6 @@ def upright(rows: Rows) -> Answers:
 
 
 def upright_scene(sizes: Sizes, x: Floats, y: Floats, z: Floats, _axis: Axis) -> Answers:
-    """The same for many centres of one spheroid."""
+    """As upright, for many centres of one spheroid."""
     columns: Columns = (x, y, z)
     return kernel().answer_scene(sizes, columns, "position", 1)[0]

@@ -43,8 +43,8 @@ class Question:
 
 QUESTIONS: Mapping[str, Question] = MappingProxyType(
     {
-        each.name: each
-        for each in (
+        question.name: question
+        for question in (
             Question("position", (-1, 0, 1)),
             Question("exterior", position=Position.EXTERIOR),
             Question("interior", position=Position.INTERIOR),

@@ -260,21 +260,21 @@ class RowQuestions:
             self._charge(start, fault, reason)
             return
         among = f"in a question of {stop - start} rows"
-        found, restarts = False, self._supervisor.left.restarts
+        part_failed, restarts = False, self._supervisor.left.restarts
         size = _part(stop - start, fatal=fault.fatal)
         for first in range(start, stop, size):
             last = min(first + size, stop)
             try:
                 self._question(first, last)
             except FaultError as part:
-                found = True
+                part_failed = True
                 self._search(first, last, part, self._supervisor.note_fault(part))
             except GivenUpError:
-                if not found:
+                if not part_failed:
                     unknown = f"{among}, and it could not be asked further to find which: {reason}"
                     self._mark(first, fault.outcome, unknown)
                 raise
-        if not found:
+        if not part_failed:
             self._charge(start, fault, f"{among} from this one on, though not in smaller ones: {reason}")
         elif fault.fatal and self._supervisor.left.restarts == restarts:  # its parts failed, but ended no process
             self._supervisor.charge_fault(fault, reason)

@@ -165,13 +165,13 @@ class MemoryWatch:
         known = self._known
         self._known = {process.identity: known[process.identity] for process in processes if process.identity in known}
         children: dict[int, list[_ProcessMemory]] = {}
-        for each in processes:
-            children.setdefault(each.parent, []).append(each)
+        for candidate in processes:
+            children.setdefault(candidate.parent, []).append(candidate)
         todo = [process for process in processes if self._is_ours(process)]
         while todo:
-            each = todo.pop()
-            yield each
-            for child in children.pop(each.number, ()):
+            candidate = todo.pop()
+            yield candidate
+            for child in children.pop(candidate.number, ()):
                 if not self._known[child.identity]:
                     self._known[child.identity] = True
                     todo.append(child)

@@ -323,7 +323,7 @@ class ProcessSession:
 
     @property
     def evidence(self) -> str:
-        """Its output on standard error since the last question, as the end of a sentence."""
+        """What the program wrote to standard error since the last question, as the end of a sentence."""
         return stderr_excerpt(self._process.stderr)
 
     def advice(self, reason: str) -> str:

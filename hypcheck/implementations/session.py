@@ -116,7 +116,7 @@ class Session(Protocol):
 
     @property
     def evidence(self) -> str:
-        """Its output on standard error since the last question, as the end of a sentence."""
+        """What the implementation wrote to standard error since the last question, as the end of a sentence."""
         ...
 
     def advice(self, reason: str) -> str:
@@ -147,7 +147,7 @@ class Answered:
 
     @classmethod
     def of(cls, answers: NDArray[np.int8], times: Floats | None = None) -> Answered:
-        """These answers, one for every row."""
+        """A result in which every row is answered."""
         return cls(answers, np.full(len(answers), Outcome.ANSWERED, dtype=np.int8), {}, times)
 
     @property
@@ -193,7 +193,7 @@ class AllowedAnswers:
         return np.asarray(usable)
 
     def trouble_with(self, answer: int, time: float | None = None) -> str:
-        """Why an answer with this time is not allowed."""
+        """The reason why an answer with this time is not allowed."""
         if answer == 1 and time is not None:
             return f"it answered 1 with the time {time!r}; it must be a number from 0 to 1"
         if answer == REFUSED and self._refuses:

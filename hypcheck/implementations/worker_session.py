@@ -165,7 +165,7 @@ class WorkerSession(ProcessSession):
 
 
 def _lacking(path: str, described: Description, call: CallForm) -> str:
-    """That a library lacks the function that is to be called."""
+    """The sentence that a library lacks the function to be called."""
     question, name = described.asked, call.entry_name(tilt=described.tilt)
     rows = f"rows{len(described.columns)}" if described.tilt and not call.columns else "rows"
     reasons = [f'"question": "{question.name}"'] if question.layout.has_end else []

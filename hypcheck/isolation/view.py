@@ -175,9 +175,9 @@ def hidden_paths(also: Iterable[str], needed: Sequence[str] = (), seen: Sequence
 
 @lru_cache(maxsize=8)
 def _copies(roots: Sequence[str]) -> tuple[str, ...]:
-    """This package, and its copies in Python's usual folders, in the folders `roots` and one level below these.
+    """The folders of this package and of its copies, followed by the folders with answers in their checkouts.
 
-    The folders with answers in the checkouts of these copies follow.
+    Copies are looked for in Python's usual folders, in the folders `roots`, and one level below these.
     """
     packages = "lib/python3*/[ds]*-packages/hypcheck"
     patterns = [f"{outer}/{packages}" for outer in ("/usr", "/usr/local", "/opt/*", "/opt/hostedtoolcache/*/*/*")]

@@ -73,7 +73,7 @@ def clearance(
 
 
 def clearances(queries: Rows, threads: int | None = None) -> Clearance:
-    """The same of rows of any width; invalid ones have the position 127 and NaN everywhere."""
+    """Clearances of rows of any width; invalid rows have the position 127 and NaN everywhere."""
     if not PAIRS.has_heights(queries):
         return clearances_without_ends(queries, threads)
     return _ended_clearances(queries, threads)

@@ -76,7 +76,7 @@ def fill_scene(
     threads: int | None = None,
     axis: Axis | None = None,
 ) -> int:
-    """The same into a contiguous array that is there already; returns how many rows are invalid."""
+    """Write the answers of answer_scene into a contiguous array; return how many rows are invalid."""
     ask, number = extension().ask_scene, NUMBER_OF[question]
     own_axis = () if axis is None else (axis,)
 

@@ -47,7 +47,7 @@ def upright_position(lengths: Lengths) -> Position:
 
 
 def upright_position_of_squares(p: int, q: int, s: int, t: int, radius: int, height: int) -> Position:
-    """The same from the squares of α, b, γ, d, of the centre's distance from the axis, and of its height."""
+    """The position from the squares of α, b, γ, d, of the centre's distance from the axis, and of its height."""
     N = q * t
     C2 = (p + q - radius) * t - (s + height) * q  # N c2
     C1 = p * (t - s - height) + s * (radius - q)  # N c1

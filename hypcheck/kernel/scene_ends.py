@@ -85,7 +85,7 @@ class _Place:
         return (below > far) & (above > far), (below < -far) | (above < -far)
 
     def centre_between_and_beyond(self) -> tuple[Any, Any]:
-        """The same of its centre."""
+        """Whether the mover's centre surely lies between the ends, and beyond an end."""
         below, above = self.along - self.low, self.high - self.along
         return (below > self.error) & (above > self.error), (below < -self.error) | (above < -self.error)
 
@@ -184,7 +184,7 @@ def position_with_ends(
     *,
     solid: bool,
 ) -> int:
-    """The same of one pair."""
+    """As positions_with_ends, for one pair."""
     (alpha, gamma, b, d), (low, high) = sizes, span
     upright = mover[0] == mover[1] == axis[0] == axis[1] == 0
     along, across, error = scene_pairs.height_and_distance(centre, origin, axis)
@@ -215,7 +215,7 @@ def _exactly(
     *,
     solid: bool,
 ) -> int:
-    """The same in integers."""
+    """As position_with_ends, in integers."""
     if tuple(span) == WITHOUT_ENDS[:2]:
         return whole
     offset = [Fraction(there) - Fraction(here) for there, here in zip(centre, origin, strict=True)]

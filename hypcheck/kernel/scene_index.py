@@ -151,7 +151,7 @@ class PlaneGrid:
         return [*self.everywhere, *inside] if self.everywhere else inside
 
     def near_each(self, x: Floats, y: Floats) -> tuple[Indices, Indices]:
-        """The same of many centres (n,): pairs of a centre's number and a hyperboloid's, centre by centre."""
+        """As near, for many centres (n,): pairs of a centre's number and a hyperboloid's, centre by centre."""
         with np.errstate(over="ignore"):
             cells = np.floor(np.stack([x, y]) / self.side)
         inside = np.flatnonzero((np.abs(cells) < WIDEST).all(axis=0))
@@ -164,7 +164,7 @@ class PlaneGrid:
         )
 
     def near_sweep(self, x: float, y: float, x_end: float, y_end: float) -> set[int] | None:
-        """Those that may be near a sweep; None where the sweep is too long, or too far out, to say at once."""
+        """The hyperboloids that may be near a sweep; None if it is too long, or too far out, to say at once."""
         pad_x, pad_y = PAD * (abs(x) + abs(x_end)), PAD * (abs(y) + abs(y_end))
         across, along = x_end - x, y_end - y
         count = max(abs(across), abs(along)) / self.side

@@ -135,7 +135,7 @@ def tilted_position(
     mover: Sequence[float],
     axis: Sequence[float],
 ) -> int:
-    """The same of one pair."""
+    """As tilted_positions, for one pair."""
     if axis[0] == axis[1] == 0:
         (alpha, gamma, b, d), (x, y, z), (u, v, w) = sizes, centre, origin
         return position_beside((alpha, gamma, u, v, w), b, d, x, y, z, mover)
@@ -182,7 +182,7 @@ def _from_exact_difference(
     mover: Sequence[float],
     axis: Sequence[float],
 ) -> int:
-    """The same in integers."""
+    """As tilted_position, in integers."""
     difference = [Fraction(there) - Fraction(here) for there, here in zip(centre, origin, strict=True)]
     return int(position_of_squares(squares_between_axes(sizes, difference, mover, axis)))
 

@@ -209,7 +209,7 @@ class PreparedScene:
         return region is None or all(region.low <= height <= region.high for height in heights)
 
     def _near_motion(self, index: int) -> Near:
-        """The same for motions."""
+        """The numbers and limits of a hyperboloid for motions; they are kept after their first use."""
         prepared = self._asked_of_motions.get(index)
         if prepared is None:
             prepared = self._asked_of_motions[index] = near_of(self._bodies, self._reaches, self._limits, index)

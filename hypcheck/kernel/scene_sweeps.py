@@ -220,13 +220,13 @@ Spheroid = tuple[float, float, Sweep]
 
 
 def _at(sweep: Sweep, time: Fraction) -> list[Fraction]:
-    """Where the centre is at a time, exactly."""
+    """The centre's exact place at a time of the sweep."""
     ends = zip(*([Fraction(part) for part in point] for point in (sweep.start, sweep.end)), strict=True)
     return [here + time * (there - here) for here, there in ends]
 
 
 def _cut(mover: Spheroid, parts: Sequence[Spheroid], time: Fraction) -> tuple[Spheroid, list[Spheroid]]:
-    """The same up to a time."""
+    """The mover and its parts with their sweeps cut off at a time."""
     whole, *others = ((b, d, replace(sweep, end=_at(sweep, time))) for b, d, sweep in (mover, *parts))
     return whole, others
 
@@ -309,7 +309,7 @@ def _differences(point: Place, centre: Place) -> tuple[Place, Place]:
 
 
 def _passed(candidates: set[int], near: Callable[[int], Near], start: Place, end: Place) -> list[int]:
-    """Those that the sweep comes as near to as they reach: scene_index.passed, with numbers."""
+    """The candidates whose reach the sweep enters: scene_index.passed, for one sweep."""
     (x, y, z), (x_end, y_end, z_end) = start, end
     lowest, highest = (z, z_end) if z < z_end else (z_end, z)
     across, along = x_end - x, y_end - y

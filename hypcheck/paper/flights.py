@@ -141,10 +141,10 @@ def fly(
     state = _begin(craft, flight.start, draw, lanes, moves)
     while len(state.lane):
         words = draw.words(2 * LANES).reshape(2, LANES)[:, state.lane]
-        done = _advance(craft, flight, step, procedures, state, words)
-        tallies.add(done)
+        drawn = _advance(craft, flight, step, procedures, state, words)
+        tallies.add(drawn)
         if observe is not None:
-            observe(done)
+            observe(drawn)
         if (state.idle >= PATIENCE).any():
             raise InputError(
                 f"a flight with steps of {step!r} is stuck: {PATIENCE} draws in a row led to no accepted move; "
@@ -201,7 +201,7 @@ def _advance(
     state: _State,
     words: NDArray[np.uint64],
 ) -> Moves:
-    """One draw of every flight under way; the state becomes what it leads to."""
+    """Draw a move of every flight that is under way, and change the state accordingly; the moves."""
     chosen, start, before = _choose(flight, state.due, words), state.at, state.heading
     heading = _turned(before, chosen.turn)
     end = _moved(start, heading, chosen, step)

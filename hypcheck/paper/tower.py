@@ -224,12 +224,12 @@ def table_5(
 ) -> dict[tuple[float, float], FlightShare]:
     """Every cell, flown by the executor's processes; advanced by a block's moves whenever one is done."""
     tasks = sorted((block for cell_blocks in cells.values() for block in cell_blocks), key=lambda block: -block.moves)
-    done = {}
+    results = {}
     for block, result in perform(fly_block, tasks, executor):
-        done[block.time, block.speed, block.number] = result
+        results[block.time, block.speed, block.number] = result
         advance(block.moves)
     return {
-        (time, speed): _cell([done[time, speed, block.number] for block in cell_blocks])
+        (time, speed): _cell([results[time, speed, block.number] for block in cell_blocks])
         for (time, speed), cell_blocks in cells.items()
     }
 

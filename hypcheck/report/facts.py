@@ -109,7 +109,7 @@ class LineFacts(Generic[Line]):
         yield from ()
 
     def headline(self) -> str:
-        """One sentence for all its failures together; "" where their own messages say it."""
+        """One sentence for all failures of the line together; "" where their own messages say it."""
         return ""
 
     def not_judged(self) -> NotJudged | None:

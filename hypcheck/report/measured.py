@@ -47,7 +47,7 @@ class MeasuredMethod:
 
     @property
     def label(self) -> str:
-        """Its name in a picture; the user's methods are marked."""
+        """The method's name in a picture; a user's method is marked as "(yours)"."""
         return escaped(self.name, 28) + " (yours)" * self.foreign
 
     @property
@@ -76,7 +76,7 @@ class MeasuredMethod:
         return max((line.reliable_above for line in self.accuracy.values()), default=math.inf)
 
     def ratio(self, workload: str, mode: str = BATCH) -> float | None:
-        """Its time divided by that of the reference method; None if it was not timed or not compared."""
+        """The method's time divided by the reference method's; None if it was not timed or not compared."""
         line = self.speed.get((workload, mode))
         return None if line is None or line.ratio is None or lost(line) else line.ratio
 

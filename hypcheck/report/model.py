@@ -105,12 +105,12 @@ class ImplementationTotal:
 
     @property
     def not_asked(self) -> dict[str, int]:
-        """Its skipped cases by reason; those of a record that gives no reasons are left out."""
+        """The number of skipped cases by reason; groups of older records, which have no reasons, are left out."""
         return dict(sum((Counter(group.not_asked or {}) for group in self.groups), Counter()))
 
     @property
     def mistakes(self) -> dict[str, int]:
-        """Its wrong and tolerated answers by the kind of mistake."""
+        """The number of wrong and tolerated answers by the kind of mistake."""
         total: Counter[str] = sum((Counter(group.mistakes) for group in self.groups), Counter())
         return dict(sorted(total.items()))
 

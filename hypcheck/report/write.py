@@ -127,7 +127,7 @@ def write_reports(
     All are written or none. A format that cannot be made here is skipped, and its file of an earlier run removed, since
     it shows another run. Raises InputError if a file cannot be written; the earlier files then stay.
     """
-    done: list[WrittenReport] = []
+    reports: list[WrittenReport] = []
     contents: dict[str, bytes] = {}
     wanted = [name for name in REPORTS if name in (kept_formats() if formats is None else formats)]
     drawings = draw_ahead(record) if "html" in wanted else {}
@@ -139,15 +139,15 @@ def write_reports(
             contents[str(path)] = render(
                 name, record, ReportContext([*map(os.path.basename, contents)], against, drawings)
             )
-            done.append(WrittenReport(path))
+            reports.append(WrittenReport(path))
         except UnavailableError as error:
-            done.append(WrittenReport(path, str(error)))
+            reports.append(WrittenReport(path, str(error)))
     with made_folder(directory):
         write_files(contents, follow=False)
     for path in (directory / REPORTS[name].file for name in wanted):
         if str(path) not in contents:
             remove_file(path)
-    return done
+    return reports
 
 
 PICTURES = {

@@ -82,8 +82,8 @@ class _Side:
     def __post_init__(self) -> None:
         self.begun = self.wrong
 
-    def told(self, status: int) -> None:
-        """Choose what to ask after the row with `next` has ended so."""
+    def take(self, status: int) -> None:
+        """Take the status of the row `next`, and choose the one to ask after it."""
         rung = self.next
         self.next = None
         if rung is None or status not in (_RIGHT, _WRONG):
@@ -119,7 +119,7 @@ def searched(rows: int, first: int, ask: Callable[[Indices], StatusCodes]) -> No
         status = ask(np.array([_place(side) for side in active], dtype=np.int64))
         left -= len(active)
         for side, ended in zip(active, status.tolist(), strict=True):
-            side.told(ended)
+            side.take(ended)
         active = [side for side in active if side.next is not None]
 
 

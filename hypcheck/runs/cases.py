@@ -70,7 +70,7 @@ def keep_loaded(some: Mapping[str, FrozenVectors]) -> None:
 
 
 def _tilted_exponent(vector: Vector) -> float:
-    """That of the lower end, which is proved; of the upper one where the lower is 0; −inf for a tangency."""
+    """The exponent of the distance's proved lower end, or of its upper one if the lower is 0; −inf for a tangency."""
     clear = vector.position is not Position.CONTACT
     ends = [vector.flips[Position.CONTACT]] if clear else list(vector.flips.values())
     least = min(end.lower for end in ends) or min(end.upper for end in ends)

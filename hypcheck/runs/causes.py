@@ -164,7 +164,7 @@ class Numbers:
 
     @classmethod
     def of(cls, rows: Rows) -> Numbers:
-        """Those of Table 2, and g'(B), g'(−A)."""
+        """The numbers of Table 2, and g'(B) and g'(−A), of rows (n, 7) or wider."""
         alpha, gamma, b, d, x, y, z = rows[:, : len(COLUMNS)].T
         with np.errstate(all="ignore"):
             A, B, P, Q = (alpha / b) ** 2, (gamma / d) ** 2, (x * x + y * y) / (b * b), (z / d) ** 2
@@ -297,7 +297,7 @@ def _zero_coefficient(answered: AnsweredRows) -> Answers:
 
 
 def _coefficients_are_exact(answered: AnsweredRows) -> Mask:
-    """Where every order of the operations gives c1 and c2 without a rounding (_on_a_grid)."""
+    """The rows where c1 and c2 are computed without a rounding, whatever the order of operations (_on_a_grid)."""
     n = answered.numbers
     with np.errstate(all="ignore"):
         size = n.A * n.B + n.A + n.B + n.B * n.P + n.A * n.Q
@@ -305,7 +305,7 @@ def _coefficients_are_exact(answered: AnsweredRows) -> Mask:
 
 
 def _delta_is_exact(answered: AnsweredRows) -> Mask:
-    """Where every order of the operations, and every form of the discriminant, gives Δ without a rounding."""
+    """The rows where Δ is computed without a rounding, whatever the order of operations and the form of Δ."""
     n = answered.numbers
     with np.errstate(all="ignore"):
         m0, m1, m2 = n.A * n.B, n.A * n.B + n.A + n.B + n.B * n.P + n.A * n.Q, 1 + n.A + n.B + n.P + n.Q
@@ -313,10 +313,10 @@ def _delta_is_exact(answered: AnsweredRows) -> Mask:
 
 
 def _on_a_grid(answered: AnsweredRows, size: Floats, power: int) -> Mask:
-    """Where numbers up to this size have all their digits in the declared precision.
+    """The rows where the declared precision holds every digit of numbers up to this size.
 
-    They are polynomials of this degree in the lengths, which are divided by powers of two and are multiples of 1, ½, ¼
-    or 1/64 then.
+    The numbers are polynomials of degree `power` in the lengths. After a division by powers of two, the lengths are
+    multiples of 1, ½, ¼ or 1/64.
     """
     alpha, gamma, b, d, x, y, z = answered.rows[:, : len(COLUMNS)].T
     lengths = np.column_stack([alpha / b, gamma / d, x / b, y / b, z / d])
@@ -370,7 +370,7 @@ def _lost(answered: AnsweredRows) -> Answers:
 
 
 def _lost_outside(answered: AnsweredRows) -> Answers:
-    """The same for the rules as printed, at contacts outside the regimes in which they are right."""
+    """A sign that roundings may turn in the rules as printed, at contacts outside the regimes where these are right."""
     n = answered.numbers
     with np.errstate(all="ignore"):
         outside = (answered.truth == Position.CONTACT) & ((n.A < 1) | (n.B**2 < n.A))

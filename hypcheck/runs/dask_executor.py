@@ -232,7 +232,7 @@ class ImplementationPlugin(WorkerPlugin):  # type: ignore[misc]  # of a package 
         if implementation is None:
             implementation = opener.open()
         try:
-            done = perform_task(task, implementation, self.rules, allowance)
+            result = perform_task(task, implementation, self.rules, allowance)
         except BaseException:
             implementation.kill()
             raise
@@ -240,7 +240,7 @@ class ImplementationPlugin(WorkerPlugin):  # type: ignore[misc]  # of a package 
             self._idle.append((time.monotonic(), implementation))
         if self._over.is_set():
             self._close()
-        return done
+        return result
 
     def _opener_here(self) -> ImplementationOpener:
         spec = self.opener.spec

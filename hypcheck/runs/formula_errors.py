@@ -43,7 +43,7 @@ class Terms:
 
     @classmethod
     def of(cls, row: Lengths) -> Terms:
-        """Those of the paper."""
+        """The terms of the paper for a row of lengths."""
         bb, dd = row["b"] ** 2, row["d"] ** 2
         squares = row["x"] ** 2 + row["y"] ** 2
         return cls(row["alpha"] ** 2 * dd, row["gamma"] ** 2 * bb, squares * dd, row["z"] ** 2 * bb, bb * dd)

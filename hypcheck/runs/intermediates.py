@@ -189,16 +189,16 @@ def _plain(formula: Formula, row: Row) -> Prepared:
 
 
 def _dual(format_name: str, row: Row) -> Prepared:
-    found = {
+    numbers = {
         name: values[0]
         for name, values in searched(dict(zip(COLUMNS, np.array([row]).T, strict=True)), format_name).items()
     }
-    if not all(np.isfinite(found[name]) for name in DISTANCES):
-        return _DUAL_DECIDED, found, {}
+    if not all(np.isfinite(numbers[name]) for name in DISTANCES):
+        return _DUAL_DECIDED, numbers, {}
     columns = dict(zip(COLUMNS, map(Fraction, row), strict=True))
-    at = number_of(found["lambda_"])
+    at = number_of(numbers["lambda_"])
     A, B = (columns["alpha"] / columns["b"]) ** 2, (columns["gamma"] / columns["d"]) ** 2
-    return _DUAL_DECIDED, found, {**columns, **dict(zip(DISTANCES, (at, A + at, B - at), strict=True))}
+    return _DUAL_DECIDED, numbers, {**columns, **dict(zip(DISTANCES, (at, A + at, B - at), strict=True))}
 
 
 def _decisions(program: Program) -> set[str]:

@@ -74,18 +74,18 @@ def entries_about(
     known: Sequence[KnownFailure], cases: Sequence[tuple[int, str]], family: str, answered: AnsweredRows, *, fresh: bool
 ) -> list[list[int]]:
     """For each case of a family, given by its index among the rows asked and its id, the numbers of its entries."""
-    found = [
+    numbers = [
         [number for number, entry in enumerate(known) if entry.names(name, family, fresh=fresh)] for _, name in cases
     ]
     if not cases:
-        return found
+        return numbers
     part = answered.part([index for index, _ in cases])
     for number, entry in enumerate(known):
         for cause in excusable_causes().get(entry.cause or "", ()):
             if cause.subject == answered.subject:
                 for place in np.flatnonzero(cause.rule(part) == part.given).tolist():
-                    found[place].append(number)
-    return found
+                    numbers[place].append(number)
+    return numbers
 
 
 def read_known_failures(path: Path) -> tuple[KnownFailure, ...]:

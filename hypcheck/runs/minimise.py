@@ -148,14 +148,14 @@ def _units(lengths: list[float]) -> set[float]:
 
 
 def one_changed(row: Row, layout: Layout) -> Iterator[Row]:
-    """One number made 0, 1 or shorter, or equal to another of its unit."""
+    """Rows in which one number is 0, 1 or shorter, or equals another number of the same unit."""
     for column in range(len(row)):
         for value in {*_simple_values(row, column, layout), *rounded(row[column])}:
             yield _with(row, {column: value})
 
 
 def one_changed_between_ends(row: Row, layout: Layout) -> Iterator[Row]:
-    """One number of a row with heights made 0, 1 or shorter, or equal to another; an end taken away."""
+    """Rows with heights in which one number is 0, 1 or shorter, or equals another, or which have an end less."""
     numbers = [value for value in row[: len(layout.tilted)] + row[len(layout.tilted) : -1] if math.isfinite(value)]
     for column, number in enumerate(row):
         simple = {0.0, 1.0, 2.0, 3.0, *numbers}
@@ -168,7 +168,7 @@ def one_changed_between_ends(row: Row, layout: Layout) -> Iterator[Row]:
 
 
 def brought_back(row: Row, layout: Layout) -> Iterator[Row]:
-    """One number of a pair made simple, and another moved to the border of contact and rounded to ever more digits."""
+    """Pairs in which one number is simple, and another is at the border of contact, rounded to ever more digits."""
     simple = ((column, value) for column in range(7) for value in _simple_values(row, column, layout))
     changed = {row, *(_with(row, {column: value}) for column, value in simple)}
     for alpha, gamma, height in product(_SMALL, _SMALL, {0.0, 1.0, row[6]}):

@@ -212,7 +212,7 @@ def _oracle_line(oracle: str, batch: Batch, rows: Rows) -> OracleLine:
 
 
 def merged_lines(lines: Iterable[OracleLine]) -> list[OracleLine]:
-    """One line for each oracle and family, in that order; the order of the parts does not matter."""
+    """The sums of lines: one for each oracle and family, in that order, whatever the order of the lines."""
     parts: dict[tuple[str, str], list[OracleLine]] = {}
     for line in lines:
         parts.setdefault((line.oracle, line.family), []).append(line)

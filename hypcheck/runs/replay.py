@@ -86,8 +86,8 @@ def case_of(text: str) -> ReplayCase:
     if "/" in text:
         case = parse_case_id(text)
         return ReplayCase(text, case.family.row(case.seed, case.index), case.family.layout)
-    found, content = case_named(text)
-    return ReplayCase(text, found.row, content.layout)
+    vector, content = case_named(text)
+    return ReplayCase(text, vector.row, content.layout)
 
 
 def _from_record(path: Path, number: int) -> ReplayCase:

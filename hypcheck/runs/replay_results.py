@@ -25,34 +25,34 @@ DIGITS = 17
 """Digits of the numbers in the JSON table of values. They are texts, because exact ones need not fit float64."""
 
 
-def replay_as_json(done: Replay) -> str:
+def replay_as_json(replay: Replay) -> str:
     """The object on one line; numbers that JSON cannot express are the strings "inf", "-inf" and "nan".
 
     Of a sweep it has the time of the answer in place of causes and values of a formula.
     """
-    judgement = done.judgement
+    judgement = replay.judgement
     more: dict[str, Any] = {"time": judgement.time, "radii_off": judgement.radii}
-    if not done.used.asked.layout.has_end:
-        causes = [_cause_json(cause, done.used.language) for cause in done.causes]
-        more = {"causes": causes, "values": None if done.choice is None else _choice_json(done.choice)}
+    if not replay.used.asked.layout.has_end:
+        causes = [_cause_json(cause, replay.used.language) for cause in replay.causes]
+        more = {"causes": causes, "values": None if replay.choice is None else _choice_json(replay.choice)}
     return json.dumps(
         plain(
             {
-                "case": done.case.name,
-                "row": done.case.row,
-                "row_hex": [hex_of(value) for value in done.case.row],
-                "truth": None if done.truth is None else _truth_json(done.truth),
-                "spec": done.spec,
-                "declared": _claims_json(done.declared),
-                "used": _claims_json(done.used),
-                "tolerance_u": float(done.criterion.tolerance),
+                "case": replay.case.name,
+                "row": replay.case.row,
+                "row_hex": [hex_of(value) for value in replay.case.row],
+                "truth": None if replay.truth is None else _truth_json(replay.truth),
+                "spec": replay.spec,
+                "declared": _claims_json(replay.declared),
+                "used": _claims_json(replay.used),
+                "tolerance_u": float(replay.criterion.tolerance),
                 "status": judgement.status.value,
                 "answer": judgement.answer,
                 "reason": judgement.reason,
                 "mistake": None if judgement.mistake is None else judgement.mistake.value,
                 "backward_error": judgement.error,
                 "backward_error_u": judgement.error_u,
-                "skipped": done.skipped,
+                "skipped": replay.skipped,
                 **more,
             }
         ),
@@ -124,34 +124,36 @@ _LABEL = 12
 _FIRST, _CULPRIT, _OTHER = ">>", " >", " !"
 
 
-def replay_lines(done: Replay, ledger: Callable[[str], tuple[str, str, str]], *, values: bool = True) -> Iterator[str]:
+def replay_lines(
+    replay: Replay, ledger: Callable[[str], tuple[str, str, str]], *, values: bool = True
+) -> Iterator[str]:
     """The whole replay, line by line; without `values`, only a formula that SPEC itself evaluates is shown.
 
     `ledger` gives the verdict on a claim of the paper, the claim in words, and its correction, by the claim's number.
     """
-    case = done.case
+    case = replay.case
     yield from _titled("case", case.name)
-    for name, value in zip(done.used.asked.layout.columns(len(case.row)), case.row, strict=True):
+    for name, value in zip(replay.used.asked.layout.columns(len(case.row)), case.row, strict=True):
         yield f"{name:{_LABEL}}{repr(value).removesuffix('.0'):24}{hex_of(value)}"
-    if done.truth is None:
+    if replay.truth is None:
         yield from _titled(
             "truth", f"invalid row ({' and '.join(case.at_fault)}), which must be refused with {REFUSED}"
         )
-    elif isinstance(done.truth, Passage):
-        yield from _sweep_lines(done.truth, case.row)
+    elif isinstance(replay.truth, Passage):
+        yield from _sweep_lines(replay.truth, case.row)
     else:
-        yield from _truth_lines(done.truth)
+        yield from _truth_lines(replay.truth)
     yield ""
-    yield from _judgement_lines(done)
-    for cause in done.causes:
-        yield from _cause_lines(cause, done.used.language, ledger)
-    if done.choice is not None and isinstance(done.truth, ProvedTruth):
+    yield from _judgement_lines(replay)
+    for cause in replay.causes:
+        yield from _cause_lines(cause, replay.used.language, ledger)
+    if replay.choice is not None and isinstance(replay.truth, ProvedTruth):
         yield ""
-        if values or done.choice.own or done.choice.comparison is None:
-            yield from _choice_lines(done.choice, done.truth.decision.position, done.used.name)
+        if values or replay.choice.own or replay.choice.comparison is None:
+            yield from _choice_lines(replay.choice, replay.truth.decision.position, replay.used.name)
         else:
             yield from _titled(
-                "values", f"--values shows those of {done.choice.comparison.formula.name}, {done.choice.why}"
+                "values", f"--values shows those of {replay.choice.comparison.formula.name}, {replay.choice.why}"
             )
 
 
@@ -196,33 +198,33 @@ def _cause_lines(cause: Cause, language: str, ledger: Callable[[str], tuple[str,
     yield from _titled("fix", cause.remedy_in(language))
 
 
-def _judgement_lines(done: Replay) -> Iterator[str]:
-    used, declared, judgement = done.used, done.declared, done.judgement
-    yield from _titled("asked", f"{used.name} ({done.spec}): {_claim_lines(used)}")
+def _judgement_lines(replay: Replay) -> Iterator[str]:
+    used, declared, judgement = replay.used, replay.declared, replay.judgement
+    yield from _titled("asked", f"{used.name} ({replay.spec}): {_claim_lines(used)}")
     if _claim_lines(declared) != _claim_lines(used):
         yield from _titled("declared", _claim_lines(declared))
     if judgement.answer is not None:
         time = "" if judgement.time is None else f", first at {judgement.time!r}"
-        yield from _titled("answer", answer_said(judgement.answer, done.criterion.question) + time)
-    words = (judgement.status.value, _mistake(done), judgement.reason)
+        yield from _titled("answer", answer_said(judgement.answer, replay.criterion.question) + time)
+    words = (judgement.status.value, _mistake(replay), judgement.reason)
     yield from _titled("judged", "; ".join(part for part in words if part))
-    if done.skipped is not None:
-        yield from _titled("note", f"verify skips this case: {done.skipped}")
+    if replay.skipped is not None:
+        yield from _titled("note", f"verify skips this case: {replay.skipped}")
 
 
 def _claim_lines(description: Description) -> str:
     return f"{description.question}, {description.precision}"
 
 
-def _mistake(done: Replay) -> str:
+def _mistake(replay: Replay) -> str:
     """How wrong an answer is; of one about a sweep by the size, or by what lies between its time and the contact."""
-    judgement, criterion = done.judgement, done.criterion
+    judgement, criterion = replay.judgement, replay.criterion
     if judgement.mistake is None:
         return ""
     if judgement.radii:
         return f"{judgement.mistake.value} by {judgement.radii:.4g} spheroid radii of the sweep"
-    if isinstance(done.truth, Passage):
-        tolerated = passage_error.tolerance(done.case.row, criterion.tolerance, criterion.unit)
+    if isinstance(replay.truth, Passage):
+        tolerated = passage_error.tolerance(replay.case.row, criterion.tolerance, criterion.unit)
         return (
             f"a {judgement.mistake.value}: b and d would have to change by {judgement.error:.4g} of themselves "
             f"(tolerated: {float(tolerated):.4g})"

@@ -259,7 +259,7 @@ def _pending(chunk: CaseChunk, indices: Indices, scored: Score) -> tuple[Pending
 def _excused(
     wrong: list[WrongCase], chunk: CaseChunk, indices: Indices, answered: AnsweredRows, rules: JudgingRules
 ) -> tuple[list[WrongCase], set[int]]:
-    """These cases, those that known failures cover EXCUSED, and the numbers of these failures."""
+    """The wrong cases, with status EXCUSED where a known failure covers them; and the numbers of these failures."""
     places = [place for place, case in enumerate(wrong) if case.status is Status.WRONG and rules.known]
     cases = [(wrong[place].index, chunk.name(int(indices[wrong[place].index]))) for place in places]
     judged, excusing = list(wrong), set[int]()

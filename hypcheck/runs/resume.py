@@ -122,7 +122,7 @@ def require_same_run(
 
 
 def resume(record: Record, file: Path, plan: ConformancePlan, cases: int) -> ResumedRun:
-    """Where the run of the plan continues; `cases` is how many each implementation is asked.
+    """The state in which the run of the plan continues; each implementation is asked `cases` cases.
 
     Raises InputError if the implementation that was being asked has another description now, or the record contradicts
     itself; StartError if the implementation does not start.

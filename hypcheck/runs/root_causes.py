@@ -96,7 +96,7 @@ def _roots(n: causes.Numbers) -> NDArray[np.complex128]:
 
 
 def _within(answered: causes.AnsweredRows, sizes: Floats, answers: causes.Answers) -> causes.Answers:
-    """These answers where a size is within the tolerance; the tolerance is the largest size of an answer so given."""
+    """The answers where a size is within the tolerance: the largest size at which the code gives such an answer."""
     with np.errstate(invalid="ignore"):
         candidates = (answers != causes.SILENT) & (sizes <= LARGEST_TOLERANCE)
     agree = candidates & (answers == answered.given)

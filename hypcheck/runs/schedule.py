@@ -106,14 +106,16 @@ class RunState:
         """The allowance of the next task: the full limits, unless the implementation was given up."""
         return replace(limits, over=self.left.over, hangs=self.left.hangs)
 
-    def after(self, step: Step, done: TaskResult, limits: Allowance) -> RunState:
+    def after(self, step: Step, result: TaskResult, limits: Allowance) -> RunState:
         """The state after one more step, whose task started with the full limits."""
         before = self.total
         if isinstance(step, RetestStep):
             before = replace(
                 before, pending=tuple(pending for pending in before.pending if not step.asks(pending.chunk))
             )
-        return RunState(self.left.after(done.left, limits), self.done + 1, results.merged_result([before, done.result]))
+        return RunState(
+            self.left.after(result.left, limits), self.done + 1, results.merged_result([before, result.result])
+        )
 
 
 class WorkerLost(Exception):  # noqa: N818 - it is an event that does not fail the run
@@ -190,9 +192,9 @@ def perform_steps(some: Iterable[Step], execution: TaskExecution, state: RunStat
         if (finished := queue.take()) is None:
             queue.wait()
             continue
-        step, done = finished
+        step, result = finished
         given_up = state.left.over
-        state = state.after(step, done, execution.limits)
+        state = state.after(step, result, execution.limits)
         if state.left.over and not given_up:
             queue.drop()
         yield step, state

@@ -54,7 +54,7 @@ def timed_rows(seed: int) -> Rows:
 
 def timed_methods(*, meshes: bool) -> list[Method]:
     """The methods to time, slow ones on fewer rows. FCL is loaded only with `meshes`."""
-    found = [
+    methods = [
         Method(FAST, "certified floats, integers where they cannot tell; exact", _fast),
         Method(PLAIN, "Table 2 as one writes it in numpy; not certified", _plain),
         Method(
@@ -65,7 +65,7 @@ def timed_methods(*, meshes: bool) -> list[Method]:
         ),
     ]
     if meshes and ORACLES["mesh"].available() is None:
-        found += [
+        methods += [
             Method(
                 "FCL point-mesh and building its mesh",
                 "distance to a mesh of 2,000 triangles, built for each row",
@@ -79,7 +79,7 @@ def timed_methods(*, meshes: bool) -> list[Method]:
                 max_rows=60,
             ),
         ]
-    return found
+    return methods
 
 
 def timing_line(method: Method, timing: Samples) -> TimingLine:
@@ -168,7 +168,7 @@ def upright_lines(family: str, start: int, stop: int, plan: SelfCheckPlan, share
     opinions = oracles.oracle_lines(batch, shares)
     if start:
         return FamilyLines([], [], opinions)
-    found = [
+    finding_lines = [
         finding
         for formula in findings.exact_formulas()
         for finding in findings.mathematical_findings(formula, batch, plan)
@@ -177,7 +177,7 @@ def upright_lines(family: str, start: int, stop: int, plan: SelfCheckPlan, share
     exponents = flip_exponents(head.rows)
     with shared_meshes():
         groups = [findings.method_group(method, head, exponents, plan) for method in methods_of(plan)]
-    return FamilyLines(found, groups, opinions)
+    return FamilyLines(finding_lines, groups, opinions)
 
 
 def family_tasks(plan: SelfCheckPlan) -> list[Callable[[], FamilyLines]]:

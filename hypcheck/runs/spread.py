@@ -92,7 +92,7 @@ def slices_of(plan: ConformancePlan, used: Description, rules: JudgingRules) -> 
 
     Rows that a search asks in any case count with the family. Nothing of which no row was asked.
     """
-    found = {}
+    slices = {}
     steps = {_FAMILIES[step.family]: step for step in searches(plan, used)}
     first = first_of(rules.criterion)
     for family in chosen_families(plan, used):
@@ -102,13 +102,13 @@ def slices_of(plan: ConformancePlan, used: Description, rules: JudgingRules) -> 
                 beside = beside_border(steps[family.name], first)
                 rows = np.concatenate([rows, _asked(rules, steps[family.name].family, beside)])
             if len(rows):
-                found[family.name] = evenness(rows, tuple(COORDINATES) if family.tilted else UPRIGHT)
+                slices[family.name] = evenness(rows, tuple(COORDINATES) if family.tilted else UPRIGHT)
     for step in steps.values():
         numbers = far_numbers(step, first)
         inside = rules.asked_of(step.family, rows_at(step.family, step.seed, numbers))[0]
         if len(inside):
-            found[step.family] = _evenness_of_far(step, numbers[inside])
-    return found
+            slices[step.family] = _evenness_of_far(step, numbers[inside])
+    return slices
 
 
 def _asked(rules: JudgingRules, family: str, rows: Rows) -> Rows:

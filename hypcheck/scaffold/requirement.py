@@ -120,17 +120,17 @@ def _refs(repository: str) -> dict[str, str] | str:
     quiet = {"GIT_TERMINAL_PROMPT": "0", "GIT_SSH_COMMAND": "ssh -o BatchMode=yes"}
     words = ["git", "ls-remote", "--", repository]
     try:
-        done = subprocess.run(  # noqa: S603 - git of the PATH, and a URL whose characters were checked
+        result = subprocess.run(  # noqa: S603 - git of the PATH, and a URL whose characters were checked
             words, env=quiet | os.environ, stdin=subprocess.DEVNULL, capture_output=True, timeout=_SECONDS, check=False
         )
     except OSError as error:
         return f"git cannot be started: {system_reason(error)}"
     except subprocess.TimeoutExpired:
         return f"no answer within {_SECONDS:g} s"
-    if done.returncode:
-        messages = done.stderr.decode(errors="replace").strip().splitlines()
-        return messages[0].removeprefix("fatal: ").strip() if messages else f"git ends with {done.returncode}"
-    lines = (line.partition("\t") for line in done.stdout.decode(errors="replace").splitlines())
+    if result.returncode:
+        messages = result.stderr.decode(errors="replace").strip().splitlines()
+        return messages[0].removeprefix("fatal: ").strip() if messages else f"git ends with {result.returncode}"
+    lines = (line.partition("\t") for line in result.stdout.decode(errors="replace").splitlines())
     return {name: commit for commit, _, name in lines if _COMMIT.fullmatch(commit)}
 
 

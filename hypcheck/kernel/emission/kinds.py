@@ -62,7 +62,7 @@ class Kind:
 
     @property
     def domain(self) -> dict[str, object]:
-        """Where it decides: what is outside is answered 2."""
+        """The domain in which the code decides; outside of it the answer is 2."""
         if self.routine is None:
             return {"ratio": [0, float_info.max], "magnitude": [0, float_info.max]}
         return {"ratio": [2.0**-26, 2.0**26], "magnitude": [2.0**-250, 2.0**250]}

@@ -317,7 +317,7 @@ def _alike(plan: ScenePlan) -> Iterator[list[Numbered]]:
 
 
 def _reason(why: str, stages: Stages) -> str:
-    """Why something is left out; where the height is fixed, without telling which it is."""
+    """The reason why something is left out, without the value of a fixed height."""
     return why.replace(repr(stages.last.height), "fixed") if isinstance(stages.last, Thresholds) else why
 
 

@@ -157,11 +157,11 @@ def compile_note(path: Path, seconds: float = 120) -> str:
         command = [COMPILER, "-interaction=nonstopmode", "-halt-on-error", "-no-shell-escape", "note.tex"]
         shutil.copyfile(path, Path(folder, "note.tex"))
         try:
-            done = subprocess.run(command, cwd=folder, capture_output=True, check=False, timeout=seconds)  # noqa: S603
+            result = subprocess.run(command, cwd=folder, capture_output=True, check=False, timeout=seconds)  # noqa: S603
         except subprocess.TimeoutExpired:
             return f"not compiled: {COMPILER} took longer than {seconds:g} s"
-        if done.returncode:
-            return f"not compiled: {COMPILER} ended with {done.returncode}; run it on {path} to see why"
+        if result.returncode:
+            return f"not compiled: {COMPILER} ended with {result.returncode}; run it on {path} to see why"
         target = path.with_suffix(".pdf")
         with replace_output(str(target)) as file:
             file.write(Path(folder, "note.pdf").read_bytes())

@@ -155,8 +155,8 @@ def with_counterexample(*statements: points.Statement) -> Evidence:
 def _found(searches: list[tuple[points.Search[points.PointFacts], str]]) -> Evidence:
     witnesses = tuple(points.witness(search.found, shows) for search, shows in searches if search.found is not None)
     tried = [search.tried for search, _ in searches]
-    holds = len(witnesses) == len(searches) > 0 and all(each.holds for each in witnesses)
-    text = "; ".join(described(each.facts) for each in witnesses) or f"nothing found among {sum(tried):,} pairs"
+    holds = len(witnesses) == len(searches) > 0 and all(witness.holds for witness in witnesses)
+    text = "; ".join(described(witness.facts) for witness in witnesses) or f"nothing found among {sum(tried):,} pairs"
     return Evidence("search", text, holds, witnesses)
 
 

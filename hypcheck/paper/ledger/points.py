@@ -338,7 +338,7 @@ class LeaningWitness:
 
     @property
     def upright(self) -> Pair:
-        """The same pair with a vertical axis."""
+        """The pair with a vertical axis."""
         return Pair(*self.pair.row[:7])
 
     @property

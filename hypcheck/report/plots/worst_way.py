@@ -51,7 +51,7 @@ class _Way:
     answer: int
     hit: bool
     shown: float
-    said: float | None
+    answered: float | None
 
     def at(self, times: Floats | float) -> tuple[Floats, Floats]:
         """Distances of the centre from the axis, and heights, at these times."""
@@ -102,7 +102,7 @@ def _when(way: _Way) -> str:
 
 def _answer(way: _Way) -> str:
     return SWEEP_ANSWERS.get(way.answer, str(way.answer)) + (
-        f", first at {figure(way.said)}" if way.said is not None else ""
+        f", first at {figure(way.answered)}" if way.answered is not None else ""
     )
 
 
@@ -159,8 +159,8 @@ def _touching(axes: Axes, way: _Way) -> None:
     role = TOUCHES if way.hit else WAY
     _body(axes, way, way.shown, role, filled=way.hit)
     axes.plot(*way.at(way.shown), marker="+", markersize=7, color=colour(role), zorder=5)
-    if way.said is not None:
-        _body(axes, way, way.said, SAID)
+    if way.answered is not None:
+        _body(axes, way, way.answered, SAID)
 
 
 def _body(axes: Axes, way: _Way, time: float, role: str, *, filled: bool = False) -> None:
@@ -182,6 +182,6 @@ def _legend(drawn: Figure, way: _Way) -> None:
     ]
     if way.hit:
         handles.append(Patch(facecolor=colour(TOUCHES), alpha=0.4, label="first contact"))
-    if way.said is not None:
+    if way.answered is not None:
         handles.append(Line2D([], [], color=colour(SAID), linestyle=_SAID_DASHES, label="at the answered time"))
     drawn.legend(handles=handles, loc="outside lower center", ncols=3)

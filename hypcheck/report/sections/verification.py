@@ -49,9 +49,11 @@ def oracle_sections(record: Record) -> Iterator[Section]:
     totals = model.oracle_totals(record)
     if not totals:
         return
-    asked = [total for total in totals if total.unavailable is None]
+    answering = [total for total in totals if total.unavailable is None]
     missing = [(Code(total.name), f" was not asked: {total.unavailable}") for total in totals if total.unavailable]
-    yield Section("The oracles", (Paragraph(_ORACLES), *([_oracle_table(asked)] if asked else []), bullets(missing)))
+    yield Section(
+        "The oracles", (Paragraph(_ORACLES), *([_oracle_table(answering)] if answering else []), bullets(missing))
+    )
 
 
 def _oracle_table(totals: list[model.OracleTotal]) -> TableBlock:
