@@ -89,6 +89,8 @@ def render_picture(name: str, record: Record, drawings: Drawings) -> bytes:
 def pictures() -> ModuleType:
     """The module that draws. Raises UnavailableError if matplotlib, which is an extra, is missing."""
     try:
+        import matplotlib  # noqa: F401, PLC0415
+
         from hypcheck.report.plots import pictures  # noqa: PLC0415
     except ImportError as error:
         reason = f"matplotlib cannot be imported ({escaped(error)}); pip install 'hypcheck[report]' brings it"

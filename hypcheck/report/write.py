@@ -47,6 +47,8 @@ AS_TEXT: Mapping[str, Callable[[Record, ReportContext], bytes]] = {
 def _html() -> ModuleType:
     """The module that makes the page. Raises UnavailableError if jinja2, which is an extra, is missing."""
     try:
+        import jinja2  # noqa: F401, PLC0415
+
         from hypcheck.report import html  # noqa: PLC0415
     except ImportError as error:
         reason = f"jinja2 cannot be imported ({escaped(error)}); pip install 'hypcheck[report]' brings it"
