@@ -266,10 +266,10 @@ def _passage_method(
 @cache
 def passage_mesh_methods() -> dict[str, Method]:
     """Every built-in method that asks a collision engine about sweeps, by its name, even if the engine is not here."""
-    return {name: _way_mesh_method(solver) for name, solver in SWEEP_SOLVERS.items()}
+    return {name: _sweep_mesh_method(solver) for name, solver in SWEEP_SOLVERS.items()}
 
 
-def _way_mesh_method(solver: SweepSolver) -> Method:
+def _sweep_mesh_method(solver: SweepSolver) -> Method:
     method = _passage_method(solver.name, solver.title, partial(hits_and_times, solver), max_rows=FCL_ROWS)
     return method if solver.times else replace(method, timed=None)
 

@@ -1,10 +1,10 @@
 """Moves and turns decided exactly from beginning to end, and what a test at the end of each move misses.
 
-Which straight ways and which turns in place are clear from beginning to end follows from one observation
+Which sweeps and which turns in place are clear from beginning to end follows from one observation
 (docs/mathematics.md, "Monotone in every input"): an interior spheroid stays so where its centre comes nearer to the
 axis and farther from the waist's plane, an exterior one where it does the opposite. So one exact decision at the worst
-corner of a way, its largest distance from the axis with its least height, or the other way round, proves the whole way
-clear. A way that is neither proved clear so, nor disproved by one of its ends, is decided by truth/swept.py or
+corner of a sweep, its largest distance from the axis with its least height, or the reverse, proves the whole sweep
+clear. A sweep that is neither proved clear so, nor disproved by one of its ends, is decided by truth/swept.py or
 truth/turning.py.
 
 Bounds, u = 2⁻⁵³. Along a segment the distance from the axis is convex: the largest is at an end, and √(x²+y²) computed
@@ -12,7 +12,7 @@ is within 3u of it. The least is not below the least of n·C at the ends for any
 is computed to within 3u (|x|+|y|), and the n used is at most 1 + 4u long. Coordinates that are differences are within u
 of themselves. MARGIN covers all of these several times.
 
-A position is valid where the body is interior, or all four rotors are. The rotors lie within the body, so a way is
+A position is valid where the body is interior, or all four rotors are. The rotors lie within the body, so a sweep is
 valid from beginning to end exactly where no rotor meets contact on it. They are asked only where the body is not clear.
 
 The last part is about a tilted quadcopter, of which Procedure 2.b knows nothing: its body is always upright. A
@@ -58,33 +58,33 @@ def stays_on_side(
     clear = np.asarray(classify_scene(sizes, *corner(first, last)) == side)
     at_ends = np.logical_and(*(classify_scene(sizes, *_favoured(side, at)) == side for at in (first, last)))
     for lane in np.flatnonzero(at_ends & ~clear).tolist():
-        way = passage(sizes, _exactly(center, start, lane), _exactly(center, end, lane))
-        clear[lane] = way.clear and way.start is side
+        sweep = passage(sizes, _exactly(center, start, lane), _exactly(center, end, lane))
+        clear[lane] = sweep.clear and sweep.start is side
     return clear
 
 
 def first_contact(
     sizes: Sizes, start: Columns, end: Columns, lane: int, center: tuple[float, float, float] = (0.0, 0.0, 0.0)
 ) -> tuple[float, float]:
-    """Bounds of the time of first contact on one of these ways, 0 ≤ time ≤ 1; inf twice where there is none."""
-    way = passage(sizes, _exactly(center, start, lane), _exactly(center, end, lane))
-    return (way.first_lower, way.first_upper) if way.hit else (inf, inf)
+    """Bounds of the time of first contact on the sweep number `lane`, 0 ≤ time ≤ 1; inf twice if it has none."""
+    sweep = passage(sizes, _exactly(center, start, lane), _exactly(center, end, lane))
+    return (sweep.first_lower, sweep.first_upper) if sweep.hit else (inf, inf)
 
 
 def _favoured(side: Position, at: Columns) -> Columns:
-    """A position that is not on that side only where the exact one is not either: a hair nearer to it."""
+    """A position slightly nearer to that side: if it is not on the side, the exact position is not either."""
     more, less = (1 - MARGIN, 1 + MARGIN) if side is Position.INTERIOR else (1 + MARGIN, 1 - MARGIN)
     return at[0] * more, at[1] * more, at[2] * less
 
 
 def _inner_corner(start: Columns, end: Columns) -> Columns:
-    """A position that is interior only where the whole way is: as far out and as low as the way gets."""
+    """A position that is interior only if the whole sweep is: as far out and as low as the sweep gets."""
     radius = np.maximum(np.hypot(start[0], start[1]), np.hypot(end[0], end[1])) * (1 + MARGIN)
     return radius, np.zeros_like(radius), _least_height(start[2], end[2]) * (1 - MARGIN)
 
 
 def _outer_corner(start: Columns, end: Columns) -> Columns:
-    """A position that is exterior only where the whole way is: as near to the axis and as high as the way gets."""
+    """A position that is exterior only if the whole sweep is: as near to the axis and as high as the sweep gets."""
     x, y = start[0] + end[0], start[1] + end[1]
     length = np.hypot(x, y)
     length = np.where(length > 0, length, 1.0)
@@ -94,7 +94,7 @@ def _outer_corner(start: Columns, end: Columns) -> Columns:
 
 
 def _along(ahead: Floats, aside: Floats, at: Columns) -> Floats:
-    """A lower bound of the way along a horizontal direction of length 1, to within rounding."""
+    """A lower bound of n·C for the horizontal direction n = (ahead, aside) of length 1, roundings included."""
     return np.asarray(ahead * at[0] + aside * at[1] - MARGIN * (np.abs(at[0]) + np.abs(at[1])))
 
 
@@ -116,9 +116,9 @@ def _least_height(first: Floats, second: Floats) -> Floats:
 def stays_on_side_turning(sizes: Sizes, arm: float, at: Columns, direction: Direction, degrees: Floats) -> Mask:
     """Which parts stay interior while an arm that points into `direction` turns by so many degrees (−180 … 180); (n,).
 
-    The largest distance from the axis is ρ + l where the arm points outward on the way, else it is reached at an end.
-    Rounding may take an arm for one that just does not point outward: near there the distance is flat, and MARGIN, with
-    the lengths ρ and l for a scale, holds what is missed.
+    The largest distance from the axis is ρ + l where the arm points outward during the turn, else it is reached at an
+    end. Rounding may take an arm for one that just does not point outward: near there the distance is flat, and MARGIN,
+    with the lengths ρ and l for a scale, holds what is missed.
     """
     x, y, z = at
     after = turned(direction, any_angle(degrees))
@@ -172,19 +172,19 @@ class VerdictCounts:
     """Numbers of events, each in a field of its own."""
 
     def add(self, other: VerdictCounts) -> None:
-        """Count what another of the same kind has counted as well."""
+        """Add the counts of another value of the same class."""
         for field in fields(self):
             setattr(self, field.name, getattr(self, field.name) + getattr(other, field.name))
 
-    def _count(self, name: str, those: Mask) -> None:
-        setattr(self, name, getattr(self, name) + int(np.count_nonzero(those)))
+    def _count(self, name: str, events: Mask) -> None:
+        setattr(self, name, getattr(self, name) + int(np.count_nonzero(events)))
 
 
 Verdicts = TypeVar("Verdicts", bound=VerdictCounts)
 
 
 def total(several: Iterable[Verdicts], none: Verdicts) -> Verdicts:
-    """All counts in one, which is added up in `none`."""
+    """The sum of all counts, added up in `none`."""
     for counts in several:
         none.add(counts)
     return none
@@ -194,8 +194,8 @@ def total(several: Iterable[Verdicts], none: Verdicts) -> Verdicts:
 class MoveVerdicts(VerdictCounts):
     """Exact verdicts on the movements of flights.
 
-    Of the accepted `vertical` and `horizontal` moves `…_touching` meet contact somewhere on the way, `…_begun` of these
-    at its very beginning (after a turn in place whose answer was ignored), `wrongly_accepted` of all at their end.
+    Of the accepted `vertical` and `horizontal` moves `…_touching` meet contact on the sweep, `…_begun` of these at its
+    very beginning (after a turn in place whose answer was ignored), `wrongly_accepted` of all at their end.
     `wrongly_refused` moves end in a valid position. Of the moves that were `asked` about, Procedure 2.a as printed
     decides `procedure_2a_differs` otherwise than 2.b as printed; `repaired_2a_differs` and `repaired_2b_differs` are
     those that the procedures put right decide otherwise than as printed. Of the `turns` in place `turns_touching` sweep
@@ -229,10 +229,10 @@ class MoveVerdicts(VerdictCounts):
         start, end, heading = of(moves.start, accepted), of(moves.end, accepted), headed(moves.before, accepted)
         vertical = moves.vertical[accepted]
         clear, begun, ended = _judged(craft, start, end, heading)
-        for name, those in (("vertical", vertical), ("horizontal", ~vertical)):
-            self._count(name, those)
-            self._count(f"{name}_touching", those & ~clear)
-            self._count(f"{name}_begun", those & ~begun)
+        for name, moved in (("vertical", vertical), ("horizontal", ~vertical)):
+            self._count(name, moved)
+            self._count(f"{name}_touching", moved & ~clear)
+            self._count(f"{name}_begun", moved & ~begun)
         self._count("wrongly_accepted", ~ended)
         touching = np.flatnonzero(begun & ~clear)[: MOST_CONTACTS - len(self.contacts)]
         if len(touching):
@@ -279,7 +279,7 @@ def all_four(rotors: Mask) -> Mask:
 
 
 def _judged(craft: Craft, start: Columns, end: Columns, heading: Direction) -> tuple[Mask, Mask, Mask]:
-    """Which ways are valid throughout, which at their beginning, which at their end."""
+    """Which sweeps are valid throughout, which at their beginning, which at their end."""
     clear = stays_on_side(Position.INTERIOR, craft.sizes, start, end)
     begun, ended = clear.copy(), clear.copy()
     near = np.flatnonzero(~clear)
@@ -291,7 +291,7 @@ def _judged(craft: Craft, start: Columns, end: Columns, heading: Direction) -> t
 
 
 def _contacts(craft: Craft, start: Columns, end: Columns, heading: Direction) -> tuple[Contact, ...]:
-    """The first contact of each of these moves; the rotor that has it first."""
+    """The first contact of each move, with the rotor that has it."""
     first, last = craft.rotors(start, heading), craft.rotors(end, heading)
     contacts = []
     for move, (here, there) in enumerate(zip(zip(*start, strict=True), zip(*end, strict=True), strict=True)):
@@ -309,19 +309,19 @@ def _floats(point: tuple[np.float64, ...]) -> tuple[float, float, float]:
     return x, y, z
 
 
-def of(point: Columns, those: NDArray[np.int64]) -> Columns:
-    """Some of these points."""
+def of(point: Columns, indices: NDArray[np.int64]) -> Columns:
+    """The points at these indices."""
     x, y, z = point
-    return x[those], y[those], z[those]
+    return x[indices], y[indices], z[indices]
 
 
-def headed(direction: Direction, those: NDArray[np.int64]) -> Direction:
-    """Some of these directions."""
-    return direction[0][those], direction[1][those]
+def headed(direction: Direction, indices: NDArray[np.int64]) -> Direction:
+    """The directions at these indices."""
+    return direction[0][indices], direction[1][indices]
 
 
 def leaning_interior(sizes: Sizes, at: Columns, axis: Columns) -> Mask:
-    """Which spheroids are interior, exactly, each at a centre and along an axis; (n,)."""
+    """Which spheroids are interior, decided exactly; each has a centre and an axis; (n,)."""
     alpha, gamma, b, d = sizes
     longest = max(b, d)
     inside = np.asarray(classify_scene((alpha, gamma, longest, longest), *at) == Position.INTERIOR)
@@ -364,9 +364,9 @@ class Lean:
         shortened = forward * self.cosine
         return shortened * ahead - across * beside, shortened * beside + across * ahead, -self.sine * forward
 
-    def of(self, those: NDArray[np.int64]) -> Lean:
-        """Some of them."""
-        return Lean(headed(self.toward, those), self.cosine, self.sine)
+    def of(self, indices: NDArray[np.int64]) -> Lean:
+        """The tilts at these indices."""
+        return Lean(headed(self.toward, indices), self.cosine, self.sine)
 
 
 def valid_leaning(craft: Craft, at: Columns, heading: Direction, lean: Lean) -> tuple[Mask, Mask]:
@@ -376,8 +376,8 @@ def valid_leaning(craft: Craft, at: Columns, heading: Direction, lean: Lean) -> 
     near = np.flatnonzero(~body)
     arms = craft.arms(headed(heading, near))
     four = lean.of(np.tile(near, ROTORS))
-    ways = four.tilted(craft.arm * arms[0], craft.arm * arms[1])
-    x, y, z = (np.tile(column, ROTORS) + way for column, way in zip(of(at, near), ways, strict=True))
+    offsets = four.tilted(craft.arm * arms[0], craft.arm * arms[1])
+    x, y, z = (np.tile(column, ROTORS) + offset for column, offset in zip(of(at, near), offsets, strict=True))
     rotors = leaning_interior(craft.rotor, (x, y, z), four.axis)
     valid[near] = all_four(rotors)
     return valid, body
@@ -389,7 +389,7 @@ class PitchVerdicts(VerdictCounts):
 
     Of the `moves` that Procedure 2.b was asked about, its answer is `wrong` about so many; it is `dangerous` where it
     accepts and the tilted craft is not valid. `body_wrong` and `body_dangerous` are the same for the body alone:
-    an upright body is interior where a tilted one is not, or the other way round.
+    an upright body is interior where a tilted one is not, or the reverse.
     """
 
     moves: int = 0
@@ -402,8 +402,8 @@ class PitchVerdicts(VerdictCounts):
         """Count the results of a draw of many flights."""
         some = np.flatnonzero((moves.accepted | moves.refused) & ~moves.turning & ~moves.vertical)
         (x, y, z), heading = of(moves.end, some), headed(moves.before, some)
-        way = x - moves.start[0][some], y - moves.start[1][some]
-        back = way[0] * heading[0] + way[1] * heading[1] < 0
+        move = x - moves.start[0][some], y - moves.start[1][some]
+        back = move[0] * heading[0] + move[1] * heading[1] < 0
         toward = np.where(back, -heading[0], heading[0]), np.where(back, -heading[1], heading[1])
         valid, body = valid_leaning(craft, (x, y, z), heading, Lean.by(degrees, toward))
         upright = np.asarray(classify_scene(craft.sizes, x, y, z) == Position.INTERIOR)

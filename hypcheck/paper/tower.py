@@ -33,9 +33,7 @@ POSITIONS = 25
 def paths(
     craft: Craft, flight: Flight, step: float, seed: int
 ) -> tuple[list[dict[str, Any]], MoveVerdicts, EndVerdicts]:
-    """Three flights of 25 positions each, from the tower's centre, as JSON has them; and exact verdicts on their ways.
-
-    The last are about the tower's ends.
+    """Three flights of 25 positions each, from the tower's centre, as JSON has them; exact verdicts on sweeps and ends.
 
     Each has `positions` [x, y, z], `discriminant` (equation (13) at each of them), and how many `executions`, of these
     `touching` (Δ ≤ 0), of the movements `refused`, and draws to `outside_height`.
@@ -322,7 +320,7 @@ SCHEMA = "1.2.0"
 class TowerPlan:
     """What is to be simulated: the flights of the figure with steps of `speed`·`time`, and Table 5 where `runs` > 0.
 
-    `continuous`: the ways between positions are decided as well, in the table too. `pitch`: by how many degrees the
+    `continuous`: the sweeps between positions are decided as well, in the table too. `pitch`: by how many degrees the
     quadcopter is tilted into its horizontal movements in the table's flights, or None where that is not asked. `ends`:
     positions are decided beside the tower as it ends, too.
     """

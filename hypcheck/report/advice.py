@@ -40,8 +40,8 @@ from hypcheck.report.measured import (
     measured_methods,
     noise_floor,
     reference,
+    sweep_totals,
     timed_workloads,
-    way_totals,
     workloads,
 )
 from hypcheck.report.messages import figure, listed, pace, with_interval
@@ -116,7 +116,7 @@ def recommendations(record: Record) -> Recommendations:
     timed = timed_workloads(record)
     advice: list[Advice] = []
     unmet: list[Need] = []
-    if not timed or way_totals(record):  # the needs are those of positions
+    if not timed or sweep_totals(record):  # the needs are those of positions
         return Recommendations((), ())
     for need, candidates in _needs(measured_methods(record), timed):
         fastest = _fastest(record, candidates, timed[0], need.mode)

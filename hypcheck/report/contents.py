@@ -279,7 +279,7 @@ PARTS: tuple[Callable[[Record], Iterator[Section]], ...] = (
     verification.oracle_sections,
     verification.paper_sections,
     verification.gated_sections,
-    verification.way_sections,
+    verification.sweep_sections,
     verification.method_sections,
     accuracy.family_sections,
     verification.map_sections,

@@ -12,7 +12,7 @@ class ReportFormat:
 
     file: the name of its file.
     shows: the type of lines that it shows; without one of them no file is written, and none is missed.
-    ways: whether it shows wrong answers about sweeps; without one it is neither written nor missed.
+    sweeps: whether it shows wrong answers about sweeps; without one it is neither written nor missed.
     compares: whether it shows changes against another record.
     kept: whether every run writes it; others are made on demand.
     by_suffix: whether a file name with its suffix alone means it; else only its own name does.
@@ -20,7 +20,7 @@ class ReportFormat:
 
     file: str
     shows: str | None = None
-    ways: bool = False
+    sweeps: bool = False
     compares: bool = False
     kept: bool = True
     by_suffix: bool = True
@@ -35,7 +35,7 @@ REPORTS = {
     "badge": ReportFormat("badge.json", by_suffix=False),
     "csv": ReportFormat("measurements.csv"),
     "map": ReportFormat("map.svg", shows="map"),
-    "ways": ReportFormat("ways.svg", ways=True),
+    "ways": ReportFormat("ways.svg", sweeps=True),
     "errors": ReportFormat("errors.svg", shows="accuracy"),
     "pareto": ReportFormat("pareto.svg", shows="speed"),
     "front": ReportFormat("front.svg", shows="speed"),

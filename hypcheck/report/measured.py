@@ -109,7 +109,7 @@ def measured_methods(record: Record) -> list[MeasuredMethod]:
 
 
 @dataclass(frozen=True, slots=True)
-class WayTotal:
+class SweepTotal:
     """A method for sweeps: its answers on all workloads together, and the time of a sweep on the principal one.
 
     typical: half of the wrong answers need about this change of the spheroid's size at least; 0 without any.
@@ -134,20 +134,20 @@ class WayTotal:
         return part / self.asked
 
 
-def way_totals(record: Record) -> list[WayTotal]:
+def sweep_totals(record: Record) -> list[SweepTotal]:
     """Every method that answers about sweeps and was judged, in the order of the record."""
     where = principal(record), BATCH
     return [
-        _way_total(method, method.speed.get(where))
+        _sweep_total(method, method.speed.get(where))
         for method in measured_methods(record)
         if method.line.question == PASSAGE and method.asked
     ]
 
 
-def _way_total(method: MeasuredMethod, speed: measurements.SpeedLine | None) -> WayTotal:
+def _sweep_total(method: MeasuredMethod, speed: measurements.SpeedLine | None) -> SweepTotal:
     lines = method.accuracy.values()
     timed = speed if speed is not None and not lost(speed) else None
-    return WayTotal(
+    return SweepTotal(
         name=method.name,
         tier=method.tier,
         exact=method.exact,

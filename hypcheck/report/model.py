@@ -290,7 +290,7 @@ def _timing_total(line: TimingLine, reference: list[float] | None) -> TimingTota
     )
 
 
-def drawn_way(implementation: ImplementationTotal) -> WrongAnswer | None:
+def drawn_sweep(implementation: ImplementationTotal) -> WrongAnswer | None:
     """The worst answer about a sweep of an upright spheroid, which can be drawn in the half plane; None without any."""
     if implementation.question != PASSAGE or not implementation.gated:
         return None

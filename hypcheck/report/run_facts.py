@@ -17,7 +17,7 @@ from hypcheck.record.measurements import BoundingLine, KernelLine, SpeedLine, Un
 from hypcheck.report import model
 from hypcheck.report.advice import IN_FLOATS
 from hypcheck.report.benchmark_facts import facts_of, sentences_of
-from hypcheck.report.measured import NEAREST, MeasuredMethod, WayTotal, measured_methods, way_totals, workloads
+from hypcheck.report.measured import NEAREST, MeasuredMethod, SweepTotal, measured_methods, sweep_totals, workloads
 from hypcheck.report.messages import figure, implementation_claims, listed, pace, tolerance_of
 
 
@@ -87,14 +87,14 @@ def benchmark_facts(record: Record) -> Iterator[str]:
         named = f"; not met: {listed(missed)}" if missed else ""
         yield f"targets of the kernels: {len(kernels) - len(missed)} of {len(kernels)} met{named}"
     yield from sentences_of(record, BoundingLine)
-    for method in way_totals(record):
-        yield _way_fact(method)
+    for method in sweep_totals(record):
+        yield _sweep_fact(method)
     methods = [method for method in measured_methods(record) if method.line.kind in IN_FLOATS]
     for name, workload in workloads(record).items():
         yield from _endings(workload.title, name, [method for method in methods if name in method.accuracy])
 
 
-def _way_fact(total: WayTotal) -> str:
+def _sweep_fact(total: SweepTotal) -> str:
     """What a method for sweeps gets wrong, and what a sweep costs."""
     missed, false = (figure(100 * total.share(part)) for part in (total.missed, total.false))
     silent = f", {figure(100 * total.share(total.abstained))} % cannot say" if total.abstained else ""

@@ -23,7 +23,7 @@ from hypcheck.report import csv, junit, markdown, summary, terminal
 from hypcheck.report.code_hosts import render_badge, render_gitlab, render_sarif
 from hypcheck.report.drawings import ALONE, ReportContext, draw_ahead, pictures, render_picture
 from hypcheck.report.formats import REPORTS, ReportFormat, WrittenReport, kept_formats
-from hypcheck.report.model import drawn_way, implementations
+from hypcheck.report.model import drawn_sweep, implementations
 from hypcheck.tables.streams import made_folder, remove_file, write_files
 
 FOR_PROGRAMS: Mapping[str, Callable[[Record], bytes]] = {
@@ -85,8 +85,8 @@ def files_of(record: Record) -> list[str]:
 
 
 def _has_content(report: ReportFormat, record: Record) -> bool:
-    if report.ways:
-        return any(drawn_way(implementation) is not None for implementation in implementations(record))
+    if report.sweeps:
+        return any(drawn_sweep(implementation) is not None for implementation in implementations(record))
     return report.shows is None or any(line.type == report.shows for line in record.lines)
 
 

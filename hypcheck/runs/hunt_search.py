@@ -142,7 +142,7 @@ CROSSING_BLOCK = 96
 """Rows of a crossing that are made at a time: to reach the border costs more than a question."""
 
 SWEEPS_TOGETHER = 24
-"""Ways of a family that are asked at a time: what happens on one takes milliseconds to decide."""
+"""Sweeps of a family that are asked at a time: one takes milliseconds to decide."""
 
 VERSION = 1
 """The version of the generator of crossings, part of its seed."""

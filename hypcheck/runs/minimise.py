@@ -87,7 +87,7 @@ def small_pairs() -> tuple[Row, ...]:
 
 @cache
 def small_sweeps() -> tuple[Row, ...]:
-    """Ways in the plane y = 0 in small whole numbers, upright."""
+    """Sweeps of upright spheroids in the plane y = 0, in small whole numbers."""
     sizes = [(alpha, gamma, 1.0, 1.0) for alpha in (1.0, 2.0, 3.0) for gamma in (1.0, 2.0, 3.0)]
     starts, ends = product((0.0, 1.0, 2.0, 3.0, 4.0), (0.0, 1.0, 2.0)), product(range(-4, 5), range(-2, 3))
     return tuple(
@@ -110,7 +110,7 @@ _SMALL = tuple(map(float, range(1, 7)))
 
 
 def same_query(row: Row, layout: Layout) -> Iterator[Row]:
-    """The row in other coordinates: fewer signs, x and y exchanged, a sweep the other way round, other units.
+    """The row in other coordinates: fewer signs, x and y exchanged, a sweep from its end to its start, other units.
 
     An upright pair is also turned so that y is 0.
     """

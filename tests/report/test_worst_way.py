@@ -6,7 +6,7 @@ import pytest
 
 from hypcheck.report import markdown
 from hypcheck.report.drawings import ReportContext
-from hypcheck.report.model import drawn_way, implementations
+from hypcheck.report.model import drawn_sweep, implementations
 from hypcheck.report.plots.pictures import draw_plots
 from hypcheck.report.write import files_of
 from tests.report.record_samples import group, hexes, record
@@ -53,7 +53,7 @@ def test_picture_of_ways_shows_the_worst_way_of_an_upright_spheroid():
         case("tilted-way-uniform/1/1/5", *THROUGH, 9.0, axis=(1, 0, 1)),
     )
     (each,) = implementations(found)
-    assert drawn_way(each).case == "way-long/1/1/4"
+    assert drawn_sweep(each).case == "way-long/1/1/4"
     (plot,) = draw_plots("ways", found)
     assert plot.title == "mine: way-long/1/1/4"
     assert plot.description == "way-long/1/1/4: clear on the sweep; answered: in contact on the sweep."

@@ -250,8 +250,8 @@ def front_plots(record: Record) -> Iterator[style.Plot]:
 
     Of a benchmark of sweeps: missed contacts, and false contacts.
     """
-    if measured.way_totals(record):
-        yield from _way_plots(record)
+    if measured.sweep_totals(record):
+        yield from _sweep_plots(record)
         return
     known, name = measured.workloads(record), measured.principal(record)
     near, everywhere = points(record, name), points(record, name, everywhere=True)
@@ -346,21 +346,21 @@ _LEAST = 0.01
 """The axis of shares goes at least to 1 %."""
 
 
-def _way_plots(record: Record) -> Iterator[style.Plot]:
+def _sweep_plots(record: Record) -> Iterator[style.Plot]:
     """Missed contacts, then false contacts, of all workloads together; the time is that of the principal one."""
-    timed = [(total, total.time_ns / 1000) for total in measured.way_totals(record) if total.time_ns is not None]
+    timed = [(total, total.time_ns / 1000) for total in measured.sweep_totals(record) if total.time_ns is not None]
     if timed:
         where = str(measured.workloads(record)[measured.principal(record)].title)
-        yield _way_plot("front-missed", "Missed contacts", timed, where, lambda total: total.missed)
-        yield _way_plot("front-false", "False contacts", timed, where, lambda total: total.false)
+        yield _sweep_plot("front-missed", "Missed contacts", timed, where, lambda total: total.missed)
+        yield _sweep_plot("front-false", "False contacts", timed, where, lambda total: total.false)
 
 
-def _way_plot(
+def _sweep_plot(
     name: str,
     title: str,
-    timed: Sequence[tuple[measured.WayTotal, float]],
+    timed: Sequence[tuple[measured.SweepTotal, float]],
     where: str,
-    mistakes: Callable[[measured.WayTotal], int],
+    mistakes: Callable[[measured.SweepTotal], int],
 ) -> style.Plot:
     """A plot of the share of these mistakes against microseconds."""
     drawn = style.new_figure(style.WIDTH, HEIGHT)

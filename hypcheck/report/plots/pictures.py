@@ -8,12 +8,12 @@ from typing import Any
 from hypcheck.errors import UnavailableError
 from hypcheck.record import Record
 from hypcheck.record.lines import MapLine
-from hypcheck.report.plots import curves, pareto, planes, simulations, times, worst_way
+from hypcheck.report.plots import curves, pareto, planes, simulations, times, worst_sweep
 from hypcheck.report.plots.style import Plot, inline, standalone, styled, together
 
 PLOTS: Mapping[str, Callable[[Record], Iterator[Plot]]] = {
     "map": planes.map_plots,
-    "ways": worst_way.plots,
+    "ways": worst_sweep.plots,
     "octaves": curves.octave_plots,
     "sizes": planes.size_plots,
     "fields": planes.field_plots,

@@ -35,14 +35,14 @@ from hypcheck.report.document import (
     table,
 )
 from hypcheck.report.measured import (
-    WayTotal,
+    SweepTotal,
     is_unstable,
     is_wrong_somewhere,
     measured_methods,
     principal,
     reference,
     stability_title,
-    way_totals,
+    sweep_totals,
     workloads,
 )
 from hypcheck.report.messages import Replays, figure, from_hex, rows_not_asked
@@ -195,13 +195,13 @@ _PLACES = tuple((role, words) for words, role in MISTAKES.values())
 def error_sections(record: Record) -> Iterator[Section]:
     """The errors of a benchmark's methods: by distance, by workload, by size and by place."""
     if record.of(measurements.AccuracyLine):
-        about_ways = list(way_sections(record))
-        yield from about_ways
+        about_sweeps = list(sweep_sections(record))
+        yield from about_sweeps
         blocks: tuple[Block, ...] = (Paragraph(_FRONT), FRONT, PARETO)
-        if record.of(measurements.SpeedLine) and not about_ways:
+        if record.of(measurements.SpeedLine) and not about_sweeps:
             yield Section("Error against run time", blocks)
         others = Details("On the other workloads, the methods that are wrong there", (Figures("other-errors"),))
-        distance = _SIZE_DISTANCE if about_ways else _WORKLOAD_DISTANCE
+        distance = _SIZE_DISTANCE if about_sweeps else _WORKLOAD_DISTANCE
         yield Section("Wrong answers by distance", (Paragraph(distance), ERRORS, others))
         yield Section("Wrong answers by workload", (Paragraph(_TABLE), _workload_table(record)))
     yield from _maps(record)
@@ -340,19 +340,19 @@ _SWEEPS = prose(
     " under *wrong by*, about, and *worst* is the greatest that was found (∞: no change below 100 % is enough, as"
     " where the centre goes through the surface). Times are medians of a sweep in a batch."
 )
-_WAY_FRONT = Figures("front", "missed contacts and false contacts against the time of a sweep", "front.svg")
+_SWEEP_FRONT = Figures("front", "missed contacts and false contacts against the time of a sweep", "front.svg")
 
 
-def way_sections(record: Record) -> Iterator[Section]:
+def sweep_sections(record: Record) -> Iterator[Section]:
     """The comparison of methods for sweeps; none if the benchmark is about positions."""
-    totals = way_totals(record)
+    totals = sweep_totals(record)
     if totals:
         yield Section(
-            "Missed and false contacts against time", (Paragraph(_SWEEPS), _WAY_FRONT, _way_table(record, totals))
+            "Missed and false contacts against time", (Paragraph(_SWEEPS), _SWEEP_FRONT, _sweep_table(record, totals))
         )
 
 
-def _way_table(record: Record, totals: list[WayTotal]) -> TableBlock:
+def _sweep_table(record: Record, totals: list[SweepTotal]) -> TableBlock:
     where = workloads(record)[principal(record)].title
     mistakes = ("sweeps", "missed contacts", "share", "false contacts", "share", "cannot say", "wrong by", "worst")
     columns = (
@@ -361,10 +361,10 @@ def _way_table(record: Record, totals: list[WayTotal]) -> TableBlock:
         number("µs a sweep", hint=f"on the workload: {where}"),
         against(reference(record)),
     )
-    return table("missed and false contacts", columns, [_way_row(total) for total in totals])
+    return table("missed and false contacts", columns, [_sweep_row(total) for total in totals])
 
 
-def _way_row(total: WayTotal) -> Row:
+def _sweep_row(total: SweepTotal) -> Row:
     return (
         Code(total.name),
         count(total.asked),
@@ -380,7 +380,7 @@ def _way_row(total: WayTotal) -> Row:
     )
 
 
-def _size(total: WayTotal, size: float) -> TableCell:
+def _size(total: SweepTotal, size: float) -> TableCell:
     if not total.missed and not total.false:
         return TableCell(NONE, 0.0)
     return TableCell(f"{figure(100 * size)} %" if size < math.inf else "∞", size)

@@ -250,9 +250,9 @@ _SWEEPS = prose(
 )
 
 
-def way_sections(record: Record) -> Iterator[Section]:
+def sweep_sections(record: Record) -> Iterator[Section]:
     """The worst answers about sweeps, drawn; none if no such answer is wrong."""
-    if any(model.drawn_way(implementation) is not None for implementation in model.implementations(record)):
+    if any(model.drawn_sweep(implementation) is not None for implementation in model.implementations(record)):
         yield Section("The worst sweeps", (Paragraph(_SWEEPS), SWEEPS))
 
 

@@ -24,7 +24,7 @@ from hypcheck.record import Record
 from hypcheck.record.fields import numbers_of
 from hypcheck.record.lines import WrongAnswer
 from hypcheck.report.messages import figure, from_hex
-from hypcheck.report.model import drawn_way, implementations
+from hypcheck.report.model import drawn_sweep, implementations
 from hypcheck.report.plots.planes import Interval, draw_surface
 from hypcheck.report.plots.style import WIDTH, Plot, colour, new_figure
 from hypcheck.truth.passage_error import SWEEP_ANSWERS, passage_of
@@ -37,15 +37,15 @@ AROUND = 2.6
 _POINTS, _ZOOMS = 400, 5
 _LONGEST_NAME = 40
 
-_SAID_DASHES = (0, (4, 2))
+_ANSWERED_DASHES = (0, (4, 2))
 
-WAY, TOUCHES, SAID = "series-1", "series-2", "series-4"
-"""The roles of the way's colour, of the spheroid's where it first touches, and of its at the answered time."""
+SWEEP, TOUCHES, ANSWERED = "series-1", "series-2", "series-4"
+"""The roles of the sweep's colour, of the spheroid's where it first touches, and of its at the answered time."""
 
 
 @dataclass(frozen=True, slots=True)
-class _Way:
-    """A way to be drawn: its row, the time that the right panel shows, and the answered time if that is wrong."""
+class _DrawnSweep:
+    """A sweep to be drawn: its row, the time that the right panel shows, and the answered time if that is wrong."""
 
     row: tuple[float, ...]
     answer: int
@@ -63,27 +63,27 @@ class _Way:
 def plots(record: Record) -> Iterator[Plot]:
     """A plot for each implementation under test that answered wrongly about a sweep of an upright spheroid."""
     for number, implementation in enumerate(implementations(record)):
-        case = drawn_way(implementation)
+        case = drawn_sweep(implementation)
         if case is not None:
             yield _plot(f"way-{number}", implementation.name, case)
 
 
 def _plot(name: str, method: str, case: WrongAnswer) -> Plot:
-    way = _way_of(case)
+    sweep = _drawn(case)
     drawn = new_figure(BROAD, HEIGHT)
     whole, near = drawn.subplots(1, 2)
-    _whole(whole, way)
-    _near(near, way)
-    _legend(drawn, way)
-    description = f"{escaped(case.case)}: {SWEEP_ANSWERS[int(way.hit)]}{_when(way)}; answered: {_answer(way)}."
+    _whole(whole, sweep)
+    _near(near, sweep)
+    _legend(drawn, sweep)
+    description = f"{escaped(case.case)}: {SWEEP_ANSWERS[int(sweep.hit)]}{_when(sweep)}; answered: {_answer(sweep)}."
     return Plot(name, f"{escaped(method, _LONGEST_NAME)}: {escaped(case.case, _LONGEST_NAME)}", description, drawn)
 
 
-def _way_of(case: WrongAnswer) -> _Way:
+def _drawn(case: WrongAnswer) -> _DrawnSweep:
     row = from_hex(numbers_of(case))
-    sweep = passage_of(row)
-    shown = sweep.first_lower if sweep.hit else _nearest_time(row)
-    return _Way(row, int(case.answer), sweep.hit, shown, case.time if case.time else None)
+    decided = passage_of(row)
+    shown = decided.first_lower if decided.hit else _nearest_time(row)
+    return _DrawnSweep(row, int(case.answer), decided.hit, shown, case.time if case.time else None)
 
 
 def _nearest_time(row: tuple[float, ...]) -> float:
@@ -96,92 +96,94 @@ def _nearest_time(row: tuple[float, ...]) -> float:
     return float((low + high) / 2)
 
 
-def _when(way: _Way) -> str:
-    return f", first at {figure(way.shown)} of it" if way.hit else ""
+def _when(sweep: _DrawnSweep) -> str:
+    return f", first at {figure(sweep.shown)} of it" if sweep.hit else ""
 
 
-def _answer(way: _Way) -> str:
-    return SWEEP_ANSWERS.get(way.answer, str(way.answer)) + (
-        f", first at {figure(way.answered)}" if way.answered is not None else ""
+def _answer(sweep: _DrawnSweep) -> str:
+    return SWEEP_ANSWERS.get(sweep.answer, str(sweep.answer)) + (
+        f", first at {figure(sweep.answered)}" if sweep.answered is not None else ""
     )
 
 
-def _whole(axes: Axes, way: _Way) -> None:
-    b, d = way.row[2:4]
-    rs, zs = way.at(_times(way))
-    near_r, near_z = _about(way)
+def _whole(axes: Axes, sweep: _DrawnSweep) -> None:
+    b, d = sweep.row[2:4]
+    rs, zs = sweep.at(_times(sweep))
+    near_r, near_z = _about(sweep)
     r = min(float(rs.min()) - 1.2 * b, near_r[0]), max(float(rs.max()) + 1.2 * b, near_r[1])
     z = min(float(zs.min()) - 1.2 * d, near_z[0]), max(float(zs.max()) + 1.2 * d, near_z[1])
     span = r[1] - r[0]
     r = (0.0 if r[0] < span else r[0]), r[1] + 0.04 * span  # the axis, unless it is far away; the marks of both ends
-    _panel(axes, way, r, z, "the whole way")
+    _panel(axes, sweep, r, z, "the whole way")
     for time, marker in ((0.0, "o"), (1.0, "s")):
-        axes.plot(*way.at(time), marker=marker, markersize=6, color=colour(WAY), zorder=4)
-        _body(axes, way, time, WAY)
-    _touching(axes, way)
+        axes.plot(*sweep.at(time), marker=marker, markersize=6, color=colour(SWEEP), zorder=4)
+        _body(axes, sweep, time, SWEEP)
+    _touching(axes, sweep)
 
 
-def _near(axes: Axes, way: _Way) -> None:
-    _panel(axes, way, *_about(way), "where it first touches" if way.hit else "where it comes nearest")
-    _touching(axes, way)
+def _near(axes: Axes, sweep: _DrawnSweep) -> None:
+    _panel(axes, sweep, *_about(sweep), "where it first touches" if sweep.hit else "where it comes nearest")
+    _touching(axes, sweep)
 
 
-def _panel(axes: Axes, way: _Way, r: Interval, z: Interval, title: str) -> None:
+def _panel(axes: Axes, sweep: _DrawnSweep, r: Interval, z: Interval, title: str) -> None:
     """The sweep and the surface in a part of the half plane."""
     axes.set(xlim=r, ylim=z, xlabel="r, distance from the axis", ylabel="z, height")
     axes.set_title(title, fontsize=10)
     axes.locator_params(nbins=4)
     axes.ticklabel_format(useOffset=False)
-    draw_surface(axes, way.row[:2], r, z, colour("ink"))
-    axes.plot(*way.at(_times(way)), color=colour(WAY), linewidth=1.4, zorder=3)
+    draw_surface(axes, sweep.row[:2], r, z, colour("ink"))
+    axes.plot(*sweep.at(_times(sweep)), color=colour(SWEEP), linewidth=1.4, zorder=3)
 
 
-def _about(way: _Way) -> tuple[Interval, Interval]:
+def _about(sweep: _DrawnSweep) -> tuple[Interval, Interval]:
     """The part of the half plane about the spheroid at the time that is shown."""
-    b, d = way.row[2:4]
-    r, z = (float(coordinate) for coordinate in way.at(way.shown))
+    b, d = sweep.row[2:4]
+    r, z = (float(coordinate) for coordinate in sweep.at(sweep.shown))
     return (max(0.0, r - AROUND * b), r + AROUND * b), (z - AROUND * d, z + AROUND * d)
 
 
-def _times(way: _Way) -> Floats:
+def _times(sweep: _DrawnSweep) -> Floats:
     """Times of the whole sweep, and more of them about the one that is shown and where it is nearest to the axis."""
-    x, y = way.row[4:6]
-    u, v = way.row[7] - x, way.row[8] - y
+    x, y = sweep.row[4:6]
+    u, v = sweep.row[7] - x, sweep.row[8] - y
     turn = -(x * u + y * v) / (u * u + v * v) if u or v else 0.0
     close = np.concatenate([[0.0], np.geomspace(1e-12, 1.0, _POINTS // 4)])
     every = [np.linspace(0.0, 1.0, _POINTS)]
-    every += [middle + side * close for middle in (turn, way.shown) for side in (-1.0, 1.0)]
+    every += [middle + side * close for middle in (turn, sweep.shown) for side in (-1.0, 1.0)]
     return np.unique(np.clip(np.concatenate(every), 0.0, 1.0))
 
 
-def _touching(axes: Axes, way: _Way) -> None:
+def _touching(axes: Axes, sweep: _DrawnSweep) -> None:
     """The spheroid at the time that the right panel shows, and at the answered time."""
-    role = TOUCHES if way.hit else WAY
-    _body(axes, way, way.shown, role, filled=way.hit)
-    axes.plot(*way.at(way.shown), marker="+", markersize=7, color=colour(role), zorder=5)
-    if way.answered is not None:
-        _body(axes, way, way.answered, SAID)
+    role = TOUCHES if sweep.hit else SWEEP
+    _body(axes, sweep, sweep.shown, role, filled=sweep.hit)
+    axes.plot(*sweep.at(sweep.shown), marker="+", markersize=7, color=colour(role), zorder=5)
+    if sweep.answered is not None:
+        _body(axes, sweep, sweep.answered, ANSWERED)
 
 
-def _body(axes: Axes, way: _Way, time: float, role: str, *, filled: bool = False) -> None:
-    b, d = way.row[2:4]
-    r, z = (float(coordinate) for coordinate in way.at(time))
+def _body(axes: Axes, sweep: _DrawnSweep, time: float, role: str, *, filled: bool = False) -> None:
+    b, d = sweep.row[2:4]
+    r, z = (float(coordinate) for coordinate in sweep.at(time))
     face = colour(role) if filled else "none"
     axes.add_patch(Ellipse((r, z), 2 * b, 2 * d, facecolor=face, edgecolor="none", alpha=0.25, zorder=2))
     turn = np.linspace(0.0, 2 * math.pi, 121)
     rim = r + b * np.cos(turn), z + d * np.sin(turn)
-    axes.plot(*rim, color=colour(role), linewidth=1.2, linestyle=_SAID_DASHES if role == SAID else "solid", zorder=3)
+    axes.plot(
+        *rim, color=colour(role), linewidth=1.2, linestyle=_ANSWERED_DASHES if role == ANSWERED else "solid", zorder=3
+    )
 
 
-def _legend(drawn: Figure, way: _Way) -> None:
-    own = colour(WAY)
+def _legend(drawn: Figure, sweep: _DrawnSweep) -> None:
+    own = colour(SWEEP)
     handles: list[Line2D | Patch] = [
         Line2D([], [], color=colour("ink"), linewidth=0.9, label="hyperboloid"),
         Line2D([], [], color=own, marker="o", markersize=6, label="the sweep, from its start"),
         Line2D([], [], color=own, marker="s", markersize=6, label="to its end"),
     ]
-    if way.hit:
+    if sweep.hit:
         handles.append(Patch(facecolor=colour(TOUCHES), alpha=0.4, label="first contact"))
-    if way.answered is not None:
-        handles.append(Line2D([], [], color=colour(SAID), linestyle=_SAID_DASHES, label="at the answered time"))
+    if sweep.answered is not None:
+        handles.append(Line2D([], [], color=colour(ANSWERED), linestyle=_ANSWERED_DASHES, label="at the answered time"))
     drawn.legend(handles=handles, loc="outside lower center", ncols=3)
