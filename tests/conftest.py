@@ -92,6 +92,8 @@ THOROUGH = {
     "tables": "processes",
     "tools/attack": "attack",
     "tools/evidence": "faults",
+    "tools/evidence/battery": "battery",
+    "tools/evidence/fuzzing": "replay",
     "tools/fuzz": "fuzz",
     "tools/soak": "soak",
     "truth": "float_boxes nearest nearest_bounds roots_table",

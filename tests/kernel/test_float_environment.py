@@ -26,7 +26,7 @@ EVERY = range(10)
     ("kernel", "first", "others"),
     [
         ("compiled", DOWNWARD_FLUSHED, (0, 8)),
-        ("numpy", UPWARD_FLUSHED, (9,)),
+        pytest.param("numpy", UPWARD_FLUSHED, (9,), marks=pytest.mark.thorough),
         pytest.param("compiled", DOWNWARD_FLUSHED, EVERY, marks=pytest.mark.thorough),
         pytest.param("numpy", UPWARD_FLUSHED, EVERY, marks=pytest.mark.thorough),
     ],

@@ -111,6 +111,7 @@ def test_the_example_finds_the_installed_package(installed, tmp_path):
     check_examples(tmp_path)
 
 
+@pytest.mark.thorough
 @needs_cmake
 def test_the_example_fetches_the_archive(unpacked, tmp_path):
     source = ROOT / "packages" / "c" / "examples"
@@ -132,6 +133,7 @@ def test_the_example_is_built_with_what_pkg_config_says(installed, tmp_path):
     check_examples(tmp_path)
 
 
+@pytest.mark.thorough
 @needs_cmake
 @pytest.mark.slow
 def test_the_installed_library_passes_the_gate(installed, tmp_path):

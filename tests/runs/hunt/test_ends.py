@@ -56,7 +56,9 @@ def test_a_hunt_asks_about_ends_where_heights_are_taken_and_keeps_what_it_finds(
     assert main(["replay", shown, spec]) == 1
 
 
-@pytest.mark.parametrize(("text", "row"), [(CENTRE_ALONE, PIERCED), (NEVER, LANDING)])
+@pytest.mark.parametrize(
+    ("text", "row"), [(CENTRE_ALONE, PIERCED), pytest.param(NEVER, LANDING, marks=pytest.mark.thorough)]
+)
 def test_minimise_takes_rows_with_ends_and_proves_the_right_answer(text, row, capsys, tmp_path):
     assert main(["minimise", program(tmp_path, text), ",".join(map(repr, row))]) == 0
     said = capsys.readouterr().out

@@ -52,7 +52,7 @@ def test_hunt_finds_nothing_in_the_exact_passage(capsys):
     assert "0 answers were wrong" in capsys.readouterr().out
 
 
-@pytest.mark.slow
+@pytest.mark.thorough  # test_ends.py hunts for tilted sweeps, and beside ends
 def test_ways_of_spheroids_that_lean_are_asked_where_the_implementation_takes_tilt(capsys, tmp_path):
     out = tmp_path / "kept.json"
     words = ("hunt", "python:tests.runs.moving:upright", "--queries", "600", "--show", "1", "--out", str(out))
