@@ -17,6 +17,7 @@ import sympy
 from hypcheck.derivation import links, pencil
 from hypcheck.derivation.decisions import DecisionRule, decisions
 from hypcheck.derivation.evaluation import OPERATORS, Arithmetic, evaluate, outputs
+from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS, REPAIRED, Formula
 from hypcheck.derivation.paper_listings import ROTORS
 from hypcheck.derivation.pencil import (
@@ -38,7 +39,6 @@ from hypcheck.derivation.pencil import (
     symbol,
 )
 from hypcheck.derivation.program import Program, cut
-from hypcheck.derivation.rounding import float_arithmetic
 
 SYMBOLIC = Arithmetic(
     name="symbolic",

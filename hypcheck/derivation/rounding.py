@@ -1,16 +1,8 @@
-"""Float arithmetic for programs, each operation rounded once; and bounds of the errors, counted from a program.
+"""Bounds of rounding errors, counted from a program.
 
-Operations are in one numpy format, over scalars or arrays; TwoSum. All operands have the one format, constants
-included, so that no promotion rule of any numpy version matters. numpy computes binary16 in binary32 and rounds again,
-which is the correctly rounded result for + − × ÷ √, since 24 ≥ 2·11 + 2; cosines are as good as numpy's. Infinities and
-NaN raise nothing.
-
-FloatFormat describes the binary formats, and rounds a rational number to one of them exactly.
-
-Bounds. Let u be the unit roundoff, and F_k the interval [(1−u)^k, (1−u)^−k]. Every operation rounded to nearest,
-without overflow or underflow, returns the exact result of its operands times some 1+δ, |δ| ≤ u, which lies in F_1
-because 1+u ≤ 1/(1−u). Products of members of F_j and F_k lie in F_(j+k), reciprocals stay in F_k, and so do weighted
-means.
+Let u be the unit roundoff, and F_k the interval [(1−u)^k, (1−u)^−k]. Every operation rounded to nearest, without
+overflow or underflow, returns the exact result of its operands times some 1+δ, |δ| ≤ u, which lies in F_1 because
+1+u ≤ 1/(1−u). Products of members of F_j and F_k lie in F_(j+k), reciprocals stay in F_k, and so do weighted means.
 
 Claim: for every step, with v its exact value written as a sum of terms t_j (monomials in the inputs, divided by
 denominators where there are some), the computed value is the sum of t_j f_j with every f_j in F_k, k being its count.
@@ -33,126 +25,12 @@ its steps round no more often, so in floating point M is known up to a factor in
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Collection, Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cache, partial
-from typing import Any, Literal
 
-import numpy as np
-
-from hypcheck.derivation.evaluation import OPERATORS, Arithmetic
 from hypcheck.derivation.program import BOOLEAN, NUMBER, Argument, Program, Step, kind_of, needed
 from hypcheck.geometry.pair import SIZES
-from hypcheck.geometry.rows import Floats
-
-_OPERATIONS: dict[str, Callable[..., Any]] = {
-    **OPERATORS,
-    "sqrt": np.sqrt,
-    "cos": np.cos,
-    "arccos": np.arccos,
-    "not": np.logical_not,
-    "select": np.where,
-}
-
-FORMATS = ("float16", "float32", "float64", "longdouble")
-
-
-@cache
-def float_arithmetic(format_name: str) -> Arithmetic:
-    """The arithmetic of one of FORMATS; longdouble is whatever numpy has by that name here (x87 on x86-64).
-
-    Inputs are floats, integers or arrays of them, rounded to the format on entry; arrays of that format are taken as
-    they are, without a copy. Shapes broadcast, so sizes can be scalars beside arrays of centres.
-    Raises ValueError where there is no such format.
-    """
-    if format_name not in FORMATS:
-        raise ValueError(f"{format_name!r} is none of the formats {', '.join(FORMATS)}")
-    return Arithmetic(
-        name=format_name,
-        convert=partial(np.asarray, dtype=np.dtype(format_name)),
-        operations=_OPERATIONS,
-        integers=lambda values: np.asarray(values).astype(np.int8),
-        guard=partial(np.errstate, all="ignore"),
-    )
-
-
-def unit_roundoff(format_name: str) -> float:
-    """The largest relative error u of one rounding to nearest in the format: half the gap after 1."""
-    return float(np.finfo(np.dtype(format_name)).eps) / 2
-
-
-def two_sum(first: Floats, second: Floats | float) -> tuple[Floats, Floats]:
-    """The rounded sum of float64 numbers and its rounding error, which is a float64 too (Knuth's TwoSum): exact.
-
-    The error is NaN where the sum leaves the range of float64.
-    """
-    total = first + second
-    shadow = total - first
-    return total, (first - (total - shadow)) + (second - shadow)
-
-
-Direction = Literal["nearest", "up", "down"]
-
-
-@dataclass(frozen=True, slots=True)
-class FloatFormat:
-    """A binary format: significant bits, and the exponents of its normal numbers, 2^least ≤ |v| < 2^(greatest + 1)."""
-
-    name: str
-    bits: int
-    least: int
-    greatest: int
-
-    @property
-    def overflow(self) -> int:
-        """The exponent of the least power of two beyond the format."""
-        return self.greatest + 1
-
-    @property
-    def unit(self) -> Fraction:
-        """u, the largest relative error of one rounding to nearest."""
-        return Fraction(1, 2**self.bits)
-
-    def rounded(self, value: Fraction, direction: Direction = "nearest") -> float:
-        """The number of the format next to `value`; raises OverflowError beyond its normal range, 0 aside."""
-        if value == 0:
-            return 0.0
-        exponent = _floor_log2(abs(value))
-        if not self.least <= exponent <= self.greatest:
-            raise OverflowError(f"a number near 2^{exponent} is not a normal number of {self.name}")
-        step = Fraction(2) ** (exponent - self.bits + 1)
-        units = value / step
-        return float(_whole(units, direction) * step)
-
-
-FLOAT_FORMATS = {
-    float_format.name: float_format
-    for float_format in (
-        FloatFormat("float16", 11, -14, 15),
-        FloatFormat("float32", 24, -126, 127),
-        FloatFormat("float64", 53, -1022, 1023),
-    )
-}
-"""By name."""
-
-
-def power_of_two_near(value: Fraction) -> Fraction:
-    """The largest power of two that is not above `value` > 0."""
-    return Fraction(2) ** _floor_log2(value)
-
-
-def _whole(value: Fraction, direction: Direction) -> int:
-    if direction == "nearest":
-        return round(value)
-    return math.ceil(value) if direction == "up" else math.floor(value)
-
-
-def _floor_log2(value: Fraction) -> int:
-    exponent = value.numerator.bit_length() - value.denominator.bit_length()
-    return exponent if Fraction(2) ** exponent <= value else exponent - 1
-
 
 POSITIVE_INPUTS = frozenset({*SIZES, "b_s", "d_s", "l"})
 """Inputs that are lengths of bodies, hence > 0."""

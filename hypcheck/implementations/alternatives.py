@@ -32,9 +32,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.derivation.evaluation import Evaluator, outputs
+from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS
 from hypcheck.derivation.program import cut
-from hypcheck.derivation.rounding import float_arithmetic
 from hypcheck.geometry.pair import COLUMNS, UPRIGHT, Axis, Sizes
 from hypcheck.geometry.rows import CANNOT_SAY, Columns, Floats, Mask, Positions, Rows
 from hypcheck.implementations.method import Answers, ByColumns

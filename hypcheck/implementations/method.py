@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.derivation.evaluation import Evaluator
+from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS, Formula
 from hypcheck.derivation.program import Program, Step, hoist, split
-from hypcheck.derivation.rounding import float_arithmetic
 from hypcheck.geometry.pair import COLUMNS, SIZES, Sizes
 from hypcheck.geometry.rows import Floats, Rows
 from hypcheck.implementations.domain import ORDINARY, Domain

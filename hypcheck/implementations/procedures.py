@@ -17,9 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.derivation.evaluation import Evaluator
+from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS, REPAIRED
 from hypcheck.derivation.program import Program, split
-from hypcheck.derivation.rounding import float_arithmetic
 from hypcheck.geometry.rows import Floats
 from hypcheck.implementations.method import Answers, in_chunks
 from hypcheck.kernel import numpy_kernel

@@ -27,7 +27,7 @@ from typing import Any
 
 import numpy as np
 
-from hypcheck.derivation.rounding import two_sum
+from hypcheck.derivation.float_arithmetic import two_sum
 from hypcheck.geometry.pair import WITHOUT_ENDS, Lengths, Position
 from hypcheck.geometry.rows import CANNOT_SAY, Floats, Indices, Mask, Positions, Rows
 from hypcheck.kernel import scene_pairs

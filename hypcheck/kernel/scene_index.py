@@ -33,7 +33,7 @@ from math import ceil, floor, inf
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck.derivation.rounding import two_sum
+from hypcheck.derivation.float_arithmetic import two_sum
 from hypcheck.geometry.rows import Floats, Indices, Mask, Rows
 from hypcheck.scene.model import UPRIGHT, Hyperboloid, Mover, Span, is_tilted
 

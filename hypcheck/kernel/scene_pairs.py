@@ -24,7 +24,7 @@ from math import inf, sqrt
 
 import numpy as np
 
-from hypcheck.derivation.rounding import two_sum
+from hypcheck.derivation.float_arithmetic import two_sum
 from hypcheck.geometry.pair import UPRIGHT, Position
 from hypcheck.geometry.rows import Floats, Indices, Mask, Positions, Rows
 from hypcheck.kernel.classify import classify

@@ -25,7 +25,7 @@ from math import inf, isfinite
 
 import numpy as np
 
-from hypcheck.derivation.rounding import two_sum
+from hypcheck.derivation.float_arithmetic import two_sum
 from hypcheck.geometry.pair import UPRIGHT, WITHOUT_ENDS
 from hypcheck.geometry.rows import Floats, Indices, Mask, Rows
 from hypcheck.kernel.in_use import kernel

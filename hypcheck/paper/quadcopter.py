@@ -18,8 +18,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from hypcheck.derivation.evaluation import loop_body
+from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS, REPAIRED
-from hypcheck.derivation.rounding import float_arithmetic
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Position, Sizes
 from hypcheck.geometry.rows import Columns, Floats, Mask

@@ -14,7 +14,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from hypcheck.derivation.rounding import two_sum
+from hypcheck.derivation.float_arithmetic import two_sum
 from hypcheck.geometry.rows import Floats, Mask
 
 DoubleDouble = tuple[Floats, Floats]

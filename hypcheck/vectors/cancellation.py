@@ -15,7 +15,7 @@ from dataclasses import astuple, dataclass
 
 import numpy as np
 
-from hypcheck.derivation.rounding import unit_roundoff
+from hypcheck.derivation.float_arithmetic import unit_roundoff
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.geometry.rows import Rows, within
 from hypcheck.truth import backward_error, exact, float_filter

@@ -20,7 +20,7 @@ from functools import partial
 
 import numpy as np
 
-from hypcheck.derivation.rounding import FLOAT_FORMATS, FloatFormat
+from hypcheck.derivation.float_arithmetic import FLOAT_FORMATS, FloatFormat
 from hypcheck.geometry.rows import Floats, Mask, Rows, within
 from hypcheck.vectors import double_roots
 from hypcheck.vectors.coincidences import exact_maker

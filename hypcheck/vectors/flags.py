@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.derivation.evaluation import EXACT, evaluate
+from hypcheck.derivation.float_arithmetic import float_arithmetic, unit_roundoff
 from hypcheck.derivation.formulas import FORMULAS, answers
-from hypcheck.derivation.rounding import float_arithmetic, unit_roundoff
 from hypcheck.geometry.pair import COLUMNS, SWEEP_COLUMNS, Pair, Position, to_integers
 from hypcheck.geometry.rows import Mask, Rows, within
 from hypcheck.truth import backward_error, exact

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hypcheck.derivation.rounding import two_sum
+from hypcheck.derivation.float_arithmetic import two_sum
 from hypcheck.geometry.rows import Floats, Mask, Rows
 from hypcheck.truth.passage_error import hits_at_size
 from hypcheck.vectors import double_roots, random_pairs, tilted

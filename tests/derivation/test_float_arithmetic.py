@@ -11,9 +11,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hypcheck.derivation.evaluation import evaluate
+from hypcheck.derivation.float_arithmetic import FORMATS, float_arithmetic, unit_roundoff
 from hypcheck.derivation.formulas import FORMULAS, answers
 from hypcheck.derivation.program import program_of
-from hypcheck.derivation.rounding import FORMATS, float_arithmetic, unit_roundoff
 from hypcheck.geometry.pair import COLUMNS
 
 DIGITS = {"float16": 11, "float32": 24, "float64": 53}

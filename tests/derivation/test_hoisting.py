@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from hypcheck.derivation.evaluation import EXACT, loop_body, outputs
+from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS
-from hypcheck.derivation.rounding import float_arithmetic
 from hypcheck.geometry.pair import COLUMNS, SIZES
 from hypcheck.vectors.families import FAMILIES
 

@@ -10,9 +10,9 @@ import pytest
 
 from hypcheck.derivation.chain_book import proved
 from hypcheck.derivation.evaluation import EXACT
+from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS, REPAIRED, answers
 from hypcheck.derivation.proofs import proofs_of, prove
-from hypcheck.derivation.rounding import float_arithmetic
 from hypcheck.geometry.pair import COLUMNS, Position
 from hypcheck.paper.ledger import statements
 from hypcheck.paper.ledger.points import Point, facts, facts_in_order

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from hypcheck.derivation.evaluation import EXACT, evaluate, outputs
+from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import APPROXIMATIONS, FORMULAS, ROOTS_TRIGONOMETRIC, SWEEP, answers
 from hypcheck.derivation.program import line_of, steps_of
 from hypcheck.derivation.proofs import prove
-from hypcheck.derivation.rounding import float_arithmetic
 from hypcheck.geometry.pair import COLUMNS
 from hypcheck.vectors.families import FAMILIES
 

@@ -10,9 +10,10 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from hypcheck.derivation.evaluation import EXACT, evaluate
+from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS
 from hypcheck.derivation.program import OPERATIONS, program_of
-from hypcheck.derivation.rounding import float_arithmetic, gamma, relative_error_counts
+from hypcheck.derivation.rounding import gamma, relative_error_counts
 from hypcheck.geometry.pair import COLUMNS
 
 UNIT = {"float16": Fraction(1, 2**11), "float32": Fraction(1, 2**24), "float64": Fraction(1, 2**53)}

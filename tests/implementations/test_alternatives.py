@@ -7,8 +7,8 @@ import pytest
 
 import hypcheck
 from hypcheck.bench.workloads import WORKLOADS
+from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS, answers
-from hypcheck.derivation.rounding import float_arithmetic
 from hypcheck.geometry.pair import COLUMNS
 from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.implementations import alternatives

@@ -7,8 +7,8 @@ import pytest
 
 from hypcheck.bench.claims import flight_of
 from hypcheck.derivation.evaluation import outputs
+from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS, REPAIRED
-from hypcheck.derivation.rounding import float_arithmetic
 from hypcheck.implementations.procedures import PROCEDURES, rotors_at
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from hypcheck.derivation.evaluation import evaluate
+from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS
 from hypcheck.derivation.program import program_of
-from hypcheck.derivation.rounding import float_arithmetic
 
 EVERYTHING = program_of(
     "everything",

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hypcheck.derivation.rounding import float_arithmetic
+from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.routines import run
 from hypcheck.kernel.specialise.double_double import DIFFERENCE, PRODUCT, QUOTIENT, ROOT, SIZE, SUM
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from hypcheck.derivation.evaluation import EXACT, evaluate
-from hypcheck.derivation.rounding import FLOAT_FORMATS
+from hypcheck.derivation.float_arithmetic import FLOAT_FORMATS
 from hypcheck.geometry.pair import Position
 from hypcheck.scene.model import Span
 from tests.support.inside import (

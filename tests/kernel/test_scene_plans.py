@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from hypcheck.cli.main import main
-from hypcheck.derivation.rounding import FLOAT_FORMATS
+from hypcheck.derivation.float_arithmetic import FLOAT_FORMATS
 from hypcheck.errors import InputError
 from hypcheck.scene.model import FREE, Hyperboloid, Mover, MoverPart, Region, SceneModel, Span
 from hypcheck.scene.reading import read_scene

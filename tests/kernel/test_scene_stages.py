@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from hypcheck.derivation.evaluation import evaluate, outputs
-from hypcheck.derivation.rounding import FLOAT_FORMATS, float_arithmetic
+from hypcheck.derivation.float_arithmetic import FLOAT_FORMATS, float_arithmetic
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.geometry.rows import FixedSizes
 from hypcheck.implementations.domain import representable

@@ -11,8 +11,8 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
+from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS, answers
-from hypcheck.derivation.rounding import float_arithmetic
 from hypcheck.errors import InputError
 from hypcheck.paper.forest import ForestPlan, Procedure1, Trees, judged, simulate_forest, walk
 from hypcheck.scene.model import Hyperboloid, Region, Span

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from hypcheck import classify, toml
+from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS, answers
-from hypcheck.derivation.rounding import float_arithmetic
 from hypcheck.geometry.pair import COLUMNS
 from hypcheck.implementations.domain import EVERYWHERE
 from hypcheck.implementations.session import Answered

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from mpmath import mp, mpf
 
-from hypcheck.derivation.rounding import two_sum
+from hypcheck.derivation.float_arithmetic import two_sum
 from hypcheck.geometry.pair import Pair
 from hypcheck.truth import double_double, upright_distances
 from tests.support.inside import NearestStage, clearances, nearest

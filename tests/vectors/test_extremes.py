@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from hypcheck.derivation.rounding import FLOAT_FORMATS
+from hypcheck.derivation.float_arithmetic import FLOAT_FORMATS
 from hypcheck.geometry.pair import Pair
 from hypcheck.geometry.rows import Rows
 from hypcheck.vectors.families import FAMILIES

@@ -44,8 +44,8 @@ from math import isqrt
 import numpy as np
 
 from hypcheck.derivation.evaluation import outputs
+from hypcheck.derivation.float_arithmetic import FloatFormat, float_arithmetic
 from hypcheck.derivation.program import Program, program_of
-from hypcheck.derivation.rounding import FloatFormat, float_arithmetic
 from hypcheck.geometry.pair import Lengths, Position, Sizes
 from hypcheck.geometry.rows import Floats, Mask
 from hypcheck.kernel import integers

@@ -53,10 +53,11 @@ from fractions import Fraction
 from math import isqrt
 
 from hypcheck.derivation.evaluation import EXACT, OPERATORS, Arithmetic, evaluate, outputs
+from hypcheck.derivation.float_arithmetic import FloatFormat, power_of_two_near
 from hypcheck.derivation.formulas import FORMULAS
 from hypcheck.derivation.listings import HESSIAN_DISCRIMINANT
 from hypcheck.derivation.program import Program, cut, program_of
-from hypcheck.derivation.rounding import FloatFormat, gamma, power_of_two_near, relative_error_counts
+from hypcheck.derivation.rounding import gamma, relative_error_counts
 from hypcheck.geometry.pair import Sizes
 from hypcheck.kernel.specialise import tilted
 from hypcheck.kernel.specialise.first_stages import UNSCALED, entry

@@ -10,8 +10,8 @@ from typing import Literal
 import numpy as np
 
 from hypcheck.derivation.evaluation import evaluate, outputs
+from hypcheck.derivation.float_arithmetic import FloatFormat, float_arithmetic
 from hypcheck.derivation.program import Program
-from hypcheck.derivation.rounding import FloatFormat, float_arithmetic
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import SIZES, Position
 from hypcheck.geometry.rows import Floats, Mask

@@ -16,7 +16,7 @@ from typing import Literal
 
 import numpy as np
 
-from hypcheck.derivation.rounding import FLOAT_FORMATS, FloatFormat, power_of_two_near
+from hypcheck.derivation.float_arithmetic import FLOAT_FORMATS, FloatFormat, power_of_two_near
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Pair, Position, Sizes
 from hypcheck.geometry.rows import Floats

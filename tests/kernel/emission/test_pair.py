@@ -8,7 +8,7 @@ import pytest
 
 from hypcheck.cli.main import main
 from hypcheck.derivation.evaluation import outputs
-from hypcheck.derivation.rounding import float_arithmetic
+from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.geometry.pair import COLUMNS
 from hypcheck.kernel.programs import dual
 from hypcheck.vectors import frozen

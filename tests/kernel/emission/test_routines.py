@@ -9,8 +9,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.program import steps_of
-from hypcheck.derivation.rounding import float_arithmetic
 from hypcheck.derivation.routines import Loop, Routine, run
 from hypcheck.kernel.emission.routines import routines_text
 from hypcheck.kernel.specialise.tilted_search import search_of

@@ -6,9 +6,9 @@ from unittest.mock import patch
 
 import numpy as np
 
+from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS
 from hypcheck.derivation.formulas import answers as evaluated
-from hypcheck.derivation.rounding import float_arithmetic
 from hypcheck.geometry.pair import COLUMNS
 from hypcheck.implementations import alternatives
 from hypcheck.implementations.alternatives import dual
