@@ -101,7 +101,7 @@ def wrong_case(explained: Explained) -> WrongCase:
 
 
 def _joined(parts: Sequence[Explained]) -> Explained:
-    """All of these, one at least, and the causes of the worst of them: the largest error, then the first place."""
+    """The sum of these (one at least), with the causes of the worst: the largest error, then the first place."""
     worst = min(parts, key=lambda explained: (-explained.exponent, explained.worst.place))
     return structs.replace(worst, cases=sum(explained.cases for explained in parts))
 
@@ -118,7 +118,7 @@ class Diagnosis:
 
 
 def merged(parts: Iterable[Diagnosis | Tally]) -> Diagnosis:
-    """The diagnosis of all answers of these, which may come in any order; sets of causes ascend."""
+    """The sum of these diagnoses, the same in whatever order they come; sets of causes ascend."""
     denied: Counter[str] = Counter()
     by_set: dict[int, list[Explained]] = {}
     for part in parts:
@@ -171,7 +171,7 @@ def _explained(causes: int, some: Sequence[tuple[WrongCase, tuple[Place, str]]],
 
 
 def _against(cause: Cause, answered: AnsweredRows, answers: Answers, first: int = 0) -> int:
-    """How much the answers given, from this place on, deny a rule with these answers."""
+    """How strongly the answers given, from the place `first` on, deny a rule that would give `answers`."""
     other = (answers != SILENT) & (answers != answered.given)
     other[:first] = False
     certain = 0 if cause.certain is None or not other.any() else int((other & cause.certain(answered)).sum())
@@ -179,7 +179,7 @@ def _against(cause: Cause, answered: AnsweredRows, answers: Answers, first: int 
 
 
 def _exposed(cause: Cause, answered: AnsweredRows) -> int:
-    """At how many of these rows, which were answered rightly, a cause about rounding would explain another answer."""
+    """The number of these rightly answered rows at which a cause about rounding would explain another answer."""
     exposed = np.zeros(len(answered.rows), dtype=bool)
     for answer in (-1, 0, 1):
         other = replace(answered, given=np.full(len(answered.rows), answer, dtype=np.int8))
@@ -210,16 +210,16 @@ class _Left:
 
     @property
     def total(self) -> int:
-        """How many there are."""
+        """The number of wrong answers that are left."""
         return sum(explained.cases for explained in self.explained.values())
 
     def number(self, *some: Cause) -> int:
-        """How many one of these causes explains at least."""
+        """The number of wrong answers that at least one of these causes explains."""
         bits = _bits(some)
         return sum(explained.cases for (_, causes), explained in self.explained.items() if causes & bits)
 
     def take_each(self, some: Sequence[Cause], *, least: float = 0.0, in_order: bool = False) -> None:
-        """Take what these explain, what explains most of the rest first, while that is this share of it at least."""
+        """Take what each cause explains, the one that explains most first, while that is a share of `least` or more."""
         waiting = list(some)
         while waiting and self.total:
             cause = waiting[0] if in_order else max(waiting, key=self.number)
@@ -229,7 +229,7 @@ class _Left:
             waiting.remove(cause)
 
     def take(self, cause: Cause | None) -> None:
-        """Take what a cause explains, all without one."""
+        """Take the wrong answers that a cause explains; None takes all."""
         bits = None if cause is None else _bits([cause])
         taken = {key: explained for key, explained in self.explained.items() if bits is None or key[1] & bits}
         families: Counter[str] = Counter()

@@ -181,7 +181,7 @@ def _judged_positions(
     criterion: Criterion,
     times: Floats | None,  # noqa: ARG001 - a position has none
 ) -> Iterator[WrongCase]:
-    """Where float64 proves a lower end of the error beyond the tolerance, that is enough; the rest gets more bits."""
+    """Judge positions: by float64 where it proves an error beyond the tolerance, by more bits elsewhere."""
     pairs = [Pair.from_row(row) for row in rows[wrong].tolist()]
     truths = [exact.decide(pair.lengths) for pair in pairs]
     given = [int(answers[index]) for index in wrong.tolist()]
@@ -249,7 +249,7 @@ def about_error_of(row: Sequence[float], answer: int, question: str) -> float:
 
 @lru_cache(KEPT)
 def _exponent(pair: Pair, truth: Decision, answer: int, question: str) -> float:
-    """log2 of about the error."""
+    """The exponent: log2 of the least backward error, about."""
     targets = right_positions(truth.position, answer, question)
     return min(backward_error.exponent(pair, truth, target) for target in targets)
 

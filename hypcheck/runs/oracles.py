@@ -56,7 +56,7 @@ class Oracle:
 
 
 def _each(opinion_of: Callable[[list[float]], Opinion]) -> Callable[[Rows], list[Opinion]]:
-    """Asks about one row at a time."""
+    """A function of rows that asks about one row at a time."""
     return lambda rows: [opinion_of(row) for row in rows.tolist()]
 
 

@@ -90,7 +90,7 @@ def _counted(first: Integers, second: Integers, amiss: Mask) -> Histogram:
 
 
 def _summed(first: Integers, second: Integers, counts: Integers) -> Integers:
-    """One row [first, second, …] for each pair of numbers, ascending, with the sums of its counts."""
+    """A row [first, second, …] for each distinct pair of numbers, ascending, with the sums of the pair's counts."""
     keys = (first << 32) + second  # two numbers in one: sorting pairs is fifty times slower
     order = np.argsort(keys, kind="stable")
     keys = keys[order]
@@ -119,7 +119,7 @@ def worst_case(case: WrongCase, place: Place, name: str, criterion: Criterion) -
 
 
 def rank_of(case: WorstCase) -> tuple[bool, float, Place]:
-    """Wrong before tolerated, then the largest error, then the first."""
+    """The key that orders worst cases: wrong before tolerated, then the largest error, then the first place."""
     return case.status != Status.WRONG, -case.error, case.place
 
 

@@ -185,7 +185,7 @@ def _sample(entry: TimingEntry, samples: Samples) -> None:
 
 
 def _require_sum(samples: Samples, checksum: int) -> None:
-    """Raise TimingRefusedError if the answers are others than they must be."""
+    """Raise TimingRefusedError if the sum of the answers is not the expected one."""
     if checksum != samples.checksum:
         raise TimingRefusedError(
             f"its answers summed to {checksum} while it was timed; they must sum to {samples.checksum}"
@@ -303,12 +303,12 @@ def measured_samples(entries: Sequence[TimingEntry], rounds: int) -> dict[str, S
 
 
 def times_as_fast(mine: Samples, other: Samples) -> list[float]:
-    """Rows that one answers in the time in which the other answers one, in each round."""
+    """How many times as fast `mine` answers a row as `other` does, in each round."""
     return [theirs / own for own, theirs in zip(mine.samples_ns, other.samples_ns, strict=True)]
 
 
 def times_as_long(mine: Samples, other: Samples) -> list[float]:
-    """The time of one row of the one in rows of the other, in each round."""
+    """How many times as long `mine` takes for a row as `other` does, in each round."""
     return times_as_fast(other, mine)
 
 
