@@ -23,6 +23,7 @@ from hypcheck.truth.polynomials import (
     remainder,
     scaled,
     shifted_by_one,
+    trimmed,
     value,
 )
 from hypcheck.truth.rationals import power_near, power_of_two
@@ -72,8 +73,33 @@ UNIT_INTERVAL_WIDTH_BITS = 60
 
 def squarefree(f: Polynomial) -> Polynomial:
     """The primitive polynomial with the roots of a primitive f, each of them simple."""
+    if _coprime_in_a_field(f, derivative(f)):
+        return f
     common = sturm_chain(f)[-1]
     return f if len(common) == 1 else quotient(f, common)
+
+
+_PRIME = 2**61 - 1
+
+
+def _coprime_in_a_field(f: Polynomial, g: Polynomial) -> bool:
+    """Whether f and g have no common factor modulo a prime that does not divide f's first coefficient.
+
+    They have none in integers then: a common factor's first coefficient divides f's, so that it keeps its degree modulo
+    the prime. The integers of Euclid's algorithm stay short here, however long the coefficients are.
+    """
+    p = _PRIME
+    if not f[0] % p:
+        return False
+    f, g = (trimmed([number % p for number in h]) for h in (f, g))
+    while len(g) > 1:
+        inverse, rest = pow(g[0], -1, p), list(f)
+        while len(rest) >= len(g):
+            factor = rest[0] * inverse % p
+            tail = [*g[1:], *[0] * (len(rest) - len(g))]
+            rest = [(a - factor * b) % p for a, b in zip(rest[1:], tail, strict=True)]
+        f, g = g, trimmed(rest)
+    return len(g) == 1
 
 
 def roots_from_0_to_1(f: Polynomial) -> list[Interval]:
