@@ -10,7 +10,7 @@ from itertools import combinations
 import pytest
 
 from hypcheck.errors import InputError
-from hypcheck.record.integrity import DamagedError, RecordScan, sealed
+from hypcheck.record.integrity import DamagedError, RecordScan, check, repair, sealed
 from hypcheck.tables.streams import Reader
 from tests.support.records import resealed
 
@@ -155,3 +155,15 @@ def test_a_line_may_be_as_long_as_the_longest_and_no_longer(data):
 
 def test_a_record_with_other_line_ends_is_read_as_it_was_written(data):
     assert outcome(data.replace(b"\n", b"\r\n")) == ("whole", LINES)
+
+
+def test_a_cut_line_counts_as_a_lost_line_and_lines_after_a_damage_as_many(data, tmp_path):
+    record = tmp_path / "record.jsonl"
+    record.write_bytes(data[:-5])
+    found = check(record)
+    assert (found.lines, found.lost_lines, found.size + found.lost_bytes) == (3, 1, len(data) - 5)
+    record.write_bytes(data.replace(b"again", b"AGAIN")[:-5])
+    found = repair(record, tmp_path / "good.jsonl")
+    assert (found.lines, found.lost_lines, found.complete) == (2, 2, False)
+    assert "damaged" in found.why or "checksum" in found.why
+    assert (tmp_path / "good.jsonl").read_bytes() == resealed(LINES[:2])
