@@ -48,8 +48,10 @@ check: $(VENV)/ready-dev ## lint, types and the quick tests (under a minute): be
 quick: $(VENV)/ready-dev
 	$(BIN)/python -m pytest --quiet -n auto --dist worksteal -m 'not slow and not thorough'
 
+# Only where every test ran and some failed (1) do these run once more: after an error of pytest (3) most have not run.
 test: $(VENV)/ready-dev lint ## lint, format, strict types, import layers and every test but the thorough ones
 	$(BIN)/python -m pytest --assert plain -n auto --dist worksteal -m 'not thorough' || { \
+		ended=$$?; [ $$ended = 1 ] || exit $$ended; \
 		echo "What failed beside other tests runs once more, alone: a loaded machine refuses no change. What fails twice fails."; \
 		$(BIN)/python -m pytest -m 'not thorough' --last-failed --last-failed-no-failures none --maxfail 3; }
 
