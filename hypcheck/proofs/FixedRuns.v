@@ -1,7 +1,7 @@
 (** Stage 3, continued: the steps that Coq reads in the C, run on words, stay within the intervals that are computed for them.
 
-    The functions of the header are written down here in words, as they are in C, but for hc_fixed_times and hc_fixed_down, whose
-    shifts are taken as multiplication and division by a power of two. *)
+    LimbsRuns.v proves that the functions of the header compute what is said of words here, but for hc_fixed_times and hc_fixed_down,
+    whose shifts are taken as multiplication and division by a power of two. *)
 
 Require Import List String ZArith Reals Lra Lia Psatz Bool.
 From Hypcheck Require Import Steps Fixed.

@@ -1,4 +1,4 @@
-(** Stage 4: its numbers of four words. The functions of the header are written down here in words, as they are in C. *)
+(** Stage 4: its numbers of four words. LimbsRuns.v proves that the functions of the header compute them. *)
 
 Require Import ZArith Lia.
 From Hypcheck Require Import Fixed.

@@ -23,10 +23,13 @@ Record step := Step { name : string; operation : string; arguments : list argume
 
 (** ** Words. *)
 
-Definition is_letter (c : ascii) := let n := nat_of_ascii c in
-  (Nat.leb 48 n && Nat.leb n 57) || (Nat.leb 65 n && Nat.leb n 90) || (Nat.leb 97 n && Nat.leb n 122)
-  || Nat.eqb n 95 || Nat.eqb n 46.
-Definition is_space (c : ascii) := let n := nat_of_ascii c in Nat.eqb n 32 || Nat.eqb n 10 || Nat.eqb n 9.
+Definition is_letter (c : ascii) := match c with
+  | "0" | "1" | "2" | "3" | "4" | "5" | "6" | "7" | "8" | "9"
+  | "A" | "B" | "C" | "D" | "E" | "F" | "G" | "H" | "I" | "J" | "K" | "L" | "M" | "N" | "O" | "P" | "Q" | "R" | "S" | "T" | "U" | "V" | "W" | "X" | "Y" | "Z"
+  | "a" | "b" | "c" | "d" | "e" | "f" | "g" | "h" | "i" | "j" | "k" | "l" | "m" | "n" | "o" | "p" | "q" | "r" | "s" | "t" | "u" | "v" | "w" | "x" | "y" | "z"
+  | "_" | "." => true
+  | _ => false end%char.
+Definition is_space (c : ascii) := match c with " " | "010" | "009" => true | _ => false end%char.
 
 Definition close (word : string) (rest : list string) := match word with EmptyString => rest | _ => word :: rest end.
 

@@ -12,7 +12,7 @@ import click
 
 from hypcheck.errors import HypcheckError
 from hypcheck.proofs import build, weakenings
-from hypcheck.proofs.build import CONTROL, Weakened, accepted, weakened
+from hypcheck.proofs.build import CONTROL, Weakened, accepted, changed_functions, weakened
 
 
 @click.command(help=__doc__)
@@ -36,6 +36,9 @@ def main(kernels: tuple[Path, ...], soundness: bool, count: int, every: bool, bu
         changes = [change for change in weakened() if change.file in names]
         _refuse(changes, len(changes) if every else count, built)
         if not soundness:
+            changes = list(changed_functions())
+            tried = _tried(changes, len(changes) if every else count, built)
+            click.echo(f"{len(changes)} changes of the header's functions of words; {tried} are tried: all are refused")
             _refuse_made(count, every=every, built=built)
         build.build_checker(built)
         sys.exit(build.run_checker(build.frozen_files(), built))
@@ -62,15 +65,20 @@ def _prove(names: tuple[str, ...], built: Path) -> None:
 
 
 def _refuse(changes: list[Weakened], count: int, built: Path) -> None:
-    tried = changes[:: max(1, len(changes) // max(1, count))][:count]
     if not accepted(CONTROL, built):
         raise build.ProofError(
             f"Coq refuses {CONTROL.file}.v in the folder in which it must refuse weakened statements"
         )
+    tried = _tried(changes, count, built)
+    click.echo(f"{len(changes)} weakened statements are written by hand; {tried} are tried: all are refused")
+
+
+def _tried(changes: list[Weakened], count: int, built: Path) -> int:
+    tried = changes[:: max(1, len(changes) // max(1, count))][:count]
     for change in tried:
         if accepted(change, built):
             raise build.ProofError(f"Coq accepts {change.file}.v, weakened to allow {change.allows}")
-    click.echo(f"{len(changes)} weakened statements are written by hand; {len(tried)} are tried: all are refused")
+    return len(tried)
 
 
 def _refuse_made(count: int, *, every: bool, built: Path) -> None:

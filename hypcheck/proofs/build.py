@@ -55,9 +55,9 @@ PRINTED = ("Steps", "Programs", HEADER_TEXT, "Printed", "Fixed", "FixedRuns", "R
 
 COMPOSED = (
     *("Stages", "StageTwoAnswers", "Underflow", "StageOne", "StageTwoRuns"),
-    *("StageThree", "StageFive", "Long", "StageFour"),
+    *("StageThree", "StageFive", "Long", "StageFour", "Limbs", "LimbsRuns"),
 )
-"""All stages in one theorem, Stages.whatever_stage_answers, and from the numbers of a stage to the position."""
+"""All stages in one theorem, Stages.whatever_stage_answers; from a stage's numbers to the position; the C of words."""
 
 OF_STAGES = ("Stages", "StageTwoAnswers", "StageThree", "StageFive", "StageFour")
 """The files whose theorems say that what a stage answers is the position."""
@@ -306,6 +306,13 @@ def weakened() -> tuple[Weakened, ...]:
     name = "weakened.toml"
     table = toml.parsed((SOURCES / name).read_text(encoding="utf-8"), name)
     return tuple(Weakened(**each) for each in table["weakened"])
+
+
+@cache
+def changed_functions() -> tuple[Weakened, ...]:
+    """LimbsRuns.v with one change of the header's functions of words, all of them; each must be refused."""
+    changes = printed_c.function_changes()
+    return tuple(Weakened("LimbsRuns", "HeaderText.functions", new, what) for new, what in changes)
 
 
 CONTROL = Weakened("Checker", "Definition less", "Definition less", "nothing")

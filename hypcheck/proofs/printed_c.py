@@ -20,6 +20,14 @@ _PART = re.compile(
     re.MULTILINE | re.DOTALL,
 )
 _BOUND = re.compile(r"^#define HC_(?:fixed_)?(coefficient|pole|delta|middle|MOST_GROWN) (\d+)$", re.MULTILINE)
+FUNCTIONS = (
+    *("hc_fixed_full", "hc_fixed_full_signed", "hc_fixed_plus", "hc_fixed_minus", "hc_fixed_negative"),
+    *("hc_fixed_product", "hc_fixed_signed_product", "hc_fixed_both_signed_product", "hc_fixed_square"),
+    *("hc_long_product", "hc_long_sum", "hc_long_signed_product"),
+)
+"""The functions of the header that add and multiply numbers of 128 and 256 bits."""
+
+_FUNCTION = r"^static inline \w+ {}\((?:[^\n]*\}}$|.*?^\}}$)"
 _HEAD = "Require Import List String ZArith.\nImport ListNotations.\nOpen Scope string_scope.\n"
 _OPERATORS = {"+": "-", "-": "+", "*": "/", "/": "*", ">": "<", "<": ">", ">=": "<=", "<=": ">="}
 _CALLS = {
@@ -45,6 +53,10 @@ _CALLS = {
     "by_t": "by_q",
     "by_q": "by_t",
 }
+_WORD = {
+    **dict(zip("+-*&^|<", "-++|&&>", strict=True)),
+    **dict(zip(("<<", ">>", "+=", "-=", ".low", ".high"), (">>", "<<", "-=", "+=", ".high", ".low"), strict=True)),
+}
 _DEFINED = re.compile(r"^(?:const \w+ |HC_INTEGER\()(\w+)", re.MULTILINE)
 _STATEMENT = re.compile(r"const \w+ \w+ = |HC_INTEGER\(\w+, \d+\); ")
 
@@ -61,14 +73,22 @@ def parts(header: str) -> list[tuple[str, str]]:
     return [(name, "".join(f"{line.strip()}\n" for line in text.splitlines())) for name, text in found]
 
 
+def functions(header: str) -> list[str]:
+    """The texts of the functions that add and multiply words."""
+    found = [re.search(_FUNCTION.format(name), header, re.MULTILINE | re.DOTALL) for name in FUNCTIONS]
+    return [text[0] for text in found if text]
+
+
 def header_text() -> str:
-    """HeaderText.v: the printed parts as texts of Coq."""
+    """HeaderText.v: the printed parts, and the functions that add and multiply words, as texts of Coq."""
     text = HEADER.read_text(encoding="utf-8")
     rows = ";\n".join(f"  ({_quoted(name)}, {_quoted(part)}%text)" for name, part in parts(text))
     bounds = "; ".join(f'("{name.lower()}", {value})' for name, value in _BOUND.findall(text))
+    words = ";\n".join(f"  {_quoted(function)}%text" for function in functions(text))
     return (
         f"From Hypcheck Require Import Steps.\n{_HEAD}Definition fixed_bounds : list (string * Z) := [{bounds}]%Z.\n"
         f"Definition texts : list (string * text) := [\n{rows}].\n"
+        f"Definition functions : list text := [\n{words}].\n"
         "Definition parts := map (fun part => (fst part, string_of (snd part))) texts.\n"
     )
 
@@ -88,6 +108,24 @@ def changes(each: int, seed: int) -> list[Change]:
             all_of_kind = [(number, at, new) for at, line in enumerate(lines) for new in kind(line, names)]
             found += draw.sample(all_of_kind, min(each, len(all_of_kind)))
     return found
+
+
+def function_changes() -> Iterator[tuple[str, str]]:
+    """Every change of a constant, an operation or a part of a number in the functions: Coq's list of texts, and what.
+
+    A sum or a product with its parts in the other order is not made, nor `^` for `|` where no bit is in both.
+    """
+    texts = functions(HEADER.read_text(encoding="utf-8"))
+    for place, text in enumerate(texts):
+        start = text.index("{") + 1
+        for word in re.finditer(r"(?<= )(?:[-+*&^|<]|<<|>>|[-+]=)(?= )|(?<![\w.])\d+\b|\.(?:low|high)\b", text[start:]):
+            new = _WORD.get(word[0]) or str(int(word[0]) + 1)
+            changed = text[: start + word.start()] + new + text[start + word.end() :]
+            if "#if" in text and word.start() > text[start:].index("#else"):
+                break
+            listed = [*texts[:place], changed, *texts[place + 1 :]]
+            rows = "; ".join(f"text_of (list_byte_of_string {_quoted(row)})" for row in listed)
+            yield f"[{rows}]", f"{new} for {word[0]} in {FUNCTIONS[place]}, character {start + word.start()}"
 
 
 def _value(line: str) -> tuple[str, str] | None:

@@ -120,7 +120,7 @@ def test_prove_names_each_file_its_axioms_and_the_refused_statements(tools):
     total = sum(len(build.statements(name)) for name in build.FILES)
     assert lines[len(build.FILES)].startswith(f"{total} statements in ")
     made, given = len(weakenings.made(build.source)), "for a reason that is given"
-    assert lines[-8:] == [
+    assert lines[-9:] == [
         "    ClassicalDedekindReals.sig_not_dec",
         f"    {build.OF_FLOCQ} (Flocq alone)",
         "    FunctionalExtensionality.functional_extensionality_dep",
@@ -128,6 +128,7 @@ def test_prove_names_each_file_its_axioms_and_the_refused_statements(tools):
         f"Print Assumptions of {', '.join(build.OF_RUNS)}: {build.AXIOMS[0]}, {build.AXIOMS[2]}",
         f"{len(printed_c.changes(2, seed=45))} changes of the printed C are refused",
         f"{len(build.weakened())} weakened statements are written by hand; 2 are tried: all are refused",
+        f"{len(build.changed_functions())} changes of the header's functions of words; 2 are tried: all are refused",
         f"{made} weakened statements are made by a program; 2 are tried: 2 are refused, 0 hold too, {given}",
     ]
     everything = (tools.built / "Assumptions.v").read_text(encoding="utf-8")
@@ -170,6 +171,17 @@ def test_changes_of_the_printed_c_reach_every_part_and_change_one_line_each():
             )
             == 1
         )
+
+
+def test_changes_of_functions_of_words_reach_every_function_and_change_one_word_each():
+    texts = printed_c.functions(printed_c.HEADER.read_text(encoding="utf-8"))
+    assert len(texts) == len(printed_c.FUNCTIONS)
+    unchanged = [re.findall(r"\w+|\S", text) for text in texts]
+    found = build.changed_functions()
+    assert all(any(f" in {name}," in change.allows for change in found) for name in printed_c.FUNCTIONS)
+    for change in found:
+        new = [re.findall(r"\w+|\S", text) for text in re.findall(r'_string "(.*?)"\)', change.new, re.DOTALL)]
+        assert sum(left != right for left, right in zip(unchanged, new, strict=True)) == 1
 
 
 def test_prove_with_soundness_compiles_what_the_checker_rests_on_alone(tools):
