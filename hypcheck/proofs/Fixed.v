@@ -104,16 +104,21 @@ Definition ends p q r s := let a := p * r in let b := p * s in let c := q * r in
 Lemma ends_are p q r s : ends p q r s = (corners least p q r s, corners most p q r s).
 Proof. reflexivity. Qed.
 
+(** Divided by 2^128 and rounded down, which Coq computes fastest as a shift. *)
+Definition divided k := Z.shiftr k 128.
+Lemma divided_is k : divided k = k / bits128.
+Proof. apply (Z.shiftr_div_pow2 k 128); discriminate. Qed.
+
 Definition cut := 3.
 Definition times_range a b :=
   let '(box_least, box_most) := ends (low a) (high a) (low b) (high b) in
   let '(mixed_least, mixed_most) := ends (low a) (high a) (under b) (over b) in
   let '(other_least, other_most) := ends (low b) (high b) (under a) (over a) in
   let '(both_least, both_most) := ends (under a) (over a) (under b) (over b) in
-  let lowest := box_least / bits128 - cut in
-  Range (if (0 <=? low a) && (0 <=? low b) then Z.max 0 lowest else lowest) (box_most / bits128)
-    ((mixed_least + other_least - both_most) / bits128 - cut)
-    (- (- (mixed_most + other_most - both_least) / bits128)).
+  let lowest := divided box_least - cut in
+  Range (if (0 <=? low a) && (0 <=? low b) then Z.max 0 lowest else lowest) (divided box_most)
+    (divided (mixed_least + other_least - both_most) - cut)
+    (- divided (- (mixed_most + other_most - both_least))).
 
 (** What a product may return of v w: cut by less than [cut] units, and not below 0 for numbers that are not. *)
 Definition is_product v w p := bits128 * p <= v * w < bits128 * (p + cut) /\ (0 <= v -> 0 <= w -> 0 <= p).
@@ -169,7 +174,7 @@ Proof.
   pose proof (corners_most (under a) (over a) (under b) (over b) (IZR v - x) (IZR w - y) (conj A3 A4) (conj B3 B4)) as EM.
   rewrite <- mult_IZR in BL, BM; apply le_IZR in BL; apply le_IZR in BM.
   assert (S0 : 0 < bits128) by reflexivity; assert (S1 : (0 < IZR bits128)%R) by (apply IZR_lt; reflexivity).
-  unfold within, times_range; rewrite !ends_are; cbn [low high under over].
+  unfold within, times_range; rewrite !ends_are; cbn [low high under over]; rewrite !divided_is.
   set (bl := corners least (low a) (high a) (low b) (high b)) in *; set (bm := corners most (low a) (high a) (low b) (high b)) in *.
   set (ml := corners least (low a) (high a) (under b) (over b)) in *; set (mm := corners most (low a) (high a) (under b) (over b)) in *.
   set (ol := corners least (low b) (high b) (under a) (over a)) in *; set (om := corners most (low b) (high b) (under a) (over a)) in *.

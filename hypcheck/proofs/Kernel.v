@@ -183,15 +183,15 @@ Lemma size_of_delta_3_at_most : magnitude env StageTwo.delta_3 <= 32 * (M2 * M1 
 Proof.
   rewrite size_delta_3; set (m := M2 * M1); pose proof M1_pos; pose proof M2_ge_1; assert (0 < m) by (apply Rmult_lt_0_compat; lra).
   pose proof M1_small; pose proof M2_M0_small; pose proof M0_small; pose proof M1_pos; pose proof M0_pos; pose proof M2_ge_1.
-  assert (0 <= M2 * M0) by (apply Rmult_le_pos; lra); assert (0 <= M2 * M2) by nra.
+  assert (0 <= M2 * M0) by (apply Rmult_le_pos; lra); assert (0 <= M2 * M2) by exact (Rle_0_sqr M2).
   assert (F1 : 0 <= M2 * M2 + 3 * M1 <= 5 / 2 * (M2 * M2)) by lra.
-  assert (F3 : 0 <= M1 * M1 + 3 * (M2 * M0) <= 5 / 2 * (M1 * M1)) by nra.
+  assert (F3 : 0 <= M1 * M1 + 3 * (M2 * M0) <= 5 / 2 * (M1 * M1)) by (pose proof (Rle_0_sqr M1); unfold Rsqr in *; lra).
   assert (F2 : 0 <= m + 9 * M0 <= 2 * m) by (unfold m in *; lra).
   assert (G : (M2 * M2 + 3 * M1) * (M1 * M1 + 3 * (M2 * M0)) <= 5 / 2 * (M2 * M2) * (5 / 2 * (M1 * M1)))
     by (apply Rmult_le_compat; lra).
   assert (K : (m + 9 * M0) * (m + 9 * M0) <= 2 * m * (2 * m)) by (apply Rmult_le_compat; lra).
   replace (5 / 2 * (M2 * M2) * (5 / 2 * (M1 * M1))) with (25 / 4 * (m * m)) in G by (unfold m; field).
-  assert (0 <= m * m) by nra; lra.
+  assert (0 <= m * m) by exact (Rle_0_sqr m); lra.
 Qed.
 
 (** ** The constants. *)

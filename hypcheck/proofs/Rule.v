@@ -236,7 +236,7 @@ Proof.
     { apply Rlt_le_trans with (- n1 * A); [apply Rmult_lt_compat_r; lra |].
       replace (n1 * n2) with (- n1 * - n2) by ring; apply Rmult_le_compat_l; lra. }
     assert (N3 : 0 < n3).
-    { apply Rnot_le_lt; intro K; assert (0 <= n1 * n2 * - n3) by (apply Rmult_le_pos; nra).
+    { apply Rnot_le_lt; intro K; assert (0 <= n1 * n2 * - n3) by (pose proof (Rle_0_sqr A); unfold Rsqr in *; apply Rmult_le_pos; lra).
       assert (0 < A * B) by (apply Rmult_lt_0_compat; assumption); lra. }
     assert (Z : n3 < B).
     { apply Rmult_lt_reg_l with (A * A); [apply Rmult_lt_0_compat; assumption |].
