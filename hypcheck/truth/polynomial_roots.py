@@ -15,15 +15,15 @@ from functools import lru_cache
 
 from hypcheck.truth.polynomials import (
     Polynomial,
+    changes_between,
     changes_of_sign,
     derivative,
     divided_by_root,
+    halves,
     primitive,
-    quotient,
     remainder,
     scaled,
-    shifted_by_one,
-    trimmed,
+    squarefree,
     value,
 )
 from hypcheck.truth.rationals import power_near, power_of_two
@@ -71,37 +71,6 @@ UNIT_INTERVAL_WIDTH_BITS = 60
 """`narrowed` goes on until an enclosure is at most 2^−60 of its root: one float64, or two neighbours, hold it."""
 
 
-def squarefree(f: Polynomial) -> Polynomial:
-    """The primitive polynomial with the roots of a primitive f, each of them simple."""
-    if _coprime_in_a_field(f, derivative(f)):
-        return f
-    common = sturm_chain(f)[-1]
-    return f if len(common) == 1 else quotient(f, common)
-
-
-_PRIME = 2**61 - 1
-
-
-def _coprime_in_a_field(f: Polynomial, g: Polynomial) -> bool:
-    """Whether f and g have no common factor modulo a prime that does not divide f's first coefficient.
-
-    They have none in integers then: a common factor's first coefficient divides f's, so that it keeps its degree modulo
-    the prime. The integers of Euclid's algorithm stay short here, however long the coefficients are.
-    """
-    p = _PRIME
-    if not f[0] % p:
-        return False
-    f, g = (trimmed([number % p for number in h]) for h in (f, g))
-    while len(g) > 1:
-        inverse, rest = pow(g[0], -1, p), list(f)
-        while len(rest) >= len(g):
-            factor = rest[0] * inverse % p
-            tail = [*g[1:], *[0] * (len(rest) - len(g))]
-            rest = [(a - factor * b) % p for a, b in zip(rest[1:], tail, strict=True)]
-        f, g = g, trimmed(rest)
-    return len(g) == 1
-
-
 def roots_from_0_to_1(f: Polynomial) -> list[Interval]:
     """Disjoint enclosures of the roots of a primitive f in [0, 1], in order: open intervals, or (x, x) where x is met.
 
@@ -129,30 +98,15 @@ def _isolated_by_descartes(f: Polynomial) -> tuple[list[Fraction], list[Interval
     pending = [(0, 0, list(f))]  # the interval (place, place + 1)/2^depth, and f on it as a polynomial on (0, 1)
     while pending:
         place, depth, g = pending.pop()
-        changes = _changes_between(g)
+        changes = changes_between(g)
         if changes == 1:
             enclosed.append((Fraction(place, 1 << depth), Fraction(place + 1, 1 << depth)))
         elif changes:
-            left, right = _halves(g)
+            left, right = halves(g)
             if not right[-1]:
                 met.append(Fraction(2 * place + 1, 2 << depth))
             pending += [(2 * place, depth + 1, left), (2 * place + 1, depth + 1, right)]
     return met, enclosed
-
-
-def _changes_between(g: Sequence[int]) -> int:
-    """How often the sign changes in the coefficients of (1+s)^n g(1/(1+s)).
-
-    t = 1/(1 + s) takes s in (0, ∞) to t in (0, 1). So by Descartes' rule g has so many roots there, or an even number
-    fewer.
-    """
-    return changes_of_sign(shifted_by_one(g[::-1]))
-
-
-def _halves(g: Sequence[int]) -> tuple[list[int], list[int]]:
-    """g between 0 and 1/2, and between 1/2 and 1, each as a polynomial on (0, 1)."""
-    left = [number << power for power, number in enumerate(g)]
-    return left, shifted_by_one(left)
 
 
 def _isolated(f: Polynomial, low: Fraction, high: Fraction) -> Iterator[Interval]:
@@ -191,7 +145,7 @@ def _no_root_between(f: Polynomial, low: Fraction, high: Fraction) -> Fraction:
 
 def _none_by_descartes(f: Polynomial) -> bool:
     """Whether the rule of signs excludes a root in [0, 1]; it says nothing otherwise."""
-    return bool(f[-1]) and bool(sum(f)) and not _changes_between(f)
+    return bool(f[-1]) and bool(sum(f)) and not changes_between(f)
 
 
 def enclosures(f: Polynomial, bits: int) -> Iterator[Interval]:
@@ -204,7 +158,7 @@ def enclosures(f: Polynomial, bits: int) -> Iterator[Interval]:
     pending = [(0, 0, list(f))]  # the interval (place, place + 1)/2^depth, and f on it as a polynomial on (0, 1)
     while pending:
         place, depth, g = pending.pop()
-        changes = _changes_between(g)
+        changes = changes_between(g)
         if not changes:
             continue
         low, high = Fraction(place, 1 << depth), Fraction(place + 1, 1 << depth)
@@ -215,7 +169,7 @@ def enclosures(f: Polynomial, bits: int) -> Iterator[Interval]:
                 low, high = _halved(f, low, high)
             yield low, high
         else:
-            left, right = _halves(g)
+            left, right = halves(g)
             if not right[-1]:
                 yield (low + high) / 2, (low + high) / 2
             pending += [(2 * place, depth + 1, left), (2 * place + 1, depth + 1, right)]

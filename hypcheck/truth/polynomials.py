@@ -9,6 +9,7 @@ import itertools
 import math
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
+from functools import lru_cache
 
 Polynomial = tuple[int, ...]
 
@@ -100,6 +101,39 @@ def quotient(f: Polynomial, g: Polynomial) -> Polynomial:
     return tuple(quotient)
 
 
+@lru_cache(maxsize=16)  # a polynomial is asked for its roots more than once
+def squarefree(f: Polynomial) -> Polynomial:
+    """The primitive polynomial with the roots of f, each of them simple."""
+    f = primitive(f)
+    if _coprime_in_a_field(f, derivative(f)):
+        return f
+    common = primitive(common_divisor(f, derivative(f)))
+    return quotient(f, common) if len(common) > 1 else f
+
+
+_PRIME = 2**61 - 1
+
+
+def _coprime_in_a_field(f: Polynomial, g: Polynomial) -> bool:
+    """Whether f and g have no common factor modulo a prime that does not divide f's first coefficient.
+
+    They have none in integers then: a common factor's first coefficient divides f's, so that it keeps its degree modulo
+    the prime. The integers of Euclid's algorithm stay short here, however long the coefficients are.
+    """
+    p = _PRIME
+    if not f or not f[0] % p:
+        return False
+    f, g = (trimmed([number % p for number in h]) for h in (f, g))
+    while len(g) > 1:
+        inverse, rest = pow(g[0], -1, p), list(f)
+        while len(rest) >= len(g):
+            factor = rest[0] * inverse % p
+            tail = [*g[1:], *[0] * (len(rest) - len(g))]
+            rest = [(a - factor * b) % p for a, b in zip(rest[1:], tail, strict=True)]
+        f, g = g, trimmed(rest)
+    return len(g) == 1
+
+
 def linear_factor(root: Fraction) -> Polynomial:
     """The primitive linear polynomial with this root."""
     return (root.denominator, -root.numerator)
@@ -123,3 +157,18 @@ def changes_of_sign(numbers: Iterable[int]) -> int:
     """How often the sign changes in a sequence, zeros left out."""
     signs = [number > 0 for number in numbers if number]
     return sum(one != other for one, other in itertools.pairwise(signs))
+
+
+def changes_between(g: Sequence[int]) -> int:
+    """How often the sign changes in the coefficients of (1+s)^n g(1/(1+s)).
+
+    t = 1/(1 + s) takes s in (0, ∞) to t in (0, 1). So by Descartes' rule g has so many roots there, or an even number
+    fewer.
+    """
+    return changes_of_sign(shifted_by_one(g[::-1]))
+
+
+def halves(g: Sequence[int]) -> tuple[list[int], list[int]]:
+    """g between 0 and 1/2, and between 1/2 and 1, each as a polynomial on (0, 1)."""
+    left = [number << power for power, number in enumerate(g)]
+    return left, shifted_by_one(left)

@@ -21,8 +21,8 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 from hypcheck.geometry.pair import Position
-from hypcheck.truth.polynomial_roots import isolate, squarefree
-from hypcheck.truth.polynomials import Polynomial, polynomial_product, polynomial_sum, primitive
+from hypcheck.truth.polynomial_roots import isolate
+from hypcheck.truth.polynomials import Polynomial, polynomial_product, polynomial_sum, primitive, squarefree
 
 Matrix = Sequence[Sequence[Fraction | int]]
 

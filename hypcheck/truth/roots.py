@@ -23,7 +23,7 @@ from itertools import combinations, pairwise
 
 from hypcheck.geometry.pair import Lengths, Pair, Position
 from hypcheck.truth.kinds import Kind
-from hypcheck.truth.polynomial_roots import squarefree, sturm_chain
+from hypcheck.truth.polynomial_roots import sturm_chain
 from hypcheck.truth.polynomials import (
     Polynomial,
     changes_of_sign,
@@ -33,6 +33,7 @@ from hypcheck.truth.polynomials import (
     quotient,
     remainder,
     scaled,
+    squarefree,
 )
 from hypcheck.truth.rationals import sign_of, sign_with_root
 from hypcheck.truth.root_patterns import (

@@ -37,16 +37,16 @@ from fractions import Fraction
 from hypcheck.geometry.pair import Lengths
 from hypcheck.truth.polynomials import (
     Polynomial,
-    changes_of_sign,
+    changes_between,
     common_divisor,
     derivative,
+    halves,
     polynomial_product,
     polynomial_sum,
     primitive,
-    quotient,
     remainder,
     scaled,
-    shifted_by_one,
+    squarefree,
     trimmed,
 )
 from hypcheck.truth.rationals import dot, root_of, sign_with_root
@@ -171,7 +171,7 @@ class Sections:
         roots = self.roots(_chain(f, derivative(f)), low, high)
         if len(apart) <= 1 or not roots:
             return roots == 0
-        apart = _squarefree(apart)  # at its roots the circle misses where c2 > 0, though Δ = 0
+        apart = squarefree(apart)  # at its roots the circle misses where c2 > 0, though Δ = 0
         chains = _chain(apart, derivative(apart)), _chain(apart, polynomial_product(derivative(apart), c2))
         return 2 * roots == sum(self.roots(chain, low, high) for chain in chains)
 
@@ -200,7 +200,7 @@ class Sections:
     def critical(self) -> Polynomial:
         """A polynomial with simple roots that is 0 at all heights where the circle just touches the spheroid."""
         _, c2, c1, c0 = self.cubic
-        return _squarefree(discriminant(self.cubic) if c0 or c1 else c2)
+        return squarefree(discriminant(self.cubic) if c0 or c1 else c2)
 
     def roots(self, chain: Sequence[Polynomial], low: Height | Fraction, high: Height | Fraction) -> int:
         """The roots of f from `low` to `high` for the chain of (f, f′); for (f, f′ h) the sum of the signs of h there.
@@ -266,13 +266,6 @@ def _chain(f: Polynomial, g: Polynomial) -> list[Polynomial]:
     return chain
 
 
-def _squarefree(f: Polynomial) -> Polynomial:
-    """A multiple of the polynomial that has its roots, each of them simple."""
-    f = primitive(f)
-    common = common_divisor(f, derivative(f))
-    return quotient(f, primitive(common)) if len(common) > 1 else f
-
-
 def _sum(*terms: Polynomial) -> Polynomial:
     return trimmed(polynomial_sum(*terms))
 
@@ -311,14 +304,13 @@ def has_root(f: Polynomial, low: int, high: int) -> bool | None:
     pending = [(0, _coefficients_between(f, low, high))]
     while pending:
         halvings, g = pending.pop()
-        changes = changes_of_sign(shifted_by_one(g[::-1]))
+        changes = changes_between(g)
         if changes == 1:
             return True
         if changes:
             if halvings == MOST_HALVINGS:
                 return None
-            first = [coefficient << place for place, coefficient in enumerate(g)]
-            second = shifted_by_one(first)
+            first, second = halves(g)
             if not second[-1]:
                 return True  # the middle
             pending += [(halvings + 1, first), (halvings + 1, second)]
