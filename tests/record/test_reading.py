@@ -6,17 +6,19 @@ import json
 import math
 import tracemalloc
 
+import numpy as np
 import pytest
 from msgspec import UNSET, ValidationError
 
 from hypcheck.errors import InputError
+from hypcheck.geometry.rows import PAIRS, SWEEPS, with_axis, with_heights
 from hypcheck.record import SCHEMA, Record, Recorder, integrity, read
-from hypcheck.record.fields import FARTHEST, decoded
+from hypcheck.record.fields import FARTHEST, Histogram, decoded, numbers_of, row_of
 from hypcheck.record.lines import DriftLine, FooterLine, GroupLine, HeaderLine, ImplementationLine
 from hypcheck.record.measurements import AccuracyLine, BoundingLine
 from hypcheck.record.progress import Tally
-from hypcheck.record.reader import recorded_cases
-from tests.support.records import GrowingText, resealed
+from hypcheck.record.reader import FILE, GROWING, file_and_newer, interrupted_in, recorded_cases
+from tests.support.records import GrowingText, resealed, unanswered_case
 
 HEADER = {
     "type": "header",
@@ -128,7 +130,7 @@ def path(tmp_path):
 
 def test_the_error_about_a_wrong_line_names_its_number_in_the_file_and_its_type(path):
     path.write_bytes(resealed([HEADER, SAMPLE, {**SAMPLE, "restarts": -1}, {**FOOTER, "lines": 4}]))
-    with pytest.raises(InputError, match="line 3, implementation: restarts"):
+    with pytest.raises(InputError, match="line 3, implementation: restarts is -1; it must be "):
         read(path)
 
 
@@ -265,3 +267,45 @@ def test_every_line_is_strict_json_with_its_checksum_last(path):
 
     for line in path.read_text(encoding="utf-8").splitlines():
         assert list(json.loads(line, parse_constant=refuse))[-1] == "crc32"
+
+
+@pytest.mark.parametrize("layout", [PAIRS, SWEEPS], ids=["position", "sweep"])
+def test_a_case_of_a_record_has_the_numbers_of_its_row_in_their_order(layout):
+    row = [1.0, 2.0, 0.5, 0.25, 3.0, -4.0, 5.5, 7.0, 8.0, 9.0][: len(layout.upright)]
+    for wider in (with_axis, with_heights, lambda rows, _: rows):
+        numbers = wider(np.array([row]), layout)[0].tolist()
+        case = unanswered_case(0, "a/1/1/0", numbers, "crash", "it ended", layout)
+        assert len(case.row) == 7
+        assert (row_of(case), len(numbers_of(case))) == (tuple(numbers), len(numbers))
+
+
+def test_histograms_are_equal_if_their_tables_are():
+    first, other = (Histogram(np.array([[0, 1, cases, 0]])) for cases in (5, 6))
+    assert first == Histogram(first.table.copy())
+    assert first != other
+    assert first != first.as_lists()
+
+
+def test_the_record_of_a_killed_run_in_a_folder_is_resumed_and_named_beside_an_older_one(tmp_path):
+    growing = tmp_path / GROWING
+    growing.touch()
+    assert interrupted_in(tmp_path) == growing
+    with pytest.raises(InputError, match=r"is not there; .* is of a newer run"):
+        file_and_newer(tmp_path)
+    (tmp_path / FILE).touch()
+    file, sentence = file_and_newer(tmp_path)
+    assert file == tmp_path / FILE
+    assert sentence.startswith(f"{growing} is of a newer run")
+    assert file_and_newer(tmp_path / "other.jsonl") == (tmp_path / "other.jsonl", "")
+    growing.unlink()
+    assert interrupted_in(tmp_path) == file
+    assert file_and_newer(tmp_path) == (file, "")
+    with pytest.raises(InputError, match="is standard input"):
+        interrupted_in(type(tmp_path)("-"))
+
+
+def test_the_error_about_a_line_that_lacks_a_field_names_the_field(path):
+    broken = {name: value for name, value in HEADER.items() if name != "started"}
+    path.write_bytes(resealed([broken, {**FOOTER, "lines": 2}]))
+    with pytest.raises(InputError, match="line 1, header: it lacks started"):
+        read(path)
