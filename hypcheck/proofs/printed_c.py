@@ -57,6 +57,7 @@ _WORD = {
     **dict(zip("+-*&^|<", "-++|&&>", strict=True)),
     **dict(zip(("<<", ">>", "+=", "-=", ".low", ".high"), (">>", "<<", "-=", "+=", ".high", ".low"), strict=True)),
 }
+_CHANGED = re.compile(r"(?<= )(?:[-+*&^|<]|<<|>>|[-+]=)(?= )|(?<![\w.])\d+\b(?!}}|, 0}})|\.(?:low|high)\b")
 _DEFINED = re.compile(r"^(?:const \w+ |HC_INTEGER\()(\w+)", re.MULTILINE)
 _STATEMENT = re.compile(r"const \w+ \w+ = |HC_INTEGER\(\w+, \d+\); ")
 
@@ -113,12 +114,12 @@ def changes(each: int, seed: int) -> list[Change]:
 def function_changes() -> Iterator[tuple[str, str]]:
     """Every change of a constant, an operation or a part of a number in the functions: Coq's list of texts, and what.
 
-    A sum or a product with its parts in the other order is not made, nor `^` for `|` where no bit is in both.
+    The last two words of `{{0, 0, 0, 0}}` are not changed: others are put there before they are read.
     """
     texts = functions(HEADER.read_text(encoding="utf-8"))
     for place, text in enumerate(texts):
         start = text.index("{") + 1
-        for word in re.finditer(r"(?<= )(?:[-+*&^|<]|<<|>>|[-+]=)(?= )|(?<![\w.])\d+\b|\.(?:low|high)\b", text[start:]):
+        for word in _CHANGED.finditer(text[start:]):
             new = _WORD.get(word[0]) or str(int(word[0]) + 1)
             changed = text[: start + word.start()] + new + text[start + word.end() :]
             if "#if" in text and word.start() > text[start:].index("#else"):
