@@ -195,7 +195,9 @@ Definition answer (m : model) (given : list value) : option value := match m, gi
   | OfNumbers f, [Record [a; b]; Record [c; d]] => Some (record (f (Words a b) (Words c d)))
   | OfNumber f, [Record [a; b]] => Some (Val U64 (f (Words a b)))
   | OfProducts f, [Record [a; b]; Record [c; d]] => Some (long_record (f (Words a b) (Words c d)))
-  | OfLongs f, [Record [a; b; c; d]; Record [e; g; h; i]; Val Int k] => Some (long_record (f (Long a b c d) (Long e g h i) (negb (k =? 0))))
+  | OfLongs f, [Record [a; b; c; d]; Record [e; g; h; i]; Val Int k] => match k with
+    | 0 => Some (long_record (f (Long a b c d) (Long e g h i) false)) | 1 => Some (long_record (f (Long a b c d) (Long e g h i) true))
+    | _ => None end
   | _, _ => None end.
 
 Section Meaning.
