@@ -11,7 +11,7 @@ of the cubic, of degree 8 at most; of a tilted one that of the quartic, of degre
   multiple root is the ring's. Where the ring can be is known exactly (`touches` of a sweep);
 - Δ of an upright sweep is not 0 for every t unless nothing moves; of a tilted one another polynomial takes its place.
 
-Roots are counted by Sturm's theorem in integers; nothing is rounded.
+Roots are isolated by Descartes' rule of signs in integers; nothing is rounded.
 """
 
 from __future__ import annotations
