@@ -163,10 +163,12 @@ def clearance(pair: Pair, decision: Decision) -> float:
 
 
 def enclosure(pair: Pair, decision: Decision) -> tuple[Fraction, Fraction]:
-    """Two numbers that the clearance lies between, 2⁻⁵⁶ of 1 + clearance apart at most."""
+    """Two numbers that the clearance lies between, 2⁻⁵⁶ of 1 + clearance apart at most, none < 0 of a clear pair."""
     if decision.tangent:
         return Fraction(0), Fraction(0)
     low, high = _bracket(pair)
+    if low < 1 < high:  # the spheroid itself is decided
+        low, high = (low, Fraction(1)) if decision.position is Position.CONTACT else (Fraction(1), high)
     while (high - low) * 2**_NARROW_BITS > high:
         unit = power_of_two(exponent_of(high - low) - 3)
         middle = round((low + high) / 2 / unit) * unit  # exact decisions about short numbers are quick
