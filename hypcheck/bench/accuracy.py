@@ -1,7 +1,7 @@
 """The answers of every method to every workload, compared with exact ones; and the memory of each method.
 
-Errors are counted by the row's distance to the nearest other position. Memory is the growth of a process of its own
-while a method answers a batch.
+Errors are counted by the row's distance to the nearest other position. Memory is the growth of a separate process while
+a method answers a batch.
 """
 
 from __future__ import annotations
@@ -71,7 +71,7 @@ class WorkloadTruth:
 class MethodAnswers:
     """A method's answers to one workload: to the judged rows at `places`, and hashes of the answers that are timed.
 
-    `trouble` says why some rows have no answer, if a program was at fault.
+    `trouble` says why some rows have no answer, if a program failed.
     """
 
     method: str
@@ -90,7 +90,7 @@ def chosen_workloads(plan: BenchPlan) -> list[Workload]:
 
 
 def workload_truths(plan: BenchPlan, executor: Executor | None) -> Iterator[WorkloadTruth]:
-    """The truth of each workload; the distances are computed in pieces, on all processors."""
+    """The truth of each workload. The distances are computed in pieces, on all processors."""
     for workload in chosen_workloads(plan):
         rows = workload.rows(plan.seed, workload.judged(plan))
         pieces = [(start, rows[start : start + _PIECE]) for start in range(0, len(rows), _PIECE)]
@@ -103,12 +103,12 @@ def workload_truths(plan: BenchPlan, executor: Executor | None) -> Iterator[Work
 
 
 def _examined(piece: tuple[int, Rows]) -> tuple[Positions, Floats]:
-    """Exact positions, and the exponents of the distances to another."""
+    """Exact positions, and the exponents of the distances to another position."""
     return judge.exact_positions(piece[1]), flip_exponents(piece[1])
 
 
 def _examined_sweeps(piece: tuple[int, Rows]) -> tuple[Positions, Floats]:
-    """Whether sweeps have contact, exactly, and exponents of about how far in size they are from the other answer."""
+    """Exact hits of sweeps, and approximate exponents of the change of size that leads to the other answer."""
     rows = piece[1]
     off = np.abs(least_distances(rows) - 1)
     with np.errstate(divide="ignore"):
@@ -142,7 +142,7 @@ def _answered(plan: BenchPlan, contender: Contender, loaded: LoadedMethod, workl
 
 @cache
 def _rows(workload: Workload, seed: int, count: int) -> Rows:
-    """A workload's rows, made once in a process; they must not be written to."""
+    """A workload's rows, generated once in a process; they must not be written to."""
     rows = workload.rows(seed, count)
     rows.flags.writeable = False
     return rows
@@ -161,7 +161,7 @@ def timed_rows(plan: BenchPlan, contender: Contender, workload: Workload) -> Row
 
 
 def answers_print(answers: Answers) -> str:
-    """A short text that identifies these answers."""
+    """A hash of these answers."""
     return hashlib.sha256(np.ascontiguousarray(answers, dtype=np.int8).tobytes()).hexdigest()[:16]
 
 
@@ -170,7 +170,7 @@ def accuracy_line(
 ) -> AccuracyLine:
     """The record's line about one method and one workload; `given` holds at least one answer.
 
-    Of `tried` wrong answers it is computed how far they are from right.
+    The errors of `tried` wrong answers are computed.
     """
     places, criterion = given.places, Criterion(contender.question, contender.precision)
     scored = score(truth.rows[places], truth.positions[places], Answered.of(given.answers), criterion)
@@ -241,7 +241,7 @@ def _worst(scored: Score, exponents: Floats, given: MethodAnswers, tried: int) -
 
 
 def _about_error_of(row: Sequence[float], answer: int, question: str) -> float:
-    """How wrong an answer is: the change of the inputs that makes it right; of a sweep, that of the spheroid's size."""
+    """The error of an answer: the change of the inputs that makes it right; for a sweep, of the spheroid's size."""
     if question == PASSAGE:
         return size_error(row, bool(answer)).lower
     return judge.about_error_of(row, answer, question)
@@ -251,7 +251,7 @@ MEMORY_WORKLOAD = "uniform"
 
 
 def memory_lines(plan: BenchPlan, names: Sequence[str]) -> Iterator[MemoryLine]:
-    """A line for each of the methods, as they arrive."""
+    """A line for each of the methods, in the order in which they finish."""
     for _, line in one_each(_memory_line, [(plan, name) for name in names], plan.workers):
         yield line
 
@@ -263,9 +263,9 @@ def _memory_line(task: tuple[BenchPlan, str]) -> MemoryLine:
 
 
 def memory_line(contender: Contender, rows: Rows) -> MemoryLine:
-    """The memory that a method needs to answer these rows, beyond the rows."""
+    """The record's line about the memory that a method needs to answer these rows, besides the rows."""
     first = contender.load()
-    first.answer(rows[:1])  # code that is loaded at the first call does not count
+    first.answer(rows[:1])  # this loads code, which is not to be counted
     first.close()
     loaded = contender.load()
     before = forget_peak()
@@ -280,7 +280,7 @@ def memory_line(contender: Contender, rows: Rows) -> MemoryLine:
 def forget_peak() -> int:
     """Reset the peak to the present resident size, if the system allows it (Linux).
 
-    Freed memory is returned to the system first: otherwise answers that reuse it would not show.
+    Freed memory is returned to the system first: otherwise answers that reuse it would not raise the peak.
     """
     gc.collect()
     with suppress(OSError, AttributeError, TypeError):

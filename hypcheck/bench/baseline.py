@@ -1,4 +1,4 @@
-"""A baseline: ratios to the reference are compared with those of an earlier run, never times of different machines."""
+"""A baseline: ratios to the reference are compared with an earlier run's ratios; times of two machines never are."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _SEEDS = (1, 2)
 
 @dataclass(frozen=True)
 class Baseline:
-    """The speeds of a run that have a ratio to the reference, these ratios, and the noise."""
+    """The speeds of a run that have a ratio to the reference, the ratios, and the noise."""
 
     speeds: dict[SpeedKey, SpeedLine]
     ratios: dict[SpeedKey, float]
@@ -45,7 +45,7 @@ class SpeedChange:
     noise: float
 
     def verdict(self, allowed: float) -> str:
-        """The verdict: "slower" than allowed, "inconclusive" if it may be that, else "faster" or "same"."""
+        """The verdict: "slower" if it is slower than allowed, "inconclusive" if it may be, else "faster" or "same"."""
         low, high = self.low / self.noise, self.high * self.noise
         if low > allowed:
             return "slower"
@@ -55,7 +55,7 @@ class SpeedChange:
 
 
 def read_baseline(plan: BenchPlan) -> Baseline | None:
-    """The plan's baseline, if it has one. Raises InputError if it cannot be one for this run."""
+    """The plan's baseline, if it has one. Raises InputError if the record cannot be a baseline for this run."""
     if plan.baseline is None:
         return None
     path = file_of(plan.baseline)
@@ -95,7 +95,7 @@ def speeds_of(lines: Iterable[RecordLine]) -> Baseline:
 
 
 def alike(before: Baseline, methods: Iterable[ForeignMethod]) -> tuple[ForeignMethod, ...]:
-    """The implementations of SPECs, timed on as many rows as in the baseline, since small batches cost more a row."""
+    """The methods of SPECs, timed on as many rows as in the baseline, because small batches cost more per row."""
     rows: dict[str, int] = {}
     for (method, _, mode), line in before.speeds.items():
         if mode == "batch":
@@ -104,7 +104,7 @@ def alike(before: Baseline, methods: Iterable[ForeignMethod]) -> tuple[ForeignMe
 
 
 def gated(plan: BenchPlan, contenders_by_name: Mapping[str, Contender]) -> set[str]:
-    """The methods whose verdicts decide the exit code: the named ones, else hypcheck's certified ones."""
+    """The methods whose verdicts decide the exit code: the named methods, else hypcheck's certified ones."""
     foreign = {method.name for method in plan.foreign}
     if foreign:
         return foreign

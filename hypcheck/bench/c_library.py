@@ -1,4 +1,4 @@
-"""C that is compiled with the compiler of this machine: the methods, and what the compiled kernel is timed beside."""
+"""C code that this machine's compiler compiles: the methods, and the programs compared with the compiled kernel."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ allow FMA."""
 
 @cache
 def bodies() -> tuple[c_source.CMethod, ...]:
-    """Every method in C; its place in the driver's table is its place here plus one."""
+    """All methods in C; a method's place in the driver's table is its place here plus one."""
     listed = [c_source.of_formula(FORMULAS[name], format_name) for name in LISTED for format_name in FORMATS]
     roots = [c_source.trigonometric(format_name) for format_name in FORMATS]
     others = [c_source.of_formula(FORMULAS["table-2"], "longdouble"), c_source.of_formula(RECIPROCAL, "float64")]
@@ -67,7 +67,7 @@ def place_of(name: str) -> int:
 
 
 def compiled(folder: Path) -> tuple[Path, CompilerLine]:
-    """The library of the methods, made in a folder. Raises UnavailableError if no compiler can make it."""
+    """The library of the methods, compiled in a folder. Raises UnavailableError if no compiler can compile it."""
     code, methods, library = folder / "methods.c", folder / "methods.o", folder / "methods.so"
     code.write_text(c_source.source(bodies()), encoding="ascii")
     with ThreadPoolExecutor(1) as beside:
@@ -112,7 +112,7 @@ def compiler_here() -> str:
 
 
 def run_compiler(words: list[str]) -> subprocess.CompletedProcess[str]:
-    """Run the compiler. Raises UnavailableError if it cannot be run, or does not end."""
+    """Run the compiler. Raises UnavailableError if it cannot be run, or does not end in time."""
     try:
         return subprocess.run(words, capture_output=True, text=True, timeout=_SECONDS, check=False)  # noqa: S603
     except (OSError, subprocess.TimeoutExpired) as error:
@@ -120,7 +120,7 @@ def run_compiler(words: list[str]) -> subprocess.CompletedProcess[str]:
 
 
 def _require(result: subprocess.CompletedProcess[str], what: str) -> None:
-    """Raise UnavailableError if the compiler did not do `what`."""
+    """Raise UnavailableError if the compiler failed to do `what`."""
     if result.returncode != 0:
         first_line = (result.stderr.strip().splitlines() or ["it says nothing"])[0]
         raise UnavailableError(f"{result.args[0]} does not {what}: {first_line}")
@@ -156,7 +156,7 @@ def _loaded(library: Path) -> ctypes.CDLL:
 
 @dataclass(frozen=True)
 class InC(LoadedMethod):
-    """A method of the library, by its place in the table; place 0 does nothing."""
+    """A method of the library, by its place in the table; the method at place 0 does nothing."""
 
     library: Path
     place: int
@@ -166,7 +166,7 @@ class InC(LoadedMethod):
         return self._by_rows("bench_rows", rows).answers()
 
     def batch(self, rows: Rows) -> PreparedWork:
-        """A call for all rows: the entry for scenes if they share their sizes, else that for rows."""
+        """A call for all rows: the entry for scenes if the rows share their sizes, else the entry for rows."""
         sizes = scene_of(rows)
         if sizes is None:
             return self._by_rows("bench_rows", rows)
@@ -175,13 +175,13 @@ class InC(LoadedMethod):
         fixed = _pointers(parts)
 
         def call(repeat: int) -> object:
-            held = parts  # pointers alone would not keep them alive
+            held = parts  # pointers would not keep the arrays alive
             return function(self.place, repeat, fixed[0], len(held[1]), *fixed[1:], answers.ctypes.data)
 
         return _prepared(call, answers)
 
     def single(self, rows: Rows) -> PreparedWork:
-        """A call for each row, in C through the table of functions: the time that a program in C would wait."""
+        """A call for each row, from C through the table of functions: the time that a C program would wait."""
         return self._by_rows("bench_single", rows)
 
     def empty(self, rows: Rows, mode: str) -> EmptyCall:
@@ -200,7 +200,7 @@ class InC(LoadedMethod):
 
 
 def bodies_asked(library: Path, place: int, flight: CraftPath) -> PreparedWork:
-    """A procedure of the quadcopter, by its place in the source's table of_bodies, for each position of a flight."""
+    """A quadcopter procedure, by its place in the source's table of_bodies, called for each position of a flight."""
     craft = np.array([flight.craft[name] for name in CRAFT])
     columns = [np.ascontiguousarray(flight.columns[name]) for name in MOVING]
     answers = np.zeros(len(flight), dtype=np.int8)
@@ -241,17 +241,17 @@ _SIZES = np.array(TOWER_SIZES)
 
 @dataclass(frozen=True)
 class CBaseline:
-    """What the compiled kernel is timed beside, as a compiled library; with the flags of the compiler.
+    """A compiled library of the programs compared with the compiled kernel, with the flags of the compiler.
 
-    It reads columns (x, y, z), each (n,), or asks about them in the scene of TOWER_SIZES; `out` (n,) takes answers.
-    Callers keep the arrays: pointers alone would not.
+    It reads columns (x, y, z), each (n,), or classifies them in the scene of TOWER_SIZES; `out` (n,) takes answers.
+    Callers must keep the arrays alive, because pointers do not.
     """
 
     library: ctypes.CDLL
     flags: tuple[str, ...]
 
     def read(self, columns: Columns, threads: int = 1, clock: Callable[[], int] = thread_time_ns) -> Clocked:
-        """Read the columns, in threads that share them as the kernel does; one thread is timed by its own time."""
+        """Read the columns, in threads that share them as the kernel does; one thread is timed by its CPU time."""
 
         def part(start: int, stop: int) -> int:
             return int(self.library.read_only(stop - start, *_pointers(column[start:] for column in columns))) & 0xFFFF
@@ -259,12 +259,12 @@ class CBaseline:
         return clocked(lambda: np.array([in_parts(part, len(columns[0]), threads)]), clock)
 
     def reading(self, columns: Columns) -> Callable[[int], None]:
-        """Reads the columns so many times in one call, during which other Python threads can run."""
+        """A call that reads the columns the given number of times; meanwhile other Python threads can run."""
         function, pointers = self.library.read_over_and_over, _pointers(columns)
         return lambda times: function(times, len(columns[0]), *pointers)
 
     def product(self) -> Clocked:
-        """Multiply two long integers, half of the product: what exact decisions are made of."""
+        """A multiplication of two long integers, half of the product: exact decisions consist of such products."""
         numbers = np.random.Generator(np.random.PCG64(1)).integers(
             1 << 31, 1 << 32, (2, c_source.WORDS), dtype=np.uint32
         )
@@ -272,19 +272,19 @@ class CBaseline:
         return clocked_in_c(lambda times: self.library.products(times, *_pointers(numbers)), no_answers, thread_time_ns)
 
     def of_rows(self, rows: Rows, out: Positions) -> Callable[[int], None]:
-        """Asks the compiled kernel about rows so many times in one call."""
+        """A call that runs the compiled kernel on rows the given number of times."""
         ask = ctypes.cast(ctypes.CDLL(str(compiled_kernel().__file__)).hypcheck_ask, _POINTER)
         function, pointers = self.library.rows_over_and_over, _pointers((rows, out))
         return lambda times: function(ask, times, len(rows), *pointers)
 
     def of_scene(self, columns: Columns, out: Positions) -> Callable[[int], None]:
-        """Asks the compiled kernel so many times in one call, during which other Python threads can run."""
+        """A call that runs the compiled kernel the given number of times; meanwhile other Python threads can run."""
         ask = ctypes.cast(ctypes.CDLL(str(compiled_kernel().__file__)).hypcheck_ask_scene, _POINTER)
         function, pointers = self.library.over_and_over, _pointers((*columns, out))
         return lambda times: function(ask, times, _SIZES.ctypes.data, len(out), *pointers)
 
     def plain(self, columns: Columns, out: Positions) -> Clocked:
-        """The plain formula in one thread; the sum is that of its answers."""
+        """The plain formula in one thread; the sum is the sum of its answers."""
         function, pointers = self.library.plain, _pointers((*columns, out))
 
         def work() -> Positions:
@@ -300,7 +300,7 @@ def _pointers(arrays: Iterable[NDArray[Any]]) -> list[int]:
 
 @cache
 def c_baselines(folder: Path, level: str | None = None) -> list[CBaseline]:
-    """One library for each width of vectors of the level, by default the kernel's; they are compiled once.
+    """A library for each vector width of the level (by default the kernel's level). They are compiled once.
 
     Raises UnavailableError if there is no compiler.
     """

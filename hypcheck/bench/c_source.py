@@ -1,9 +1,9 @@
 """The methods in C: one source file, printed from the programs that numpy runs, and the quadcopter's procedures.
 
 Each method is two functions, for rows and for the centres of one scene, in a table. A driver calls them through the
-table as often as asked, so that neither Python nor an optimiser affects the timing. The roots and the search of the
-dual form are written here, because they are no straight-line programs. A procedure answers one position a call, as a
-craft asks before it moves. A second file has what the compiled kernel is timed beside.
+table the requested number of times, so that neither Python nor an optimiser affects the timing. The roots and the
+search of the dual form are written here by hand, because they are not straight-line programs. A procedure answers one
+position per call, as a craft does before each move. A second file has the programs compared with the compiled kernel.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ def procedures_source() -> str:
 
 
 def _both() -> Iterator[str]:
-    """The procedures as printed and as repaired, which keep the same numbers of a craft."""
+    """The printed and the repaired procedures, which store the same numbers of a craft."""
     for repaired, prefix in ((procedures.PRINTED, ""), (procedures.PUT_RIGHT, "repaired_")):
         asked, inside = procedures.hull_steps(repaired)
         (hull_before, hull), (rotor_before, rotors) = (
@@ -44,7 +44,7 @@ def _both() -> Iterator[str]:
 
 
 def _before(name: str, program: Program) -> str:
-    """The steps that depend on the craft only, kept in an array: a program would hold them in a structure."""
+    """The steps that depend only on the craft, stored in an array; a real program would store them in a structure."""
     kept = [step.name for step in program.steps]
     stored = "\n".join(f"    k[{place}] = {name};" for place, name in enumerate(kept))
     statements = "\n".join(f"    {line}" for line in c_statements(program, tuple(kept)))
@@ -158,7 +158,7 @@ def identifier(name: str) -> str:
 
 
 def of_formula(formula: Formula, format_name: str) -> CMethod:
-    """A formula as it is printed; steps that depend on sizes only come before the loop."""
+    """A formula's printed program; steps that depend only on sizes come before the loop."""
     number = NUMBERS[format_name]
     outside, inside = parts(formula)
     known = tuple(step.name for step in outside.steps)
@@ -172,7 +172,7 @@ def of_formula(formula: Formula, format_name: str) -> CMethod:
 
 
 def trigonometric(format_name: str) -> CMethod:
-    """The roots of g by the trigonometric form, only if Δ > 0; they decide as in implementations/alternatives.py."""
+    """The roots of g by the trigonometric form, only if Δ > 0; decisions are as in implementations/alternatives.py."""
     number = NUMBERS[format_name]
     outside, inside = parts(_CUBIC)
     known = tuple(step.name for step in outside.steps)
@@ -226,7 +226,7 @@ _CUBIC = Formula("cubic", "the cubic of Table 2", "position", _TABLE_2.program, 
 
 
 def _method(name: str, number: str, before: Sequence[str], inside: Sequence[str], answer: str) -> CMethod:
-    """A method from its statements before the loop over centres and in it, and the expression of the answer.
+    """A method from its statements before the loop over centres and inside it, and the expression of the answer.
 
     `number` is the C type of its numbers.
     """
@@ -433,8 +433,8 @@ void plain(const double *restrict sizes, size_t n, const double *restrict xs, co
 
 
 def baselines_source() -> str:
-    """What the compiled kernel is timed beside: reading its rows, long products, and Table 2, which certifies nothing.
+    """The programs compared with the compiled kernel: reading its rows, long products, and the uncertified Table 2.
 
-    Other functions ask the kernel over and over.
+    Other functions of the file call the kernel repeatedly.
     """
     return _BASELINES + of_formula(_TABLE_2, "float64").code + _PLAIN

@@ -1,13 +1,13 @@
-"""Targets of the calls from Python: beside the C function they call, and beside functions that do nothing.
+"""Targets of the calls from Python: compared with the C function that they call, and with functions that do nothing.
 
-A call cannot be cheaper than one of an empty C function, nor one with arrays cheaper than an empty C function that
-takes these arrays and gives them back. Batches are compared with both together: the C function about the same rows,
-called in C, and one empty call; without out= also the making of an array. One pair in plain Python is compared with the
-plain formula in plain Python, which proves nothing.
+A call cannot be cheaper than a call of an empty C function. A call with arrays cannot be cheaper than an empty C
+function that takes these arrays and returns them. Batches are compared with the sum of two times: the C function on the
+same rows, called from C, and one empty call; without out= also the allocation of an array. One pair in plain Python is
+compared with the plain formula in plain Python, which is not certified.
 
-No form in which a call may be written costs much more than contiguous float64 arrays. A user has whole numbers, numpy's
-scalars, lists, float32, columns of an array of points, rows in Fortran's order, or an axis for each row. Each form is
-timed beside the same question in the cheapest one, in the same rounds.
+No form of a call's arguments may cost much more than contiguous float64 arrays. Users have whole numbers, numpy
+scalars, lists, float32, columns of an array of points, rows in Fortran order, or an axis for each row. Each form is
+timed together with the cheapest form of the same question, in the same rounds.
 """
 
 from __future__ import annotations
@@ -45,13 +45,13 @@ BATCH_TARGETS = {
 
 
 def batches(folder: Path, rounds: int) -> Iterator[KernelLine]:
-    """Batches that stay in the cache."""
+    """Targets of batches that stay in the cache."""
     for count in BATCHES:
         yield from batch(folder, count, 3 * rounds)
 
 
 def batch(folder: Path, count: int, rounds: int) -> Iterator[KernelLine]:
-    """A batch; what the first touch of a new array costs is said beside it. MANY rows, from memory, by scene alone."""
+    """Targets of a batch, with the cost of a new array's first access. MANY rows come from memory, only as a scene."""
     columns, out = uniform_columns(count), np.zeros(count, dtype=np.int8)
     library, large = c_baselines(folder)[0], count == MANY
     scene = partial(hypcheck.classify_scene, TOWER_SIZES, *columns, threads=1 if large else None)
@@ -95,7 +95,7 @@ def batch(folder: Path, count: int, rounds: int) -> Iterator[KernelLine]:
 
 
 def ten_centres(rounds: int) -> Iterator[KernelLine]:
-    """A batch so small that its cost is that of a call."""
+    """Targets of a batch so small that a call dominates its cost."""
     out = np.empty(TEN, dtype=np.int8)
     names = dict(zip(("sizes", "x", "y", "z"), (TOWER_SIZES, *uniform_columns(TEN)), strict=True))
     take, ask = extension().take, hypcheck.classify_scene
@@ -117,7 +117,7 @@ def ten_centres(rounds: int) -> Iterator[KernelLine]:
 
 
 def statement(text: str, **names: object) -> timing.Clocked:
-    """A statement in Python with these names, as often as asked; it has no sum."""
+    """A Python statement with these names, repeated the requested number of times; it has no sum."""
     bound = "; ".join(f"{name} = values[{name!r}]" for name in names)
     timer = Timer(text, bound or "pass", thread_time_ns, {"values": names})
     return lambda repeat: (int(timer.timeit(repeat)), 0)
@@ -130,7 +130,7 @@ def without_loop(samples: Mapping[str, timing.Samples]) -> dict[str, Floats]:
 
 
 def textbook(alpha: float, gamma: float, b: float, d: float, x: float, y: float, z: float) -> int:
-    """Table 2 in plain Python, 1 for exterior: the coefficients and the discriminant, with no bound of an error."""
+    """Table 2 in plain Python, 1 for exterior: the coefficients and the discriminant, without error bounds."""
     a, c, p, q, r = alpha / b, gamma / d, x / b, y / b, z / d
     A, B, P, Q = a * a, c * c, p * p + q * q, r * r
     AB = A * B
@@ -144,7 +144,7 @@ def textbook(alpha: float, gamma: float, b: float, d: float, x: float, y: float,
 
 
 def one_call(rounds: int) -> Iterator[KernelLine]:
-    """Targets of calls about one pair, made in a loop in Python, whose own time is subtracted."""
+    """Targets of calls about one pair in a Python loop; the time of the empty loop is subtracted."""
     rows = [tuple(row) for row in tower_rows(uniform_columns(CALLS)).tolist()]
     each = "for alpha, gamma, b, d, x, y, z in rows:"
     ask = f"{each} ask(alpha, gamma, b, d, x, y, z)"
@@ -168,14 +168,14 @@ _SCALARS = (np.float32, np.float64, np.int64)
 
 
 def forms_of_one_pair(rounds: int) -> Iterator[KernelLine]:
-    """hypcheck.position with the numbers that a program has."""
+    """Targets of hypcheck.position with the kinds of numbers that programs have."""
     numbers = (2, 18, 1, 2, 3, 4, 5)
     names = {kind.__name__: tuple(map(kind, numbers)) for kind in _SCALARS}
     yield from _lines("one pair", forms("one pair"), {"position": hypcheck.position, **names}, rounds)
 
 
 def forms_of_ten_centres(rounds: int) -> Iterator[KernelLine]:
-    """classify_scene of ten centres, so that the cost is that of the call."""
+    """Targets of classify_scene of ten centres, so that the call dominates the cost."""
     columns = uniform_columns(TEN)
     points = np.column_stack(columns)
     names: dict[str, object] = {**dict(zip("xyz", columns, strict=True)), "points": points}
@@ -211,11 +211,11 @@ def _lines(subject: str, calls: Mapping[str, Form], names: dict[str, object], ro
 
 
 def forms_of_many(rounds: int) -> Iterator[KernelLine]:
-    """A million centres, or rows, from memory."""
+    """Targets of the forms of a million centres or rows, from memory."""
     columns, out = uniform_columns(MILLION), np.zeros(MILLION, dtype=np.int8)
     points, rows = np.column_stack(columns), tower_rows(columns)
     ask = partial(hypcheck.classify_scene, TOWER_SIZES, out=out, threads=1)
-    wide = [np.repeat(column, 2)[::2] for column in columns]  # of which twice the memory is read
+    wide = [np.repeat(column, 2)[::2] for column in columns]  # its memory traffic is twice as large
     centres = {
         "contiguous": partial(ask, *columns),
         "points (n, 3)": partial(ask, points),
@@ -231,7 +231,7 @@ def forms_of_many(rounds: int) -> Iterator[KernelLine]:
 
 
 def forms_of_an_axis_each(rounds: int) -> Iterator[KernelLine]:
-    """Centres with an axis each, upright or tilted, beside upright rows; and those that are tilted in other forms."""
+    """Targets of centres with an axis each, upright or tilted, against upright rows; tilted ones in other forms too."""
     columns = uniform_columns(EACH_AXIS)
     upright, tilted = np.tile([0.0, 0.0, 1.0], (EACH_AXIS, 1)), compiled_targets.axes(EACH_AXIS)
     ask, ask_rows = partial(hypcheck.classify_scene, TOWER_SIZES, *columns), hypcheck.classify

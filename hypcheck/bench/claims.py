@@ -1,4 +1,4 @@
-"""The paper's claims about cost, the ways that are timed for each (the printed one first), and what the times say."""
+"""The paper's claims about cost, the alternatives that are timed for each (the printed one first), and the verdicts."""
 
 from __future__ import annotations
 
@@ -46,8 +46,8 @@ _ROOTS_TIMED = 96
 class CostClaim:
     """A claim of the paper about cost, and the scene and the tier in which it is measured.
 
-    `compared` prepares the alternatives by name, the printed one first. `operations` are those for each position, if
-    they can be counted.
+    `compared` prepares the alternatives by name, the printed one first. `operations` are the operations for each
+    position, if they can be counted.
     """
 
     name: str
@@ -59,14 +59,14 @@ class CostClaim:
 
     @property
     def where(self) -> str:
-        """What stands in the place of a workload where it is measured."""
+        """The name that measurements of this claim have in place of a workload."""
         return f"{COST_OF}{self.name}-{self.tier}"
 
 
 def cost_claims(plan: BenchPlan) -> list[CostClaim]:
     """The claims of this run: all in numpy, and in C if that was compiled."""
     if plan.methods or plan.workloads or not plan.everyday:
-        return []  # a run of a few methods is only about these, and the claims are about upright spheroids
+        return []  # a run of chosen methods measures only these, and the claims are about upright spheroids
     libraries = (None,) if plan.compiled is None else (None, plan.compiled)
     return [make(library) for make in (_procedures, _divisions, _roots) for library in libraries]
 
@@ -79,7 +79,7 @@ def flight_of(seed: int, number: int) -> CraftPath:
 
 
 def share_touching(flight: CraftPath) -> float:
-    """The share of positions with Δ ≤ 0 for the bounding spheroid, for which Procedure 2.b asks the rotors."""
+    """The share of positions with Δ ≤ 0 for the bounding spheroid; for these Procedure 2.b tests the rotors."""
     count = 0
 
     def counting(part: CraftPath) -> None:
@@ -91,7 +91,7 @@ def share_touching(flight: CraftPath) -> float:
 
 
 def hull_operations() -> Operations:
-    """The operations of Procedure 2.b for every position, without the rotors."""
+    """The operations of Procedure 2.b without the rotors, for every position."""
     return count(hull_programs()[1].steps)
 
 
@@ -196,7 +196,7 @@ def cost_line(plan: BenchPlan, claim: CostClaim, samples: Mapping[str, SampleTab
 
 
 def _counted(operations: Operations | None) -> dict[str, int] | None:
-    """The operations with a number above 0, by kind; None if they are not counted."""
+    """The kinds of operations with a count above 0, and their counts; None if they are not counted."""
     if operations is None:
         return None
     return {name: number for name, number in asdict(operations).items() if number}
@@ -238,14 +238,14 @@ _SAYS = {"procedures": _says_of_procedures, "divisions": _says_of_divisions, "ro
 
 
 def cheaper(ratio: Estimate, noise: float) -> str:
-    """The verdict "holds" if it certainly takes less time than the first, beyond noise."""
+    """The verdict "holds" if the alternative certainly takes less time than the first, beyond noise."""
     if ratio.high * noise < 1:
         return HOLDS
     return DOES_NOT_HOLD if ratio.low / noise > 1 else INCONCLUSIVE
 
 
 def dearer(ratio: Estimate, noise: float) -> str:
-    """The verdict "holds" if it certainly takes more time than the first."""
+    """The verdict "holds" if the alternative certainly takes more time than the first."""
     if ratio.low / noise > 1:
         return HOLDS
     return DOES_NOT_HOLD if ratio.high * noise < 1 else INCONCLUSIVE

@@ -1,14 +1,14 @@
-"""Targets of kernels as targets.toml lists them; and those of the compiled kernel, measured.
+"""The targets of kernels that targets.toml lists, and the measurements for the compiled kernel.
 
-The compiled kernel is compared with memory bandwidth, the plain formula in C, two threads, and the worst rows. Each
-target is a ratio to a ceiling that is measured in the same rounds. The rows are columns of one scene, the paper's
-cooling tower. The plain formula, and a loop that only reads the rows, are compiled when they are needed, for the
-instruction set of the kernel. The plain formula is Table 2 as the programs print it, with what depends on sizes alone
-before the loop, and contraction allowed. It only answers whether the pair is exterior, and certifies nothing. It is
-compiled for each width of vectors, and the fastest counts.
+The compiled kernel is compared with memory bandwidth and the plain formula in C, on one and two threads, and on the
+worst rows. Each target is a ratio to a ceiling that is measured in the same rounds. The rows are columns of one scene,
+the paper's cooling tower. The plain formula, and a loop that only reads the rows, are compiled when they are needed,
+for the instruction set of the kernel. The plain formula is Table 2 as the programs print it; steps that depend only on
+sizes come before the loop, and contraction is allowed. It only answers whether the pair is exterior, and is not
+certified. It is compiled for each vector width, and the fastest result is used.
 
-Tilted spheroids are asked about in the same scene, with axes in all directions, as one calls it from Python, with
-one thread: beside the upright ones, and beside numpy.linalg.eigh.
+Tilted spheroids are classified in the same scene, with axes in all directions, by calls from Python on one thread. They
+are compared with upright spheroids and with numpy.linalg.eigh.
 """
 
 from __future__ import annotations
@@ -44,8 +44,9 @@ Form = tuple[str, float]
 class KernelTarget:
     """A target: `wanted` is a least number, or a greatest one if `at_most`; `text` describes it.
 
-    What is measured is a ratio to a ceiling, work that nothing here can do without, timed beside it in the same rounds:
-    so it depends on the code, and as little as can be on the machine and on what else runs there.
+    The measured number is a ratio to a ceiling. The ceiling is the time of work that no implementation can avoid,
+    measured in the same rounds. So the ratio depends on the code, and as little as possible on the machine and on other
+    programs.
     """
 
     name: str
@@ -54,7 +55,7 @@ class KernelTarget:
     at_most: bool = False
 
     def line(self, measured: list[float], says: str) -> KernelLine:
-        """The record's line: the median over rounds, with its 95 % interval. A miss is one of the whole interval."""
+        """The record's line: the median over rounds, with its 95 % interval. Missed means: by the whole interval."""
         ratio = timing.estimate([measured])
         met = ratio.low <= self.wanted if self.at_most else ratio.high >= self.wanted
         return KernelLine(
@@ -73,7 +74,7 @@ def _listed() -> dict[str, Any]:
 
 
 def target(name: str) -> KernelTarget:
-    """The target of that name, which must be listed."""
+    """The target of that name; it must be listed in targets.toml."""
     entry = _listed()["targets"][name]
     at_most = "at_most" in entry
     return KernelTarget(name, entry["text"], entry["at_most" if at_most else "at_least"], at_most)
@@ -151,7 +152,7 @@ def from_memory(folder: Path, rounds: int) -> Iterator[KernelLine]:
 def _gain(
     one: timing.Samples, two: timing.Samples, read: timing.Samples, read_on_two: timing.Samples
 ) -> tuple[list[float], str]:
-    """What two threads gain, of what reading gains from two in the same rounds; and the sentence about it."""
+    """The gain from a second thread, divided by reading's gain in the same rounds; and the sentence about it."""
     gains, most = timing.times_as_fast(two, one), timing.times_as_fast(read_on_two, read)
     says = (
         f"by the clock, one thread: {timing.rate_text(one)}; two, {median(gains):.3g} times as fast: "
@@ -175,7 +176,7 @@ def in_cache(folder: Path, rounds: int) -> Iterator[KernelLine]:
 
 
 def threads_in_cache(folder: Path, rounds: int) -> Iterator[KernelLine]:
-    """Two threads whose rows stay in the cache, so that memory does not limit them."""
+    """Targets of two threads whose rows stay in the cache, so that memory does not limit them."""
     columns, out = uniform_columns(2 * CACHED), np.zeros(2 * CACHED, dtype=np.int8)
     library = c_baselines(folder)[0]
     works: dict[str, Part] = {
@@ -214,7 +215,7 @@ def _on_threads(work: Part, columns: Columns, out: Positions, threads: int) -> P
 
 
 def near_contact(folder: Path, rounds: int) -> Iterator[KernelLine]:
-    """Rows that floats cannot decide."""
+    """Targets of rows that floats cannot decide."""
     columns, out = touching_columns(WORST), np.zeros(WORST, dtype=np.int8)
     entries = [
         timing.TimingEntry("touching", WORST, timing.thread_clocked(lambda: _answered(columns, out))),
@@ -242,7 +243,7 @@ EACH, SAME, KEPT, TURNS, NEIGHBOURS = 120, 64, 8, 6, 6
 
 
 def slowest_row(rounds: int) -> Iterator[KernelLine]:
-    """Search, then measure the row that was found beside rows near contact."""
+    """Search the slowest row, then measure it together with rows near contact."""
     row = found_row()
     near = tower_rows(touching_columns(EACH))
     usual = [float(np.median([cost(near_row) for near_row in near])) for _ in range(rounds)]
@@ -253,7 +254,7 @@ def slowest_row(rounds: int) -> Iterator[KernelLine]:
 
 
 def found_row() -> Rows:
-    """The slowest row of the families, and of what came of the slowest ones; the same rows are tried each time."""
+    """The slowest row among the families and the rows derived from their slowest; the same rows are tried each time."""
     random = np.random.Generator(np.random.PCG64(SEED))
     rows = _of_a_scene(np.concatenate([FAMILIES[name].rows(SEED, EACH) for name in SLOW_FAMILIES]))
     kept = _slowest(rows)
@@ -263,7 +264,7 @@ def found_row() -> Rows:
 
 
 def cost(row: Rows) -> float:
-    """Nanoseconds of the row, SAME times in a call: the least of three, since what disturbs a call makes it longer."""
+    """Nanoseconds per row of a call with this row SAME times: the least of three, as disturbances lengthen a call."""
     rows, out = np.tile(row, (SAME, 1)), np.zeros(SAME, dtype=np.int8)
     took = []
     for _ in range(3):
@@ -279,7 +280,7 @@ def _slowest(rows: Rows) -> Rows:
 
 
 def _of_a_scene(rows: Rows) -> Rows:
-    """The rows whose sizes, and coordinates but 0, are within the magnitudes of a scene."""
+    """The rows whose sizes and nonzero coordinates are within the magnitudes of a scene."""
     sizes = np.abs(rows)
     inside = (sizes >= 2.0**-30) & (sizes <= 2.0**30)
     inside[:, 4:] |= rows[:, 4:] == 0
@@ -299,9 +300,9 @@ def _moved(random: np.random.Generator, rows: Rows) -> Rows:
 
 
 def streamed(folder: Path, most: int, rounds: int) -> Iterator[KernelLine]:
-    """From a million rows to `most`, a million at a time, from a ring of parts that exceeds every cache.
+    """Targets from a million rows to `most`, a million at a time, from a ring of parts that exceeds every cache.
 
-    Beside each part another one is only read, so that a slow moment of the memory counts for both.
+    With each part another part is only read, so that a slow moment of the memory affects both times.
     """
     columns, out = uniform_columns(PARTS * PART), np.zeros(PART, dtype=np.int8)
     slices = [slice(k * PART, (k + 1) * PART) for k in range(PARTS)]
@@ -319,7 +320,7 @@ def streamed(folder: Path, most: int, rounds: int) -> Iterator[KernelLine]:
 
 
 def _of_stream(library: CBaseline, total: int, parts: Sequence[Columns], out: Positions) -> float:
-    """A row in a stream of `total` parts, in times of reading it; the median of the repeats of a short stream."""
+    """The time of a row in a stream of `total` parts over the time of reading it; the median if the stream repeats."""
     streams = []
     for start in range(max(1, LEAST_PARTS // total)):
         answering = reading = 0
@@ -380,7 +381,7 @@ def touching_rows(count: int) -> Rows:
 
 
 def one_orientation(rounds: int) -> Iterator[KernelLine]:
-    """A scene with an axis beside the same one without."""
+    """The target of a scene with an axis, compared with the same scene without it."""
     for name, count, more in (("one orientation", MANY, 1), ("one orientation, in cache", CACHED, 3)):
         ask = partial(hypcheck.classify_scene, TOWER_SIZES, *uniform_columns(count), threads=1)
         entries = [
@@ -393,7 +394,7 @@ def one_orientation(rounds: int) -> Iterator[KernelLine]:
 
 
 def axis_along_z(rounds: int) -> Iterator[KernelLine]:
-    """Rows of ten that are upright beside the same rows of seven."""
+    """The target of upright rows of ten, compared with the same rows of seven."""
     ten = tilted_rows(TOWER_SIZES, uniform_columns(CACHED), (0.0, 0.0, 1.0))
     seven = np.ascontiguousarray(ten[:, :7])
     entries = [
@@ -408,7 +409,7 @@ def axis_along_z(rounds: int) -> Iterator[KernelLine]:
 
 
 def an_axis_each(folder: Path, rounds: int) -> Iterator[KernelLine]:
-    """Rows with an axis each, beside numpy; and rows near contact, beside what integers cost."""
+    """Targets of rows with an axis each, against numpy; and of rows near contact, against integer products."""
     rows = tilted_rows(TOWER_SIZES, uniform_columns(CACHED), (*axes(CACHED).T,))
     entries = [
         timing.TimingEntry("rows", CACHED, timing.thread_clocked(partial(hypcheck.classify, rows, threads=1))),

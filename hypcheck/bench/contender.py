@@ -28,10 +28,10 @@ Answering = Callable[[Rows], Answers]
 
 @dataclass(frozen=True)
 class PreparedWork:
-    """Work ready to be timed: `rows` rows each time. `answers` does it once and returns the answers.
+    """Work ready to be timed: `rows` rows each time. `answers` does the work once and returns the answers.
 
-    `timed_by` is "process" (this one), "worker" (that of foreign code) or "time protocol" (the implementation's own
-    clock).
+    `timed_by` names the clock's owner: "process" (this process), "worker" (the worker of foreign code) or "time
+    protocol" (the implementation's own clock).
     """
 
     rows: int
@@ -49,9 +49,9 @@ class EmptyCall:
 
 
 class LoadedMethod:
-    """A loaded method. A way of calling that does not exist is None.
+    """A loaded method. A kind of call that the method does not offer is None.
 
-    `trouble` says why rows have no answer, if a program was at fault; else it is empty.
+    `trouble` says why rows have no answer, if a program failed; else it is empty.
     """
 
     trouble: str = ""
@@ -69,10 +69,10 @@ class LoadedMethod:
         raise NotImplementedError
 
     def build(self, rows: Rows) -> PreparedWork | None:
-        """The work that is done once before any row of this scene can be answered."""
+        """The work that must be done once before any row of this scene can be answered."""
 
     def empty(self, rows: Rows, mode: str) -> EmptyCall | None:
-        """The call that does nothing, in a mode, whose time is subtracted; None if nothing is."""
+        """The empty call in a mode, whose time is subtracted; None if no time is subtracted."""
 
     def close(self) -> None:
         """Release what it holds."""
@@ -80,9 +80,9 @@ class LoadedMethod:
 
 @dataclass(frozen=True)
 class InPython(LoadedMethod):
-    """A function of rows in this process; `scene`, if there is one, is asked about rows that share their sizes.
+    """A function of rows in this process; rows that share their sizes go to the function `scene`, if there is one.
 
-    Of rows of ten, which share their axis too, it also gets that.
+    If rows of ten also share their axis, `scene` gets the axis too.
     """
 
     function: Answering
@@ -178,17 +178,17 @@ class BuiltMesh(Protocol):
 
     @property
     def triangles(self) -> int:
-        """How many it has."""
+        """The number of its triangles."""
         ...
 
     def answers(self, rows: Rows) -> Answers:
-        """The answers to rows that have its sizes."""
+        """The answers to rows with the mesh's sizes."""
         ...
 
 
 @dataclass(frozen=True)
 class InEngine(LoadedMethod):
-    """An engine with meshes, each built once and kept: `make` from sizes and height, which `high` finds for rows."""
+    """An engine with meshes, each built once: `make` builds it from sizes and a height, which `high` finds for rows."""
 
     make: Callable[[Sizes, float], BuiltMesh]
     high: Callable[[Sizes, Rows], float] = height_of
@@ -226,7 +226,7 @@ class InEngine(LoadedMethod):
         return self.answer
 
     def build(self, rows: Rows) -> PreparedWork | None:
-        """The mesh of a scene, from the vertices to the engine's tree; its answer is the number of its triangles."""
+        """The work of building a scene's mesh, from vertices to the engine's tree; its answer is the triangle count."""
         sizes = scene_of(rows, self.layout)
         if sizes is None:
             return None
@@ -245,15 +245,15 @@ class InEngine(LoadedMethod):
 
 @dataclass(frozen=True, kw_only=True)
 class Contender(MethodClaims):
-    """A method as it is compared.
+    """A method, with the settings of its comparison.
 
-    `tier` is its language or engine: "C", "numpy", "python", "FCL" or "foreign"; `kind` is its kind of algorithm.
-    At most `judged` rows of a workload are asked, in a quick run `quick_judged` or a quarter of few, and `timed`
-    rows make a timed batch. The first `singles` rows of it are asked one by one, enough that a branch predictor
-    does not learn them. `amortised` says whether a mesh is built once for a scene or for each row. `load` loads the
-    method; `needs` names what may be absent here, or is empty. `scenes`, if not None, is the largest number of
-    different sizes in a workload that it is asked. `quick` says whether it is fast enough for a quick run, unless
-    it is named.
+    `tier` is its language or engine: "C", "numpy", "python", "FCL" or "foreign"; `kind` is its kind of algorithm. At
+    most `judged` rows of a workload are judged; in a quick run `quick_judged`, or a quarter if `judged` is small.
+    `timed` rows make a timed batch. Its first `singles` rows are also timed one by one; they are enough that a branch
+    predictor does not learn them. `amortised` says whether a mesh is built once for a scene or for each row. `load`
+    loads the method; `needs` names the software that may be absent here, or is empty. `scenes`, if not None, is the
+    largest number of different sizes in a workload that it can take. `quick` says whether it is fast enough for a quick
+    run; a quick run includes slower methods only if they are named.
     """
 
     tier: str
@@ -278,7 +278,7 @@ class Contender(MethodClaims):
 
 
 def of_method(method: Method, tier: str, kind: str, **fields: Any) -> Contender:  # noqa: ANN401 - of a contender
-    """A built-in method as a contender; `fields` are all that differ from the method's own, and from the defaults."""
+    """A built-in method as a contender; `fields` replace the method's values and the defaults."""
     given: dict[str, Any] = {claim.name: getattr(method, claim.name) for claim in dataclasses.fields(MethodClaims)}
     return Contender(tier=tier, kind=kind, **{"load": partial(in_python, method), **given, **fields})
 

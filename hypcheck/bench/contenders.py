@@ -1,8 +1,8 @@
 """All contenders by name: numpy and Python, C, meshes of collision engines, and implementations under test.
 
 Methods in C are printed and compiled when bench starts. Meshes have 100 to 100,000 triangles, and are built once or for
-each row; a tilted spheroid is asked as the engine's ellipsoid, posed by its axis, against the same mesh. Runs about
-tilted spheroids and runs about sweeps have contenders of their own.
+each row; a tilted spheroid is the engine's ellipsoid, rotated to its axis, against the same mesh. Runs about tilted
+spheroids and runs about sweeps have separate contenders.
 """
 
 from __future__ import annotations
@@ -68,7 +68,7 @@ def _formulas(methods: Methods) -> Iterable[Contender]:
 
 
 def _fast(methods: Methods) -> Iterable[Contender]:
-    """The numpy path, the compiled one if it runs here, and one call of hypcheck.position for each row."""
+    """The numpy kernel, the compiled kernel if it runs here, and one call of hypcheck.position for each row."""
     yield of_method(methods["fast-numpy"], "numpy", "certified", timed=8192, note=CERTIFIED)
     if choice().kernel == "compiled":
         # Only a batch: one call at a time is position-python from Python, and fast-c from C.
@@ -153,7 +153,7 @@ _TITLES = {
 
 
 def mesh_contenders() -> Iterable[Contender]:
-    """Every pairing with every number of triangles."""
+    """The contenders for every pairing with every number of triangles."""
     for pairing in PAIRINGS:
         for triangles in TRIANGLES:
             yield built_once(FCL, pairing, triangles)
@@ -178,7 +178,7 @@ def mesh_contenders() -> Iterable[Contender]:
 
 
 def built_once(engine: MeshLibrary, pairing: str, triangles: int) -> Contender:
-    """A pairing with one mesh of about so many triangles for a scene, or for each of a few scenes."""
+    """A pairing with a mesh of about `triangles` triangles, built once for each of a few scenes."""
     return Contender(
         name=f"{engine.name}-{pairing}-{triangles}",
         title=f"{engine.title}: {_TITLES[pairing]} of the whole surface, about {triangles:,} triangles",
@@ -233,7 +233,7 @@ WAYS_TIMED, SLOW_FOR_WAYS, FEW_WAYS = 8, ("passage-fcl-advancement", "passage-fc
 
 
 def sweep_contenders(*, tilted: bool) -> Iterable[Contender]:
-    """All of them, including the reference; engines are asked about upright spheroids alone."""
+    """All contenders for sweeps, including the reference; engines take only upright spheroids."""
     methods = builtin.passage_methods()
     yield of_method(methods["passage-exact"], "python", "exact", timed=16, singles=8)
     compiled = choice().kernel == "compiled"
@@ -250,7 +250,7 @@ def sweep_contenders(*, tilted: bool) -> Iterable[Contender]:
 
 
 def _in_engines() -> Iterable[Contender]:
-    """Each solver with a mesh of the whole surface for each scene, which is built before its time is taken."""
+    """Each solver of the engines with a mesh of the whole surface for each scene, built before the timing."""
     for name, solver in SWEEP_SOLVERS.items():
         yield of_method(
             builtin.passage_mesh_methods()[name],

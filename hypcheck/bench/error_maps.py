@@ -1,9 +1,9 @@
-"""Maps of errors: over planes of sizes and of places, by a mesh's triangles, and by simpler bodies than the spheroid.
+"""Maps of errors: over planes of sizes and of places, by a mesh's triangles, and for simpler bodies than the spheroid.
 
 One map shows where in the plane of log α/b and log γ/d a method is wrong, far enough from contact to matter. Another
 shows where about the cooling tower it is wrong: over the half plane (r, z), and about the ring. A table shows the error
-and the time of ever finer meshes near contact. The last shows how often a sphere or a cylinder calls contact what is
-clear, and at which distance.
+and the time of finer and finer meshes near contact. Another table shows how often a bounding sphere or cylinder is in
+contact while the spheroid is clear, and at which distance.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ ENOUGH, ENOUGH_OUTSIDE = 2000, 10_000
 
 
 def stability_methods(by_name: dict[str, Contender]) -> list[str]:
-    """The methods with a map. Those in C answer as the same methods in numpy do."""
+    """The methods with a map. Methods in C are left out, because they give the same answers as in numpy."""
     return [name for name, contender in by_name.items() if _wanted(contender)]
 
 
@@ -57,7 +57,7 @@ def _wanted(contender: Contender) -> bool:
 
 
 def stability_lines(task: tuple[BenchPlan, str]) -> list[StabilityLine]:
-    """The line of the method with that name."""
+    """The line with the stability map of the method with that name."""
     plan, name = task
     contender = contenders(plan)[name]
     rows, cells = stability_rows(plan)
@@ -77,7 +77,7 @@ def stability_lines(task: tuple[BenchPlan, str]) -> list[StabilityLine]:
 
 
 def stability_rows(plan: BenchPlan) -> tuple[Rows, NDArray[np.intp]]:
-    """Rows, as many in each cell, and the cell of each row."""
+    """Rows, the same number in each cell, and the cell of each row."""
     side, draw = LAST - FIRST + 1, Draw("bench-stability", 1, plan.seed)
     cells = np.repeat(np.arange(side * side), plan.amounts.cell)
     edges = np.sqrt(10.0) ** np.arange(FIRST, LAST + 2)
@@ -99,7 +99,7 @@ Span = tuple[float, float, int]
 
 
 def place_methods(by_name: dict[str, Contender]) -> list[str]:
-    """The methods with maps of places; those in C answer as the same methods in numpy do."""
+    """The methods with maps of places. Methods in C are left out, because they give the same answers as in numpy."""
     return [
         name for name, contender in by_name.items() if contender.tier != "C" and (contender.judged or ENOUGH) >= ENOUGH
     ]
@@ -162,7 +162,7 @@ _BUILDS_NS = 150_000_000
 
 
 def convergence_steps(plan: BenchPlan) -> int:
-    """The number of lines."""
+    """The number of lines that convergence_lines yields."""
     return len(PAIRINGS) * len(_triangle_counts(plan))
 
 
@@ -171,7 +171,7 @@ def _triangle_counts(plan: BenchPlan) -> list[int]:
 
 
 def convergence_lines(plan: BenchPlan) -> Iterator[ConvergenceLine]:
-    """A line for each pairing and size."""
+    """The line for each pairing and number of triangles."""
     rows = near_the_tower(plan.seed)
     truth = float_filter.positions(rows)
     for pairing in PAIRINGS:

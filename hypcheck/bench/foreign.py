@@ -1,4 +1,4 @@
-"""A SPEC as a contender: in a process of its own, and timed by its own clock if it offers one."""
+"""A SPEC as a contender: it runs in a separate process, and is timed by its own clock if it offers one."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ _JUDGED_S, _TIMED_S = 4.0, 0.01
 
 @dataclass(frozen=True)
 class ForeignMethod:
-    """A SPEC that was started, its description, and how many rows it can answer in reasonable time."""
+    """A SPEC that was started, its description, and the number of rows that it can answer in reasonable time."""
 
     spec: str
     name: str
@@ -50,8 +50,8 @@ def foreign_method(
 ) -> ForeignMethod:
     """The method of a SPEC. Raises StartError if it cannot be started, and InputError if it is not a SPEC.
 
-    So it does if it would be asked about tilted spheroids, and its description does not say tilt, or if its question is
-    about rows of another layout.
+    It also raises InputError if the run is about tilted spheroids and the description does not take tilt, or if its
+    question has rows of another layout.
     """
     with open_implementation(spec, limits) as implementation:
         description = implementation.description
@@ -70,7 +70,7 @@ def foreign_method(
 
 
 def _seconds_a_row(implementation: Implementation) -> float:
-    """Seconds for a row of a batch; batches grow until one takes long enough to measure."""
+    """The seconds per row of a batch; batches grow until one takes long enough to measure."""
     layout = implementation.description.asked.layout
     some = (SWEEP_WORKLOADS["tower"] if layout.has_end else WORKLOADS["uniform"]).rows(1, _TRIED)
     inside = some[implementation.description.domain.holds(some, layout=layout)]
@@ -142,7 +142,7 @@ class RunningForeign(LoadedMethod):
         return self._asked(rows, by_scene=False)
 
     def batch(self, rows: Rows) -> PreparedWork:
-        """The rows by one question, by scene if it offers that and they share their sizes."""
+        """All rows in one question; as a scene if the implementation offers scenes and the rows share their sizes."""
         rows, by_scene = rows[:LARGEST], self.implementation.scene and scene_of(rows) is not None
         answers = partial(self._asked, rows, by_scene=by_scene)
         if self._clock is None:
@@ -157,7 +157,7 @@ class RunningForeign(LoadedMethod):
         return PreparedWork(len(rows), self._times(rows, answers, each=True), answers, self._clock)
 
     def empty(self, rows: Rows, mode: str) -> EmptyCall | None:
-        """For a library a call that does nothing; for a command without a clock a question about one row."""
+        """The empty call: of a library one that does nothing, of a command without a clock a question about one row."""
         name = f"of {self.implementation.spec}"
         if self._clock is None and mode == "batch":
             return EmptyCall(name, PreparedWork(1, self._round_trips(rows[:1]), partial(self.answer, rows[:1])))

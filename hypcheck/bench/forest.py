@@ -1,9 +1,9 @@
-"""`hypcheck bench --forest`: a walker's step among 10 to a million trees, beside FCL's broad phase.
+"""`hypcheck bench --forest`: a walker's step among 10 to a million trees, compared with FCL's broad phase.
 
-Forests of all sizes have the same density. A walk through each makes the questions, and rational arithmetic their
-truth. The candidates are hypcheck's scene, and FCL's tree of bounding boxes with the trees as meshes or as cylinders.
-The lines "forest" of the record show the time of a step by the number of trees; all answers are judged before the
-timing.
+Forests of all sizes have the same density. A walk through each forest gives the questions; rational arithmetic gives
+the true answers. The candidates are hypcheck's scene, and FCL's tree of bounding boxes with the trees as meshes or as
+cylinders. The lines "forest" of the record show the time of a step by the number of trees; all answers are judged
+before the timing.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ Point = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class Forest:
-    """Trees at `places` (n, 2), of the kinds that `kinds` (n,) number, on a square with sides of `side` metres."""
+    """Trees at `places` (n, 2), of the kinds with the numbers `kinds` (n,), on a square with sides of `side` metres."""
 
     side: float
     places: NDArray[np.float64]
@@ -66,7 +66,7 @@ class Forest:
         return SceneModel("forest", "exterior", trees, WALKER, Region(z=Span(0.0, 0.0)))
 
     def clear(self, centre: Point) -> bool:
-        """The truth from rational arithmetic, about all trees except those that are metres away."""
+        """Whether the walker is clear, by rational arithmetic; trees that are metres away are left out."""
         x, y, _ = centre
         near = np.flatnonzero(np.hypot(self.places[:, 0] - x, self.places[:, 1] - y) < LOOK_AHEAD)
         return all(self._beside(index, centre) is Position.EXTERIOR for index in near.tolist())
@@ -91,7 +91,7 @@ def forest_of(trees: int, seed: int) -> Forest:
 
 
 def walk(scene: Scene, forest: Forest, steps: int, seed: int) -> list[Point]:
-    """The centres that a walker asks about: each is one step from her place, where she goes if it is clear."""
+    """The centres that a walker tests: each is a step from the walker's place; the walker moves there if clear."""
     draw = np.random.Generator(np.random.PCG64([seed, steps]))
     x = y = forest.side / 2
     heading, centres = 0.0, []
@@ -117,7 +117,7 @@ HEIGHT = 1.2 * WALKER.d
 
 @dataclass(frozen=True)
 class Walker:
-    """A candidate that is asked about steps.
+    """A candidate that tests a walker's steps.
 
     `make` builds what it needs for a forest, and returns its answering function.
     """
@@ -149,12 +149,12 @@ def _meshes() -> list[Any]:
 
 
 def _cylinders() -> list[Any]:
-    """The smallest upright cylinder around the part of each kind that the walker can reach."""
+    """For each kind of tree the smallest upright cylinder around the part that the walker can reach."""
     return [fcl_module().Cylinder(alpha * hypot(1.0, WALKER.d / gamma), 2 * HEIGHT) for alpha, gamma in KINDS]
 
 
 def _in_fcl(shapes: Callable[[], list[Any]], forest: Forest) -> Clear:
-    """FCL's broad phase with one of the shapes, of each kind, for every tree."""
+    """FCL's broad phase with every tree as the shape of its kind."""
     fcl, kinds = fcl_module(), shapes()
     trees = [
         fcl.CollisionObject(kinds[kind], fcl.Transform(np.array([x, y, 0.0])))
@@ -214,7 +214,7 @@ def run(
     steps: int = STEPS,
     walkers: Mapping[str, Walker] = WALKERS,
 ) -> None:
-    """Add a line for each forest with so many trees, and each candidate, timed in that number of rounds."""
+    """Add a line for each number of trees in `forests` and each candidate, timed in `rounds` rounds."""
     for trees in forests:
         for line in _lines(forest_of(trees, seed), rounds, steps, walkers, seed):
             recorder.add(line)
@@ -224,7 +224,7 @@ def run(
 def _lines(
     forest: Forest, rounds: int, steps: int, candidates: Mapping[str, Walker], seed: int
 ) -> Iterator[ForestLine]:
-    """A line for each candidate that can be asked here; FCL may be missing."""
+    """A line for each candidate that is available here; FCL may be missing."""
     centres = walk(Scene(forest.model), forest, steps, seed)
     truth = [int(forest.clear(centre)) for centre in centres]
     walkers = {name: candidate for name, candidate in candidates.items() if name == OURS or FCL.trouble() is None}
@@ -254,7 +254,7 @@ def _lines(
 
 
 def _made(walker: Walker, forest: Forest) -> tuple[Clear, float]:
-    """The answering function, and the seconds for building it; the list of trees exists before."""
+    """A candidate's answering function, and the seconds for building it from the list of trees."""
     forest.model  # noqa: B018 - a property that is made once
     gc.collect()
     started = perf_counter()

@@ -35,10 +35,10 @@ RESTARTS = 3
 class Amounts:
     """The amounts of work of a full or a quick run.
 
-    `judged` rows of each workload are asked of a fast method, and `timed` rows make a timed batch; a sample of a batch
-    lasts at least `sample_s` seconds. `cell` rows fill a cell of a stability map, and a map of places has `map_lines`
-    lines. `bodies` positions along flights are asked of the procedures. `most_triangles` bounds the meshes. `memory`
-    says whether memory is measured.
+    A fast method answers `judged` rows of each workload, and `timed` rows make a timed batch; a sample of a batch lasts
+    at least `sample_s` seconds. `cell` rows fill a cell of a stability map, and a map of places has `map_lines` lines.
+    The procedures answer `bodies` positions along flights. `most_triangles` bounds the meshes. `memory` says whether
+    memory is measured.
     """
 
     judged: int
@@ -72,15 +72,15 @@ class BenchPlan:
 
     `specs` name implementations to measure beside the built-in methods; `methods` and `workloads` are names and globs
     (none: all). `amounts` are the amounts of work; a `quick` run leaves out what takes long. Times come from `rounds`
-    rounds in each of `processes` fresh processes. `baseline` is a record to compare with: a method may be
-    `max_slowdown` times slower against the reference than there.
+    rounds in each of `processes` fresh processes. `baseline` is a record to compare with: a method's time relative to
+    the reference may be `max_slowdown` times the time there.
 
-    `kernel`, `forest` and `scenes` measure one thing only: the fast path against its targets, a walker's step among
-    many trees, the savings of these scenes. `tilted` compares methods for tilted spheroids; so does a scene
-    whose mover is tilted. `question` is "passage" where methods for sweeps are compared.
+    `kernel`, `forest` and `scenes` each select a run that measures one subject only: the fast path against its targets,
+    a walker's step among many trees, the savings of the kernels of these scenes. `tilted` compares methods for tilted
+    spheroids; so does a scene whose mover is tilted. `question` is "passage" if methods for sweeps are compared.
 
-    Files go into `folder`, also the library `compiled` of methods in C, if there is one. `missing` are needs of methods
-    that are not available here, and `foreign` are the methods of the SPECs (bench/foreign.py).
+    Files go into `folder`, also the library `compiled` of methods in C, if there is one. `missing` is the software that
+    methods need and that is not available here; `foreign` are the methods of the SPECs (bench/foreign.py).
     """
 
     specs: tuple[str, ...] = ()
@@ -117,12 +117,12 @@ class BenchPlan:
 
     @property
     def everyday(self) -> bool:
-        """Whether it is about positions of upright spheroids, for which there are maps, meshes and claims besides."""
+        """Whether the run is about positions of upright spheroids; only these have maps, meshes and claims."""
         return not self.tilted and self.question == POSITION
 
     @property
     def whole(self) -> bool:
-        """Whether the run measures everything, which takes minutes: nothing was chosen, and it is not quick."""
+        """Whether the run measures everything, which takes minutes: no choice was made, and it is not quick."""
         return not self.quick and not self.chosen and self.everyday
 
     @property
@@ -139,7 +139,7 @@ class BenchPlan:
 
     @property
     def options(self) -> dict[str, Any]:
-        """The plan as the record's header has it."""
+        """The plan in the form of the record's header."""
         shown = {name: value for name, value in asdict(self).items() if name not in _FOUND_OUT}
         baseline = None if self.baseline is None else str(self.baseline)
         return {"command": "bench", **shown, "baseline": baseline, "reference": self.reference}
@@ -150,7 +150,7 @@ _FOUND_OUT = ("limits", "folder", "compiled", "missing", "foreign")
 
 
 def chosen_names(names: Sequence[str], patterns: Sequence[str], noun: str) -> list[str]:
-    """The names that match a pattern, in their own order; all names without a pattern.
+    """The names that match a pattern, in the order of `names`; all names if there is no pattern.
 
     Raises InputError for a pattern that matches nothing.
     """

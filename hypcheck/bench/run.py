@@ -1,4 +1,4 @@
-"""One run of bench: look for what it needs, judge, measure, compare; each result goes into the record at once."""
+"""One run of bench: find its requirements, judge, measure, compare; each result goes into the record at once."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def stages(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome) -> Sequence
 
 
 def _tilted_plan(plan: BenchPlan, tilted_movers: Sequence[str]) -> BenchPlan:
-    """The plan, about the tilted mover of its one scene if it has any. Raises InputError for more scenes than one."""
+    """The plan, about tilted spheroids if its scene's mover is tilted. Raises InputError if there are more scenes."""
     if not plan.scenes:
         return plan
     if not tilted_movers:
@@ -74,7 +74,7 @@ def _tilted_plan(plan: BenchPlan, tilted_movers: Sequence[str]) -> BenchPlan:
 
 
 def plan_with_needs(plan: BenchPlan, recorder: Recorder) -> BenchPlan:
-    """The plan with what is available and what is missing, which the record says too.
+    """The plan with the available methods and the missing requirements, which are also recorded.
 
     Raises InputError naming a method that does not exist.
     """
@@ -118,14 +118,14 @@ def note_absent(recorder: Recorder, what: str, reason: str) -> None:
 
 
 def governor() -> str | None:
-    """What sets the processor's frequency, if the system tells; unless it is "performance", times vary."""
+    """The governor of the processor's frequency, if the system reports it; unless it is "performance", times vary."""
     with suppress(OSError):
         return Path("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor").read_text(encoding="utf-8").strip()
     return None
 
 
 def load() -> tuple[float, float, float] | None:
-    """The mean number of processes that wanted a processor during 1, 5 and 15 minutes, if the system tells."""
+    """The system's load: the mean number of runnable processes over 1, 5 and 15 minutes, if the system reports it."""
     with suppress(OSError, AttributeError):
         short, middle, long = (round(average, 2) for average in os.getloadavg())
         return short, middle, long
@@ -133,7 +133,7 @@ def load() -> tuple[float, float, float] | None:
 
 
 def codes_of(lines: Iterable[RecordLine]) -> set[Exit]:
-    """How a run with these lines of kernels, forests and scenes ends: wrong answers, and missed targets."""
+    """The exit codes for a run with these lines of kernels, forests and scenes: wrong answers, missed targets."""
     codes = set()
     for line in lines:
         if isinstance(line, measurements.KernelLine) and not line.met:
@@ -179,7 +179,7 @@ def _scenes(plan: BenchPlan, names: Sequence[str], recorder: Recorder, outcome: 
 
 @dataclass
 class MethodsRun:
-    """A run that compares methods: what its stages share, and the stages."""
+    """A run that compares methods: its stages, and the data that they share."""
 
     plan: BenchPlan
     recorder: Recorder
@@ -190,7 +190,7 @@ class MethodsRun:
 
     @property
     def map_stages(self) -> Sequence[Stage]:
-        """The stages about positions of upright spheroids that follow the answers."""
+        """The stages with maps, for positions of upright spheroids; they follow the judging of answers."""
         maps = len(error_maps.stability_methods(self.found)) + len(error_maps.place_methods(self.found))
         shapes = any(contender.kind == "bounding" for contender in self.found.values())
         bounding = [Stage("bounding volumes", 1, self.bound)] if shapes else []
@@ -198,7 +198,7 @@ class MethodsRun:
 
     @property
     def mesh_and_memory_stages(self) -> Sequence[Stage]:
-        """The stages about positions of upright spheroids that come last."""
+        """The stages with meshes and memory, for positions of upright spheroids; they come last."""
         stages = []
         if any(contender.needs == FCL.title for contender in self.found.values()):
             stages.append(Stage("meshes", error_maps.convergence_steps(self.plan), self.refine))
@@ -235,14 +235,14 @@ class MethodsRun:
         advance(1)
 
     def judge(self, advance: Advance) -> None:
-        """Ask all methods about all workloads, and judge the answers."""
+        """Let all methods answer all workloads, and judge the answers."""
         truths: dict[str, WorkloadTruth] = {}
         with processes(self.plan.workers) as executor:
             for truth in accuracy.workload_truths(self.plan, executor):
                 truths[truth.workload.name] = truth
                 advance(1)
             slowest_first = sorted(self.found, key=lambda name: self.found[name].timed or math.inf)
-            tasks = [(self.plan, name) for name in slowest_first]  # those take longest
+            tasks = [(self.plan, name) for name in slowest_first]  # these take longest
             for _, answered in perform(accuracy.method_answers, tasks, executor):
                 self.answers += answered
                 advance(1)
@@ -268,7 +268,7 @@ class MethodsRun:
                 self.outcome.codes.add(Exit.WRONG)
 
     def draw_maps(self, advance: Advance) -> None:
-        """Record the maps of each method that has some, in the order of the methods."""
+        """Record the maps of the methods that have maps, in the order of the methods."""
         maps: tuple[tuple[Callable[[tuple[BenchPlan, str]], Sequence[RecordLine]], list[str]], ...] = (
             (error_maps.stability_lines, error_maps.stability_methods(self.found)),
             (error_maps.place_lines, error_maps.place_methods(self.found)),
@@ -283,7 +283,7 @@ class MethodsRun:
                     self.recorder.add(line)
 
     def bound(self, advance: Advance) -> None:
-        """Record how often simpler shapes than the spheroid err."""
+        """Record how often simpler shapes than the spheroid give wrong answers."""
         for line in error_maps.bounding_lines(self.plan):
             self.recorder.add(line)
         advance(1)
@@ -315,11 +315,11 @@ class MethodsRun:
             if line.gates and line.verdict in codes:
                 self.outcome.codes.add(codes[line.verdict])
         if not compared:
-            self.outcome.codes.add(Exit.INCONCLUSIVE)  # both runs timed nothing that is held to the baseline
+            self.outcome.codes.add(Exit.INCONCLUSIVE)  # no compared method was timed by both runs
         advance(1)
 
     def refine(self, advance: Advance) -> None:
-        """Record errors and times of ever finer meshes."""
+        """Record errors and times of finer and finer meshes."""
         for line in error_maps.convergence_lines(self.plan):
             self.recorder.add(line)
             advance(1)

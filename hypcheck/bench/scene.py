@@ -1,9 +1,8 @@
 """Kernels that are specialised for a scene: the time that each saves, and the share that each stage decides.
 
-A scene is asked evenly over its region, with the same number of rows for each pair of sizes. Its kernel in C is
-compared with Table 2 as printed, in C, which proves nothing, and with the certified kernel of
-`hypcheck.classify_scene`. All run in one thread, first by a call for many rows, then by a call for each, as a craft or
-a walker asks.
+The rows of a scene are uniform in its region, with the same number for each pair of sizes. Its kernel in C is compared
+with the printed Table 2 in C, which is not certified, and with the certified kernel of `hypcheck.classify_scene`. All
+run in one thread, first with a call for many rows, then with a call for each row, as a craft or a walker does.
 """
 
 from __future__ import annotations
@@ -61,14 +60,14 @@ class SceneKernel:
         return self._called("one_by_one", len(rows), len(rows), np.ascontiguousarray(rows))
 
     def _called(self, name: str, count: int, *given: Floats | int) -> PreparedWork:
-        """A function of the library, called with what is given and an array for so many answers."""
+        """Work that calls a function of the library with the given arguments and an array for `count` answers."""
         function, answers = getattr(self.library, name), np.zeros(count, dtype=np.int8)
         words = [
             ctypes.c_size_t(array) if isinstance(array, int) else ctypes.c_void_p(array.ctypes.data)
             for array in (*given, answers)
         ]
 
-        def work(_kept: object = given) -> Positions:  # pointers alone would not keep the arrays alive
+        def work(_kept: object = given) -> Positions:  # pointers would not keep the arrays alive
             function(*words)
             return answers
 
@@ -90,10 +89,10 @@ REPEATED_CENTRES = 16
 
 
 def kernel_savings(plan: ScenePlan, folder: Path, rounds: int = KERNEL_ROUNDS) -> Iterator[dict[str, Any]]:
-    """What the kernel of each setting of the plan saves, by one call for many centres and by a call for each.
+    """The time that each setting's kernel saves, with one call for many centres and with a call for each centre.
 
-    These are values for programs; those of "says" are sentences. Raises UnavailableError if there is no C compiler,
-    InputError where the mover is tilted.
+    The values are for programs; the values of "says" are sentences. Raises UnavailableError if there is no C compiler,
+    InputError if the mover is tilted.
     """
     require_upright(plan)
     methods, _ = compiled(folder)
@@ -127,7 +126,7 @@ def _saving(own: Samples, other: Samples) -> dict[str, Any]:
 
 
 def _saving_text(kernel_ns: float, printed_ns: float, ratio: float, ratio_ci95: Sequence[float]) -> str:
-    """What a kernel saves, as a part of a sentence."""
+    """The time that a kernel saves, as a part of a sentence."""
     low, high = ratio_ci95
     how = f"{1 / ratio:.2f} times as fast as" if ratio <= 1 else f"{ratio:.2f} times as slow as"
     return (
@@ -137,7 +136,7 @@ def _saving_text(kernel_ns: float, printed_ns: float, ratio: float, ratio_ci95: 
 
 
 def rows_of(stages: Stages, times: int = REPEATED_CENTRES) -> Rows:
-    """The sample's centres, repeated, in random order."""
+    """The rows of the samples' centres, each `times` times, in random order."""
     x, y, z = centres(stages.setting)
     order = np.random.Generator(np.random.PCG64(1)).permutation(np.tile(np.arange(len(x)), times))
     sizes = [np.full(len(order), size) for size in stages.setting.sizes]
@@ -163,7 +162,7 @@ def plans_of(names: Sequence[str]) -> list[ScenePlan]:
 
 
 def require_upright(plan: ScenePlan) -> None:
-    """Raise InputError where the mover is tilted: Table 2, beside which kernels are timed, is of upright ones."""
+    """Raise InputError if the mover is tilted: Table 2, with which kernels are compared, is for upright spheroids."""
     if plan.axis is not None:
         raise InputError(
             f"the scene {escaped(repr(plan.scene.name), 60)} is not timed: its mover is tilted, and Table 2 as "
@@ -180,7 +179,7 @@ def run_scenes(
     count: int = ROWS,
     kernel_of: Callable[[ScenePlan, Path], SceneKernel] = compiled_kernel,
 ) -> None:
-    """Record a line for each scene, asked about so many rows. Raises UnavailableError if there is no C compiler."""
+    """Record a line for each scene, timed with `count` rows. Raises UnavailableError if there is no C compiler."""
     methods, _ = compiled(folder)
     for number, plan in enumerate(plans):
         kernel = kernel_of(plan, folder / f"scene-{number}")
@@ -224,7 +223,7 @@ def _answers(parts: Sequence[PreparedWork]) -> Positions:
 
 
 def _times(works: Mapping[str, Sequence[PreparedWork]], count: int, rounds: int) -> SceneTimes:
-    """Nanoseconds for a row of each, and the kernel's time relative to the others'."""
+    """The nanoseconds per row of each work, and the kernel's time relative to the others."""
     entries = [TimingEntry(name, count, _all_of([part.run for part in parts])) for name, parts in works.items()]
     samples = measure(entries, rounds)
     own, *others = samples
@@ -236,7 +235,7 @@ def _times(works: Mapping[str, Sequence[PreparedWork]], count: int, rounds: int)
 
 
 def stage_shares(settings: Sequence[Stages]) -> dict[str, float]:
-    """The share of the scene's queries that each stage decides, with the same number for each pair of sizes."""
+    """The share of the scene's queries that each stage decides; each pair of sizes has the same number of queries."""
     return {name: float(np.mean([setting.shares.get(name, 0.0) for setting in settings])) for name in STAGES}
 
 
@@ -256,7 +255,7 @@ def _certified(plan: ScenePlan, rows: Rows) -> PreparedWork:
 
 
 def _all_of(parts: Sequence[Clocked]) -> Clocked:
-    """The work of all parts as one."""
+    """The work of all parts, as one piece of work."""
 
     def run(repeat: int) -> tuple[int, int]:
         times = [part(repeat) for part in parts]

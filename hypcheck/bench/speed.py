@@ -1,7 +1,7 @@
-"""Times of all methods: fresh processes that measure, and what they measured as lines of the record.
+"""Times of all methods: fresh processes measure them, and the measurements become lines of the record.
 
-A process checks every method, then times all of them in rounds, workload by workload. The lines have medians, ratios to
-the reference and the noise floor.
+A process checks the answers of every method, then times all methods in rounds, workload by workload. The lines have
+medians, ratios to the reference and the noise floor.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ class MeasuringSession:
     """The work of one process.
 
     `expected` are hashes of the answers by method, workload and mode; a method with other answers is refused. `loops`
-    are loops and takes of the first process, which all others use; the first gets none.
+    are the loops and takes that the first process calibrated and all others use; the first process gets none.
     """
 
     plan: BenchPlan
@@ -65,8 +65,8 @@ class MeasuringSession:
 class Measurement:
     """The samples of one process for one method, workload and mode, from which `empty_ns` is subtracted.
 
-    The rest may be negative, if noise made the empty call longer. `calls_ns` are the samples of the empty call, in
-    nanoseconds a row of the method.
+    The difference may be negative, if noise made the empty call longer. `calls_ns` are the samples of the empty call,
+    in nanoseconds a row of the method.
     """
 
     key: MeasurementKey
@@ -78,9 +78,9 @@ class Measurement:
 
 @dataclass(frozen=True)
 class _Together:
-    """Work that is measured together, at a workload and in a mode: by name, with the calls that are subtracted.
+    """Work that is measured together, for a workload and a mode: by name, with the empty calls that are subtracted.
 
-    `sums` are those of the answers, where they are known already.
+    `sums` are the sums of the answers, if they are already known.
     """
 
     where: tuple[str, str]
@@ -108,7 +108,7 @@ def run_session(session: MeasuringSession) -> list[Measurement]:
 
 
 def _compared(session: MeasuringSession, claim: CostClaim) -> _Together:
-    """The alternatives of a claim about cost, and the first of them again."""
+    """The alternatives of a claim about cost, with the first alternative twice."""
     ready = claim.compared(session.plan)
     again = {FIRST_AGAIN: next(iter(ready.values()))}
     return _Together((claim.where, "batch"), {**ready, **again})
@@ -128,7 +128,7 @@ def _methods(
     workload: Workload,
     mode: str,
 ) -> tuple[_Together, list[Measurement]]:
-    """The methods that are measured, and those that are refused because their answers are others than before."""
+    """The methods to measure, and the methods that are refused because their answers changed."""
     here, refused = _Together((workload.name, mode), {}), []
     for name, loaded in methods_loaded.items():
         rows = timed_rows(session.plan, by_name[name], workload)
@@ -223,7 +223,7 @@ def measurements_of(plan: BenchPlan, prints: Mapping[MeasurementKey, str], advan
 def speed_lines(
     measurements: Measurements, reference: str
 ) -> Iterator[NoiseLine | SpeedLine | UnmeasuredLine | RefusedLine]:
-    """The record's lines: noise before the speeds that it belongs to; methods without a time last."""
+    """The record's lines: noise before the speeds of the same workload; methods without a time last."""
     measurements = {key: parts for key, parts in measurements.items() if not key[1].startswith(COST_OF)}
     refused = {key: reason for key, parts in measurements.items() if (reason := _refusal(parts))}
     hidden = {key: reason for key, parts in measurements.items() if key not in refused and (reason := _hidden(parts))}
@@ -242,10 +242,10 @@ def speed_lines(
 
 
 def _hidden(parts: list[Measurement]) -> str | None:
-    """Why the time cannot be separated from that of an empty call, which is subtracted; None if it can.
+    """The reason why the time cannot be distinguished from the subtracted time of an empty call; None if it can.
 
-    It can if the 95 % intervals of the two medians, before the subtraction, are apart by more than UNLIKE, the possible
-    difference between the empty call and the cost of calling the method.
+    It can if the gap between the 95 % intervals of the two medians, before the subtraction, is larger than UNLIKE, the
+    possible difference between the empty call and the cost of calling the method.
     """
     if not all(part.calls_ns for part in parts):
         return None
@@ -264,7 +264,7 @@ def _time_text(time: Estimate) -> str:
 
 
 def _possible(part: Measurement) -> list[float]:
-    """The positive samples of a process; no clock has more than six digits of them."""
+    """The positive samples of a process, to six digits, because no clock is more accurate."""
     return [float(f"{sample:.6g}") for sample in part.samples.samples_ns if sample > LEAST_NS]
 
 
@@ -320,7 +320,7 @@ def _noise(measurements: Measurements, reference: str, workload: str, mode: str)
 
 
 def samples_of(parts: list[Measurement]) -> list[list[float]]:
-    """Nanoseconds a row of each round, by process; no clock has more than six digits of them."""
+    """The nanoseconds per row of each round, by process, to six digits, because no clock is more accurate."""
     return [[float(f"{sample:.6g}") for sample in part.samples.samples_ns] for part in parts]
 
 

@@ -3,8 +3,8 @@
 The kernels are compared with plain numpy expressions (Table 2 with powers, and with products), with numpy.roots and
 FCL. A target that cannot be measured here becomes a line "absent".
 
-Beside hyperboloids that end the targets are what ends cost, and how many rows of each family C leaves open. Rows are
-those of the paper's tower between z −17.8 and 17.8, each timed beside the same rows without ends.
+For hyperboloids that end, the targets are the cost of ends, and the share of each family's rows that C leaves open. The
+rows are of the paper's tower between z −17.8 and 17.8; each kind is compared with the same rows without ends.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ FAR_AWAY = 1e4
 
 
 def paces(rounds: int) -> Iterator[KernelLine]:
-    """Rows whose ends are far away, and rows near the rim, upright and tilted."""
+    """Targets of rows whose ends are far away, and of rows near the rim, upright and tilted."""
     random = np.random.Generator(np.random.PCG64(SEED))
     around = random.uniform((-4, -4, -20), (4, 4, 20), (PACED, 3))
     turn, off = random.uniform(0, 2 * math.pi, PACED), random.uniform(-0.4, 0.4, PACED)
@@ -83,7 +83,7 @@ def _rows(centres: Floats, axes: Floats, end: float) -> Rows:
 
 
 def left_open(_rounds: int) -> Iterator[KernelLine]:
-    """How many rows and sweeps of each family C answers with 2, which Python then decides exactly."""
+    """Targets of the rows and sweeps of each family that C answers with 2; Python then decides these exactly."""
     counts = {name: _open_share(name) for name in (*ENDED_FAMILIES, *ENDED_SWEEP_FAMILIES)}
     for subject, ordinary in (("left open, ordinary", True), ("left open, near an end", False)):
         some = {name: share for name, share in counts.items() if name.endswith("uniform") is ordinary}
@@ -101,7 +101,7 @@ def _open_share(name: str) -> float:
 
 
 def with_powers(sizes: Sizes, x: Floats, y: Floats, z: Floats) -> NDArray[np.int8]:
-    """Whether each centre is exterior, with `**2` and `**3` as in the paper's formula; it proves nothing."""
+    """Whether each centre is exterior, with `**2` and `**3` as in the paper's formula; it is not certified."""
     alpha, gamma, b, d = sizes
     A, B = (alpha / b) ** 2, (gamma / d) ** 2
     c0 = -A * B
@@ -113,7 +113,7 @@ def with_powers(sizes: Sizes, x: Floats, y: Floats, z: Floats) -> NDArray[np.int
 
 
 def with_products(sizes: Sizes, x: Floats, y: Floats, z: Floats) -> NDArray[np.int8]:
-    """As with_powers, with products instead of powers, which numpy computes by a function of the C library."""
+    """As with_powers, with products instead of powers; numpy computes powers by a function of the C library."""
     alpha, gamma, b, d = sizes
     A, B = (alpha / b) ** 2, (gamma / d) ** 2
     c0, bb, dd = -A * B, b * b, d * d
@@ -136,10 +136,10 @@ EXPRESSIONS = {
 
 @dataclass(frozen=True, slots=True)
 class TimesAsFast:
-    """A target "so many times as fast as an expression", as a share of it, or of what is possible where that is less.
+    """A target "`times` times as fast as an expression", as a share of it, or of the possible factor if that is less.
 
-    The expression may be so fast, where the system has large pages for its temporaries, that not even a loop that only
-    reads the rows is `times` as fast.
+    If the system has large pages for the expression's temporaries, the expression may be so fast that even a loop that
+    only reads the rows is not `times` as fast.
     """
 
     mine: str
@@ -168,7 +168,7 @@ TARGETS = (
 
 
 def against_numpy(folder: Path, rounds: int) -> Iterator[KernelLine]:
-    """Ten million rows: both numpy expressions and both kernels, as a user calls them, and what limits these."""
+    """Targets of ten million rows: both numpy expressions and both kernels, as a user calls them, and their limits."""
     columns = uniform_columns(MANY)
     work: dict[str, Callable[[], NDArray[np.signedinteger]]] = {
         "kernel": partial(hypcheck.classify_scene, TOWER_SIZES, *columns, threads=1),
@@ -190,7 +190,7 @@ def against_numpy(folder: Path, rounds: int) -> Iterator[KernelLine]:
 
 
 def _copied(columns: Columns) -> NDArray[np.signedinteger]:
-    """Round all numbers to single precision in numpy, a chunk at a time: the first step of any work on them there."""
+    """Round all numbers to single precision in numpy, a chunk at a time: the first step of any float32 work on them."""
     buffer, places = np.empty((len(columns), CHUNK), dtype=np.float32), range(0, len(columns[0]), CHUNK)
     for start in places:
         for column, into in zip(columns, buffer, strict=True):
@@ -203,7 +203,7 @@ LARGE_PAGES = Path("/sys/kernel/mm/transparent_hugepage/enabled")
 
 
 def large_pages(setting: Path = LARGE_PAGES) -> str:
-    """What the system says about large pages for the temporaries of an expression."""
+    """A sentence about the system's setting of large pages for the temporaries of an expression."""
     try:
         text = setting.read_text(encoding="ascii")
     except (OSError, UnicodeDecodeError):
@@ -214,7 +214,7 @@ def large_pages(setting: Path = LARGE_PAGES) -> str:
 
 
 def against_others(rounds: int) -> Iterator[KernelLine]:
-    """numpy.roots and FCL for each row, beside a hundred thousand rows of the kernel."""
+    """Targets against numpy.roots and FCL, a row at a time, compared with a hundred thousand rows of the kernel."""
     columns = uniform_columns(100_000)
     rows = tower_rows(columns)[:FEW]
     entries = [
@@ -269,9 +269,10 @@ def run(recorder: Recorder, advance: Callable[[int], object], quick: bool) -> No
 
 
 def confirmed_lines(group: Group) -> list[KernelLine]:
-    """The group's lines. What misses its target is measured again: only what misses each time is slow.
+    """The group's lines. A missed target is measured again; it counts as missed only if it is missed each time.
 
-    The interval tells how rounds differ, and not that another program had the memory's attention in all of them.
+    The interval shows the differences between rounds; it cannot show that another program used the memory in all of
+    them.
     """
     lines = list(group())
     for _ in range(AGAIN):

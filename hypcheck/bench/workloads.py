@@ -1,8 +1,9 @@
 """The workloads of a benchmark: rows on which methods are compared, of upright and tilted spheroids and of sweeps.
 
-Some are timed and judged, the others only judged. A workload's rows depend only on its name, the seed and their place;
-a shorter call returns the first rows of a longer one (vectors/draw.py). Pairs of tilted spheroids whose nearest
-point is not unique are in none of them, because there the estimated error, which rests on derivatives, is too large.
+Some are timed and judged, the others only judged. A workload's rows depend only on its name, the seed and their place:
+a call for fewer rows returns the first rows of a call for more (vectors/draw.py). Pairs of tilted spheroids whose
+nearest point is not unique are in none of them, because there the estimated error, which rests on derivatives, is too
+large.
 """
 
 from __future__ import annotations
@@ -49,7 +50,7 @@ _Rows = Callable[[int, int], Rows]
 
 @dataclass(frozen=True)
 class Workload:
-    """`rows(seed, n)` are n of its rows, or all that there are, float64 (n, as many as the layout has).
+    """`rows(seed, n)` are n of its rows, or all if it has fewer, float64 (n, columns of the layout).
 
     `timed`: methods are timed on it, not only judged. One in `share` of the rows that a run judges is judged. `layout`
     says what the columns mean.
@@ -64,12 +65,12 @@ class Workload:
     layout: Layout = PAIRS
 
     def judged(self, plan: BenchPlan) -> int:
-        """The number of rows of it that a fast method is asked."""
+        """The number of its rows that a fast method answers."""
         return plan.amounts.judged // self.share
 
 
 def scene_of(rows: Rows, layout: Layout = PAIRS) -> tuple[float, float, float, float] | None:
-    """α, γ, b, d if all rows share them, and the axis where they have one; else None."""
+    """α, γ, b, d if all rows share them, and the axis if the rows have one; else None."""
     places = slice(len(SIZES), len(layout.upright))
     if not len(rows) or (np.delete(rows, places, axis=1) != np.delete(rows[0], places)).any():
         return None
@@ -82,7 +83,7 @@ _Block = Callable[[Draw, int, int], Rows]
 
 
 def _in_blocks(make: _Block, width: int, *stream: str) -> _Rows:
-    """Blocks with a random stream each, so that a shorter call gives the beginning of a longer one."""
+    """Rows in blocks, each with its random stream: a call for fewer rows gives the first rows of a call for more."""
 
     def rows(seed: int, count: int) -> Rows:
         numbers = range(-(-count // BLOCK))
@@ -93,7 +94,7 @@ def _in_blocks(make: _Block, width: int, *stream: str) -> _Rows:
 
 
 def _families(*names: str) -> _Block:
-    """Rows of several families with one layout in turn."""
+    """Rows of several families with one layout, taken from the families in turn."""
     make = in_turn(*(family_of(name).make for name in names))
     return lambda draw, n, _before: make(draw, n)
 
@@ -104,7 +105,7 @@ def _in_turn(stream: str, *names: str) -> _Rows:
 
 
 def _in_cycle(values: Sequence[Any], n: int, before: int) -> Floats:
-    """The values of `n` rows that take these values, or tuples, in turn, after so many rows before."""
+    """The values of `n` rows that take these values or tuples in turn, after `before` earlier rows."""
     return np.array(values)[(before + np.arange(n)) % len(values)]
 
 
@@ -113,12 +114,12 @@ def _near_contact(draw: Draw, n: int, before: int) -> Rows:
 
 
 def near(draw: Draw, size: Sizes, gaps: tuple[int, int]) -> Rows:
-    """Centres at one radius from the surface, plus or minus m 2^e with e in the range `gaps`, on either side."""
+    """Centres on either side of the surface, one radius plus or minus m 2^e away, with e in the range `gaps`."""
     n = len(size.b)
     near_the_waist = draw.words(n) >> np.uint64(63) == 0
     height = draw.unit(n) * np.where(near_the_waist, np.minimum(size.c, 8.0), size.c)
     gap = draw.signs(n) * draw.log_uniform(n, *gaps)
-    # Inside, a ball touches only a throat that is wider than itself.
+    # Inside, a ball can touch only a throat that is wider than the ball.
     side = np.where(size.a >= 1, draw.signs(n), 1.0)
     return centred(draw, size, *beside_surface(size.a, size.c, height, side * (1 + gap)))
 
@@ -248,7 +249,7 @@ def _an_axis_each(draw: Draw, n: int, _before: int) -> Rows:
 
 
 def _axes_up_to_45_degrees(draw: Draw, n: int) -> Vectors:
-    """Axes that are tilted to any side."""
+    """Axes that are tilted by up to 45° to any side."""
     cosine, sine = draw.circle(n)
     tangent = draw.unit(n)
     return tangent * cosine, tangent * sine, np.ones(n)
@@ -269,7 +270,7 @@ def _tilted_near_contact(draw: Draw, n: int, before: int) -> Rows:
 
 
 def _tilted_near(draw: Draw, sizes: Floats, axis: Vectors) -> Rows:
-    """Centres at one radius from a point of the surface, plus or minus m 2^e with e in NEAR_GAPS, on either side."""
+    """Centres on either side of the surface, one radius plus or minus m 2^e from a point of it, with e in NEAR_GAPS."""
     n = len(sizes)
     height = draw.signs(n) * draw.unit(n)
     gap = draw.signs(n) * draw.log_uniform(n, *NEAR_GAPS)
@@ -384,7 +385,7 @@ def leaning_scenes(names: tuple[str, ...]) -> list[str]:
 def scene_workloads(name: str) -> dict[str, Workload]:
     """The workloads of a scene whose mover is tilted.
 
-    Raises InputError if a hyperboloid is tilted as well, or if nothing is ever asked in the scene.
+    Raises InputError if a hyperboloid is tilted as well, or if the scene has no query.
     """
     scene = read_scene(name)
     tilted = next((body for body in scene.hyperboloids if is_tilted(body.axis)), None)
@@ -427,7 +428,7 @@ def _in_region(scene: SceneModel, settings: tuple[Setting, ...], draw: Draw, n: 
 
 
 def _ends(setting: Setting) -> list[tuple[float, float]]:
-    """The least and the greatest x, y, z of a centre; where the region is open, about the surface."""
+    """The least and the greatest x, y, z of a centre; where the region is open, bounds around the surface."""
     alpha, gamma, b, d = setting.sizes
     open_ends = (REACH * (alpha + b), REACH * (alpha + b), REACH * (gamma + d))
     return [

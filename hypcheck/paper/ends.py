@@ -1,13 +1,13 @@
-"""`simulate … --ends`: what the centre's height misses where a tower, or a tree, ends.
+"""`simulate … --ends`: the errors of a test by the centre's height when a tower, or a tree, ends.
 
-The paper restricts a flight "up to the maximum height of the cooling tower", and says nothing of the body. So its
-flights ask where the centre is alone: below its end a wall goes on for ever, above it there is none. Here each position
-is decided exactly beside the wall as it is, between its two heights (docs/mathematics.md, "Towers that end"). Flights
-and walks go as they go without this option.
+The paper restricts a flight "up to the maximum height of the cooling tower", and does not mention the body's extent. So
+its flights test only the centre's height: below the tower's end the wall is treated as infinite, above it as absent.
+Here each position is decided exactly beside the real wall, between its two heights (docs/mathematics.md, "Towers that
+end"). The option does not change flights and walks.
 
-An answer is *dangerous* where the centre's height allows what the wall that ends does not, and *needless* where it
-refuses what that wall allows. Inside an open wall none is dangerous: its end only takes wall away. Beyond it, and about
-trees, some are.
+An answer is *dangerous* if the test by the centre's height allows a position that the real wall does not allow, and
+*needless* if it refuses a position that the real wall allows. Inside an open wall no answer is dangerous, because its
+end only removes wall. Beyond the wall, and near trees, some answers are.
 """
 
 from __future__ import annotations
@@ -32,19 +32,19 @@ SHOWN = 12
 
 
 def require_ends(scene: SceneModel) -> None:
-    """Raise InputError where nothing in the scene ends."""
+    """Raise InputError if no hyperboloid of the scene ends."""
     if all(body.height is None for body in scene.hyperboloids):
         raise InputError(f"--ends: nothing in the scene {scene.name!r} ends; give its hyperboloids a height")
 
 
 @dataclass(slots=True)
 class EndVerdicts(VerdictCounts):
-    """Answers about a tower by the centre's height, against the exact ones about the wall that ends.
+    """Counts of answers about a tower by the centre's height, compared with exact answers about the wall that ends.
 
-    Of the `asked` moves the body is `reaching` beyond an end where so many lead to, and there `needless` are valid and
-    would be refused, `dangerous` not valid and allowed, if the centre's height were all and the rest exact. Of the
-    `beyond` draws that lead to beyond the tower's height, at which nothing is asked, `touching` meet the wall, which a
-    centre's height does not tell.
+    `asked` is the number of moves that were tested; at the end of `reaching` of them the body reaches beyond an end. If
+    only the centre's height were tested, exactly otherwise, `needless` of these would be refused though valid, and
+    `dangerous` would be allowed though not valid. `beyond` is the number of draws that lead above the tower's height
+    and are not tested; `touching` of them meet the wall, which the centre's height does not show.
     """
 
     asked: int = 0
@@ -70,7 +70,7 @@ class EndVerdicts(VerdictCounts):
 
 
 def _reaching(craft: Craft, z: Floats) -> Mask:
-    """Which bodies at these heights may reach beyond an end; where none does, an end changes nothing."""
+    """A mask of the bodies that may reach beyond an end at these heights; for other bodies an end does not matter."""
     if craft.height is None:
         return np.zeros(z.shape, dtype=np.bool_)
     d = max(craft.sizes[3], craft.rotor[3])
@@ -79,7 +79,7 @@ def _reaching(craft: Craft, z: Floats) -> Mask:
 
 
 def valid_between(craft: Craft, at: Columns, heading: Direction) -> Mask:
-    """Which positions are exactly valid beside the wall that ends: the body interior, or every rotor."""
+    """A mask of the exactly valid positions beside the wall that ends: the body or every rotor is interior."""
     result = np.asarray(_positions(craft, craft.sizes, at) == Position.INTERIOR)
     near = np.flatnonzero(~result)
     rotors = craft.rotors(of(at, near), headed(heading, near))
@@ -94,10 +94,10 @@ def _positions(craft: Craft, sizes: Sizes, at: Columns) -> Positions:
 
 
 def beside_trees(scene: SceneModel, at: Floats, asked: Mask, exterior: Mask) -> dict[str, Any]:
-    """What the centre's height misses at these places, (n, 3), of the trees, (m,), as JSON has it.
+    """The errors of the test by the centre's height at these places, (n, 3), for the trees, (m,), for JSON.
 
-    `asked` (n, m) says where the centre is at a tree's height, `exterior` (n, m) where the mover is exterior to the
-    tree if that had no ends.
+    `asked` (n, m) is a mask of centres at a tree's height, `exterior` (n, m) a mask of movers that are exterior to the
+    tree without ends.
     """
     walker = replace(scene.mover, parts=())
     ended = [

@@ -1,11 +1,11 @@
 """Random flights inside a tower, many at once: the paper's section 4, with Procedure 2.b deciding each movement.
 
-A flight is a sequence of draws. A draw leads to a movement that the procedure is asked about before it is made, at the
-position it leads to; each question is an *execution* of the procedure. The rules, and what the paper leaves open of
-them, are a scene's `Flight`. A vertical draw to beyond the tower's height is drawn again without an execution.
+A flight is a sequence of draws. A draw gives a movement. Before the movement is made, the procedure tests the position
+to which it leads; each test is an *execution* of the procedure. The rules, including those that the paper leaves open,
+are a scene's `Flight`. A vertical draw that leads above the tower's height is drawn again without an execution.
 
-Every draw of a flight takes two words of its block's stream, whatever it leads to, and a block has LANES flights,
-whether they are asked for or not: so a flight depends on nothing but the name of its block and its place in it.
+Every draw of a flight takes two words of its block's stream, whatever its result, and a block always has LANES flights,
+even if fewer are requested: so a flight depends only on the name of its block and its place in the block.
 """
 
 from __future__ import annotations
@@ -39,10 +39,10 @@ Counts = NDArray[np.int64]
 class Moves:
     """The results of one draw, for the flights still under way; arrays (n,) throughout.
 
-    `lane` says which flights; they went, or would have gone, from `start` to `end`. `accepted` and `refused` are
-    movements the procedure was asked about; `vertical` ones go up or down. A turn in place (`turning`) was asked about
-    too where `executed`, and may be refused where its answer is obeyed. `touching` is Δ ≤ 0 at `end`. The heading was
-    `before`; it turned by `turn` degrees, in place.
+    `lane` has the numbers of the flights; they moved, or would have moved, from `start` to `end`. `accepted` and
+    `refused` are movements that the procedure tested; `vertical` movements go up or down. A turn in place (`turning`)
+    was tested too if `executed`, and may be refused if the flight's rules obey the answer. `touching` is Δ ≤ 0 at
+    `end`. The heading was `before`; it turned by `turn` degrees, in place.
     """
 
     lane: NDArray[np.int64]
@@ -71,7 +71,7 @@ class Tallies:
 
     @classmethod
     def of(cls, lanes: int) -> Tallies:
-        """Zeros."""
+        """Tallies of zeros for this many flights."""
         return cls(*(np.zeros(lanes, dtype=np.int64) for _ in fields(cls)))
 
     def add(self, moves: Moves) -> None:
@@ -87,9 +87,9 @@ class Tallies:
 
 @dataclass(slots=True)
 class _State:
-    """The flights under way: where they are, where they head, whether a step ahead is due.
+    """The unfinished flights: their places, their headings, and whether their next draw is a step ahead.
 
-    `left` accepted moves are still to be made; the last `idle` draws led to none.
+    `left` is the number of accepted moves still to make; the last `idle` draws led to no accepted move.
     """
 
     lane: NDArray[np.int64]
@@ -100,7 +100,7 @@ class _State:
     idle: Counts
 
     def kept(self, those: Mask) -> _State:
-        """The state of those flights alone."""
+        """The state of only those flights."""
         (x, y, z), (cosine, sine) = self.at, self.heading
         return _State(
             self.lane[those],
@@ -114,7 +114,7 @@ class _State:
 
 @dataclass(frozen=True, slots=True)
 class _Chosen:
-    """What was drawn for each flight: the way ahead (1, −1 or 0), up or down (likewise), the turn."""
+    """The draw of each flight: the step ahead (1, −1 or 0), the step up or down (1, −1 or 0), the turn."""
 
     ahead: Floats
     up: Floats
@@ -134,8 +134,8 @@ def fly(
 ) -> Tallies:
     """Let `lanes` flights make `moves` accepted moves of length `step` each.
 
-    `draw` is the stream of the block; `lanes` of its LANES flights are flown, the first ones. `observe` sees every
-    draw. Raises InputError where a flight is stuck: nothing it tries is accepted.
+    `draw` is the stream of the block; the first `lanes` of its LANES flights are flown. `observe` gets the results of
+    every draw. Raises InputError if a flight is stuck: no draw is accepted.
     """
     procedures, tallies = quadcopter.Procedures(craft), Tallies.of(lanes)
     state = _begin(craft, flight.start, draw, lanes, moves)
@@ -170,7 +170,7 @@ def _begin(craft: quadcopter.Craft, start: Start, draw: Draw, lanes: int, moves:
 
 
 def _anywhere(draw: Draw) -> quadcopter.Direction:
-    """Directions uniform over the circle."""
+    """Directions, uniform over the circle."""
     words = draw.words(LANES)
     return quadcopter.quarter_turns(
         *quadcopter.small_angle((2 * unit_of(words) - 1) * quadcopter.EIGHTH), (words & np.uint64(3)).astype(np.int64)
@@ -178,7 +178,7 @@ def _anywhere(draw: Draw) -> quadcopter.Direction:
 
 
 def _choose(flight: Flight, due: Mask, words: NDArray[np.uint64]) -> _Chosen:
-    """What the two words of each flight say. A step that is due goes before what they say."""
+    """The choice from the two words of each flight. A step ahead that is due replaces this choice."""
     chance, sense = unit_of(words[0]), np.where(words[0] & np.uint64(1) == 0, 1.0, -1.0)
     straight = ~due & (chance < flight.straight)
     vertical = ~due & ~straight & (chance < flight.straight + flight.vertical)
@@ -201,7 +201,7 @@ def _advance(
     state: _State,
     words: NDArray[np.uint64],
 ) -> Moves:
-    """Draw a move of every flight that is under way, and change the state accordingly; the moves."""
+    """Draw a move for every unfinished flight, and change the state accordingly; return the moves."""
     chosen, start, before = _choose(flight, state.due, words), state.at, state.heading
     heading = _turned(before, chosen.turn)
     end = _moved(start, heading, chosen, step)
@@ -228,7 +228,7 @@ def _moved(start: Columns, heading: quadcopter.Direction, chosen: _Chosen, step:
 
 
 def _beyond(craft: quadcopter.Craft, at: Columns) -> Mask:
-    """Which positions are outside the modelled height."""
+    """A mask of the positions outside the modelled height."""
     z = at[2]
     if craft.height is None:
         return np.zeros(z.shape, dtype=np.bool_)

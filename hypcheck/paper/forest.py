@@ -1,15 +1,15 @@
-"""`simulate forest`: a walk among trees that obeys Procedure 1 in float32, and the exact verdict on each of its steps.
+"""`simulate forest`: a walk among trees that obeys Procedure 1 in float32, and the exact verdict on each step.
 
 The walker of the paper's section 3.1 goes among trees of both types, as in a game.
 
-Table 2 takes out of its loop what the sizes alone decide; here that is done once for each tree. It is asked about the
-walker's centre as seen from the tree's: centres are anywhere, and the difference is rounded to float64, like any other
-position that a game hands over. The exact positions are those of the exact differences.
+Table 2 computes before its loop the numbers that depend only on the sizes; here they are computed once for each tree.
+Its input is the walker's centre relative to the tree's centre. Centres are arbitrary, and the difference is rounded to
+float64, like every position that a game passes. The exact positions use the exact differences.
 
-Every step is asked about before it is made, at the position it leads to, of all trees that stand at that height. Steps
-beyond the scene's region are refused without asking. A step is made or refused for the place it leads to: from one free
-place to another it may still brush a trunk, which `steps_in_contact` finds. `phantom_wall` shows an invisible wall
-closely: where Procedure 1 in float32 reports contact about a place where a phantom stood.
+Before a step is made, the position to which it leads is tested against all trees that exist at that height. Steps
+beyond the scene's region are refused without a test. Only the end of a step is tested: between two free places it may
+touch a trunk; `steps_in_contact` finds such steps. A phantom is a contact that Procedure 1 in float32 reports at a free
+place; `phantom_wall` shows the invisible wall around one.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ class Trees:
 
     @cached_property
     def _lines(self) -> Floats:
-        """K and M of x² + y² > K + M z², a proof of exterior (truth/float_filter.py); inf where λ = α/b proves none."""
+        """K and M of x² + y² > K + M z², a proof of exterior (truth/float_filter.py); inf if λ = α/b gives no proof."""
         bounds = [lines_for_sizes(*map(float, sizes), 0).exterior[:1] for sizes in self.sizes]
         return np.array([bound[0] if bound else (np.inf, 0.0) for bound in bounds])
 
@@ -76,7 +76,7 @@ class Trees:
 
     @cached_property
     def outside_regime(self) -> list[str]:
-        """The trees that Procedure 1 makes no claim about, by name: (γ/d)² < α/b."""
+        """The names of the trees outside Procedure 1's regime: (γ/d)² < α/b."""
         mover = self.scene.mover
         return [
             tree.name
@@ -85,9 +85,10 @@ class Trees:
         ]
 
     def ring(self, tree: int, height: float) -> float | None:
-        """The radius about a tree where Δ is 0 for a walker at this height that touches nothing; None: there is none.
+        """The radius of the ring about a tree, on which Δ = 0 for a clear walker at this height; None without a ring.
 
-        Only a walker whose centre is level with the tree's has one (docs/mathematics.md, "The ring").
+        There is a ring only if the walker's centre is at the height of the tree's centre (docs/mathematics.md, "The
+        ring").
         """
         alpha, gamma, b, d = map(float, self.sizes[tree])
         a, c = alpha / b, gamma / d
@@ -96,36 +97,36 @@ class Trees:
         return b * math.sqrt((c * c + 1) * (a * a + c * c)) / c
 
     def offsets(self, at: Places) -> tuple[Floats, Floats, Floats]:
-        """The walker's centres from each tree's, rounded; (n, m) each."""
+        """The walker's centres relative to each tree's centre, rounded; (n, m) each."""
         x, y, z = np.moveaxis(at[:, None, :] - self.centers, 2, 0)
         return x, y, z
 
     def modelled(self, at: Places) -> Mask:
-        """Which trees stand at the height of the walker's centre, (n, m)."""
+        """A mask of the trees that exist at the height of the walker's centre, (n, m)."""
         level = at[:, None, 2] - self.centers[:, 2]
         return np.asarray((level >= self._heights[:, 0]) & (level <= self._heights[:, 1]))
 
     def proved_by_line(self, at: Places) -> Mask:
-        """Which trees one line proves the walker exterior to, (n, m): two products, two sums and a comparison."""
+        """A mask of trees to which one line proves the walker exterior, (n, m): 2 products, 2 sums, a comparison."""
         x, y, z = self.offsets(at)
         return np.asarray(x * x + y * y > self._lines[:, 0] + self._lines[:, 1] * (z * z))
 
     def exterior(self, at: Places) -> Mask:
-        """Which trees the walker is exterior to, exactly, (n, m)."""
+        """A mask of the trees to which the walker is exterior, exactly, (n, m)."""
         n, m = len(at), len(self.sizes)
         places = np.repeat(at, m, axis=0)
         positions = positions_beside(np.tile(self.sizes, (n, 1)), places, np.tile(self.centers, (n, 1)))
         return np.asarray(positions.reshape(n, m) == Position.EXTERIOR)
 
     def gaps(self, at: Places) -> Floats:
-        """The free way between the walker and each trunk at the walker's height, (n, m); for people, not exact."""
+        """The approximate gap between the walker and each trunk at the walker's height, (n, m); for people only."""
         x, y, z = self.offsets(at)
         alpha, gamma, b, _ = self.sizes.T
         return np.asarray(np.hypot(x, y) - alpha * np.hypot(1.0, z / gamma) - b)
 
 
 class Procedure1:
-    """Table 2 as printed, or Procedure 1 put right, in one format, with the trees' sizes taken out of the loop."""
+    """Table 2 as printed, or the repaired Procedure 1, in one format; steps on trees' sizes are before the loop."""
 
     def __init__(self, trees: Trees, precision: str, *, repaired: bool = False) -> None:
         columns = dict(zip(("alpha", "gamma", "b", "d"), trees.sizes.T, strict=True))
@@ -134,7 +135,7 @@ class Procedure1:
         self._body = loop_body(formula.program, float_arithmetic(precision), columns, (formula.answer,))
 
     def valid(self, at: Places) -> Mask:
-        """Which trees allow the movement, (n, m): whether the walker is taken to be exterior to each."""
+        """A mask of the trees that allow the movement, (n, m): the procedure takes the walker as exterior to them."""
         (answer,) = self._body(dict(zip("xyz", self._trees.offsets(at), strict=True)))
         return np.asarray(answer)
 
@@ -148,9 +149,9 @@ CHUNK = 256
 
 @dataclass(frozen=True, slots=True)
 class WalkSteps:
-    """The steps that were tried, in order: from `start` to `end`, (n, 3); `edge` and `refused` say which were not made.
+    """The tried steps, in order: from `start` to `end`, (n, 3); steps in the masks `edge` and `refused` were not made.
 
-    `refused` are those that Procedure 1 in float32 did not allow.
+    `refused` are the steps that Procedure 1 in float32 did not allow.
     """
 
     start: Places
@@ -160,16 +161,17 @@ class WalkSteps:
 
     @property
     def made(self) -> Mask:
-        """Which steps were made."""
+        """A mask of the steps that were made."""
         return ~(self.edge | self.refused)
 
 
 @dataclass(frozen=True, slots=True)
 class Verdicts:
-    """What is true of the tried steps within the region, for each of them and each tree, (n, m).
+    """The truth and the answers for each tried step within the region and each tree, (n, m).
 
-    `asked`: the tree stands at that height, so its answer counts; `exterior`: exactly so; `line`: one line proves it.
-    `printed` and `repaired` have by format where Table 2, and Procedure 1 put right, allow the step.
+    `asked`: the tree exists at that height, so its answer counts; `exterior`: the walker is exactly exterior; `line`:
+    one line proves this. `printed` and `repaired` are, by format, masks of steps that Table 2 and the repaired
+    Procedure 1 allow.
     """
 
     asked: Mask
@@ -179,14 +181,14 @@ class Verdicts:
     repaired: dict[str, Mask]
 
     def by_all(self, answers: Mask) -> Mask:
-        """Which steps are allowed by the answers of all trees that are asked, (n,)."""
+        """A mask of the steps that the answers about all asked trees allow, (n,)."""
         return np.asarray((answers | ~self.asked).all(axis=1))
 
 
 def walk(
     trees: Trees, rules: Walk, region: Region, steps: int, seed: int, advance: Callable[[int], object] = lambda _: None
 ) -> WalkSteps:
-    """Try so many steps, telling `advance` of each. Raises InputError where the walk would begin outside the region."""
+    """Try `steps` steps, calling `advance` for each. Raises InputError if the walk would begin outside the region."""
     if not bool(_inside(region, np.array([rules.start]))[0]):
         raise InputError(f"the walk starts at {list(rules.start)}, outside the scene's region")
     words = Draw("forest-walk", VERSION, seed).words(2 * steps).reshape(steps, 2)
@@ -212,7 +214,7 @@ def walk(
 
 
 def judged(trees: Trees, at: Places) -> Verdicts:
-    """What is true of a walker at these places."""
+    """The verdicts about a walker at these places."""
     printed, repaired = (
         {
             precision: _in_parts(trees, at, Procedure1(trees, precision, repaired=put_right).valid)
@@ -226,7 +228,7 @@ def judged(trees: Trees, at: Places) -> Verdicts:
 
 
 def _in_parts(trees: Trees, at: Places, ask: Callable[[Places], Mask]) -> Mask:
-    """The answers to a question about many places, CHUNK of them at a time, (n, m)."""
+    """The answers of `ask` for many places, CHUNK of them at a time, (n, m)."""
     none = np.empty((0, len(trees.sizes)), dtype=np.bool_)
     return np.concatenate([none, *(ask(at[place : place + CHUNK]) for place in range(0, len(at), CHUNK))])
 
@@ -243,9 +245,9 @@ CELLS = 121
 
 
 def phantom_wall(trees: Trees, place: Floats, half: float) -> dict[str, Any]:
-    """The answers over a square about a place at its height, as lines of letters from the least y to the greatest.
+    """The answers over a square around a place at its height, as lines of letters from the least y to the greatest.
 
-    e: exterior to every tree, c: not; upper case where float32 says the other. x runs along a line.
+    e: exterior to every tree, c: not; upper case if float32 answers differently. x varies along a line.
     """
     steps = np.linspace(-half, half, CELLS)
     y, x = np.meshgrid(place[1] + steps, place[0] + steps, indexing="ij")
@@ -266,7 +268,7 @@ def phantom_wall(trees: Trees, place: Floats, half: float) -> dict[str, Any]:
 
 
 def steps_in_contact(trees: Trees, steps: WalkSteps) -> dict[str, Any]:
-    """How many of the made steps touch a tree that stands there, decided exactly, and first contacts of some."""
+    """The number of made steps that touch an existing tree, decided exactly, and first contacts of some of them."""
     start, end = steps.start[steps.made], steps.end[steps.made]
     here, there = ((x, y, z) for x, y, z in (start.T, end.T))
     asked, touched = trees.modelled(end), np.zeros((len(end), len(trees.sizes)), dtype=np.bool_)
@@ -311,9 +313,9 @@ WINDOW = 0.1
 
 @dataclass(frozen=True, slots=True)
 class ForestPlan:
-    """What is to be simulated: `steps` of the scene's walk, or as many as it says.
+    """The plan of a simulation: `steps` of the scene's walk, by default the scene's number.
 
-    `continuous`: the sweeps as well; `ends`: places are decided beside trees as they end, too.
+    `continuous`: sweeps are decided too; `ends`: places are also decided beside trees with their ends.
     """
 
     scene: SceneModel
@@ -324,14 +326,14 @@ class ForestPlan:
 
     @property
     def rules(self) -> Walk:
-        """The scene's walk. Raises InputError where it has none."""
+        """The scene's walk. Raises InputError if it has none."""
         if self.scene.walk is None:
             raise InputError(f"the scene {self.scene.name!r} has no [walk]; docs/scenes.md has its keys")
         return self.scene.walk
 
     @property
     def count(self) -> int:
-        """How many steps are tried. Raises InputError where they are too many."""
+        """The number of tried steps. Raises InputError if they are too many."""
         steps = self.rules.steps if self.steps is None else self.steps
         if steps > MOST_STEPS:
             raise InputError(f"{steps:,} steps were asked for; it must be {MOST_STEPS:,} at most")
@@ -339,7 +341,7 @@ class ForestPlan:
 
 
 def simulate_forest(plan: ForestPlan, advance: Callable[[int], object] = lambda _: None) -> dict[str, Any]:
-    """The result, as schemas/simulate-forest-1.1.0.json has it; advanced by tried steps. Raises InputError."""
+    """The result in the form of schemas/simulate-forest-1.1.0.json; `advance` counts tried steps. Raises InputError."""
     require_ordinary(plan.scene)
     if plan.ends:
         require_ends(plan.scene)
@@ -410,7 +412,7 @@ def _steps(steps: WalkSteps, phantom: Mask, free: Mask) -> dict[str, int]:
 
 
 def _phantoms(verdicts: Verdicts, free: Mask) -> dict[str, int]:
-    """Tried steps that lead to a free place and are refused: by each procedure, and by Table 2 after the line test."""
+    """The numbers of steps to a free place that are refused: by each procedure, and by Table 2 after the line test."""
     answers = {
         **verdicts.printed,
         "float32_after_line": verdicts.printed["float32"] | verdicts.line,
@@ -420,7 +422,7 @@ def _phantoms(verdicts: Verdicts, free: Mask) -> dict[str, int]:
 
 
 def _stops(trees: Trees, steps: WalkSteps, phantom: Mask) -> list[dict[str, Any]]:
-    """Every refusal but those at the edge: what refused it, and the free way to the nearest tree that did."""
+    """Every refusal inside the region: its cause, and the gap to the nearest tree that refused."""
     refused = np.flatnonzero(steps.refused)
     verdicts, gaps = judged(trees, steps.end[refused]), trees.gaps(steps.end[refused])
     against = verdicts.asked & ~verdicts.printed["float32"]
@@ -437,7 +439,7 @@ def _stops(trees: Trees, steps: WalkSteps, phantom: Mask) -> list[dict[str, Any]
 
 
 def _wall(trees: Trees, stops: Sequence[dict[str, Any]]) -> dict[str, Any] | None:
-    """The wall that stopped the walker with the most free way before her; None where there was none."""
+    """The invisible wall that stopped the walker with the largest gap; None if there was none."""
     phantoms = [stop for stop in stops if stop["kind"] == "phantom"]
     if not phantoms:
         return None

@@ -1,9 +1,9 @@
-"""Which method to use when: rules over the figures of a benchmark, and the section that states the advice.
+"""Advice on methods: rules over the figures of a benchmark, and the section that states the advice.
 
-A method is *reliable above* a distance on a workload if at most 1 in 1000 of its answers beyond that distance is
-wrong. Faster means a lower ratio to the run's reference on its first timed workload, in a batch unless the need says
-otherwise. Methods whose intervals overlap with that of the fastest, or that differ from it by less than the noise, are
-named with it.
+A method is *reliable above* a distance on a workload if at most 1 in 1000 of its answers beyond that distance is wrong.
+Faster means a lower ratio to the run's reference on its first timed workload, in a batch unless the need says
+otherwise. A method whose interval overlaps with the fastest method's interval, or that differs from it by less than the
+noise, is named with it.
 """
 
 from __future__ import annotations
@@ -67,7 +67,7 @@ POSITION, CLEAR = "position", "clear or not"
 
 @dataclass(frozen=True, slots=True)
 class Need:
-    """What a user needs, where, and the question; errors nearer to contact than `distance` do not matter."""
+    """A user's need: the question, the workloads, and the `distance` from contact below which errors do not matter."""
 
     what: str
     where: str = EVERYWHERE
@@ -86,9 +86,8 @@ class Need:
 class Advice:
     """The advice for a need.
 
-    use: the fastest method that meets the need; `alike` are those as fast within the noise.
-    workload: the workload by whose times it was chosen.
-    errs: workloads on which it is not reliable above the need's distance.
+    use: the fastest method that meets the need; `alike` are the methods as fast within the noise. workload: the
+    workload whose times decided the choice. errs: workloads on which it is not reliable above the need's distance.
     """
 
     need: Need
@@ -99,7 +98,7 @@ class Advice:
 
     @property
     def ratio(self) -> float:
-        """The time of the advised method by that of the run's reference."""
+        """The time of the advised method divided by the time of the run's reference."""
         return self.use.ratio(self.workload, self.need.mode) or 0.0
 
 
@@ -112,11 +111,11 @@ class Recommendations:
 
 
 def recommendations(record: Record) -> Recommendations:
-    """The advice of a record; none if it has no times. Of needs with the same advice only the strictest is kept."""
+    """The advice of a record; none if it has no times. Among needs with the same advice only the strictest is kept."""
     timed = timed_workloads(record)
     advice: list[Advice] = []
     unmet: list[Need] = []
-    if not timed or sweep_totals(record):  # the needs are those of positions
+    if not timed or sweep_totals(record):  # the needs are about positions
         return Recommendations((), ())
     for need, candidates in _needs(measured_methods(record), timed):
         fastest = _fastest(record, candidates, timed[0], need.mode)
@@ -153,7 +152,7 @@ def _needs(methods: Sequence[MeasuredMethod], timed: Sequence[str]) -> Iterator[
     yield Need("never a wrong answer"), exact
     yield Need("never a wrong answer, one query a call", mode=SINGLE), exact
     row_by_row = [method for method in exact if method.tier == "python"]
-    if row_by_row:  # by their batches: a single call may take no longer than the empty one that is subtracted
+    if row_by_row:  # by batches: a single call may take no longer than the empty call that is subtracted
         yield Need("never a wrong answer, a call a row from Python"), row_by_row
     floats = [method for method in position if not method.exact and method.line.kind in IN_FLOATS]
     for precision in ("float64", "float32"):
@@ -199,7 +198,7 @@ def _reliable(
 
 
 def _fastest(record: Record, methods: Iterable[MeasuredMethod], workload: str, mode: str) -> list[MeasuredMethod]:
-    """The fastest method, and after it those as fast within the noise, by their ratios."""
+    """The fastest method, then the methods as fast within the noise, ordered by their ratios."""
     ranked = by_ratio(methods, workload, mode)
     if not ranked:
         return []
@@ -216,7 +215,7 @@ def _fastest(record: Record, methods: Iterable[MeasuredMethod], workload: str, m
 
 
 def dominated_methods(record: Record) -> list[tuple[MeasuredMethod, MeasuredMethod]]:
-    """Methods for which another of the same tier and question is certainly faster, and reliable at least as near."""
+    """Methods that another method of the same tier and question beats: certainly faster, as reliable near contact."""
     methods = [method for method in measured_methods(record) if method.line.kind != "bounding"]
     timed = [name for name in workloads(record) if any((name, BATCH) in method.speed for method in methods)]
     pairs = []
@@ -282,9 +281,9 @@ def advice_facts(record: Record) -> Iterator[str]:
 
 
 def _price_sentences(record: Record) -> Iterator[Text]:
-    """The price of exactness in a batch: the time of the fastest method that was never wrong, by that of one that was.
+    """The price of exactness in a batch: the time of the fastest never-wrong method over the fastest other's time.
 
-    Both are the fastest of their kind on the first timed workload; nothing if there is none of a kind.
+    Both are the fastest of their kind on the first timed workload; empty if a kind has no method.
     """
     timed, known = timed_workloads(record), workloads(record)
     ranked = by_ratio(measured_methods(record), timed[0]) if timed else []
@@ -302,7 +301,7 @@ def _price_sentences(record: Record) -> Iterator[Text]:
 
 
 def own_method_facts(record: Record) -> Iterator[str]:
-    """The user's methods of a benchmark: how near to contact each errs, and its time."""
+    """The user's methods of a benchmark: the distance from contact at which each errs, and its time."""
     methods, other, known = measured_methods(record), reference(record) or "the reference", workloads(record)
     for method in methods:
         if not method.foreign:
@@ -320,7 +319,7 @@ def own_method_facts(record: Record) -> Iterator[str]:
 
 
 def best_rival_facts(record: Record) -> Iterator[str]:
-    """Each of the user's methods against the fastest that errs no farther from contact."""
+    """Each of the user's methods, compared with the fastest method that errs no farther from contact."""
     methods, timed = measured_methods(record), timed_workloads(record)
     for method in methods:
         own = method.ratio(timed[0]) if timed else None
@@ -345,7 +344,7 @@ def best_rival_facts(record: Record) -> Iterator[str]:
 
 
 def own_method_sections(record: Record) -> Iterator[Section]:
-    """The user's methods: errors, times, and each against the best that is as reliable; none if there are none."""
+    """The user's methods: errors, times, a comparison with the best equally reliable one; none without such methods."""
     items = [f"{fact}." for fact in (*best_rival_facts(record), *own_method_facts(record))]
     if items:
         yield Section("Your methods", (bullets(items),))

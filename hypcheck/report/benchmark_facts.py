@@ -1,4 +1,4 @@
-"""What each line of a benchmark says: its name, measurements, failures and sentences; and the table of all types."""
+"""The facts of each line of a benchmark: its name, measurements, failures and sentences; and a table of all types."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ class TimedFacts(LineFacts[Timed]):
 
 
 class AccuracyFacts(LineFacts[AccuracyLine]):
-    """A method's answers on a workload; one that promises to be exact fails the run where it errs."""
+    """A method's answers on a workload; a wrong answer of a method that promises to be exact fails the run."""
 
     @property
     def name(self) -> str:
@@ -123,7 +123,7 @@ class RefusedFacts(TimedFacts[RefusedLine]):
 
 
 class ComparisonFacts(TimedFacts[ComparisonLine]):
-    """A ratio held to the baseline's: a slower or noisy one that gates fails the run."""
+    """A ratio compared with the baseline's; a gating method that is slower, or too noisy to tell, fails the run."""
 
     def measurements(self) -> Iterator[Measurement]:
         line, where = self.line, (self.line.method, self.line.workload, self.line.mode)
@@ -148,7 +148,7 @@ class ComparisonFacts(TimedFacts[ComparisonLine]):
 
 
 class SceneFacts(LineFacts[SceneLine]):
-    """The kernel of a scene by Table 2; a wrong answer fails the run."""
+    """The kernel of a scene, timed relative to Table 2; a wrong answer fails the run."""
 
     @property
     def name(self) -> str:
@@ -176,7 +176,7 @@ class SceneFacts(LineFacts[SceneLine]):
 
 
 class ForestFacts(LineFacts[ForestLine]):
-    """A method for a walker among trees; one that promises to be exact fails the run where it errs."""
+    """A method for a walker among trees; a wrong answer of one that promises to be exact fails the run."""
 
     @property
     def name(self) -> str:
@@ -233,7 +233,7 @@ class KernelFacts(LineFacts[KernelLine]):
 
 
 class NoiseFacts(LineFacts[NoiseLine]):
-    """How far two times of one method differ."""
+    """The relative difference between two times of the same method."""
 
     def measurements(self) -> Iterator[Measurement]:
         line = self.line
@@ -249,7 +249,7 @@ class MemoryFacts(LineFacts[MemoryLine]):
 
 
 class StabilityFacts(LineFacts[StabilityLine]):
-    """A method over sizes of pairs."""
+    """A method's errors over sizes of pairs."""
 
     def measurements(self) -> Iterator[Measurement]:
         line = self.line
@@ -259,7 +259,7 @@ class StabilityFacts(LineFacts[StabilityLine]):
 
 
 class PlacesFacts(LineFacts[PlacesLine]):
-    """A method over places of a region."""
+    """A method's errors over places of a region."""
 
     def measurements(self) -> Iterator[Measurement]:
         letters = "".join(self.line.wrong)
@@ -268,7 +268,7 @@ class PlacesFacts(LineFacts[PlacesLine]):
 
 
 class ConvergenceFacts(LineFacts[ConvergenceLine]):
-    """A method on meshes of a number of triangles."""
+    """A method's errors and time on meshes with a given number of triangles."""
 
     def measurements(self) -> Iterator[Measurement]:
         names = ("build_ns", "query_ns", "deviation", "asked", "wrong")
@@ -276,7 +276,7 @@ class ConvergenceFacts(LineFacts[ConvergenceLine]):
 
 
 class BoundingFacts(LineFacts[BoundingLine]):
-    """A shape around the spheroid in its place."""
+    """The errors of a bounding shape that replaces the spheroid."""
 
     def measurements(self) -> Iterator[Measurement]:
         line, where = self.line, (self.line.shape, self.line.workload)
@@ -309,7 +309,7 @@ class CostFacts(LineFacts[CostLine]):
 
 
 class AbsentFacts(LineFacts[AbsentLine]):
-    """What is not installed."""
+    """A program or package that is not installed."""
 
     @property
     def name(self) -> str:
@@ -352,7 +352,7 @@ FACTS: Mapping[type[RecordLine], type[LineFacts[Any]]] = {
 
 
 def facts_of(record: Record, *kinds: type[RecordLine]) -> list[LineFacts[Any]]:
-    """The facts of all lines, or of those of these types, in the order of the record."""
+    """The facts of all lines, or of the lines of these types, in the order of the record."""
     context = RecordContext(record)
     return [
         FACTS[type(line)](line, context)
@@ -372,7 +372,7 @@ def sentences_of(record: Record, *kinds: type[RecordLine]) -> Iterator[str]:
 
 
 def benchmark_failures(record: Record) -> Iterator[Failure]:
-    """Exact methods that erred, answers that changed while they were timed, slowness, noise."""
+    """A benchmark's failures: exact methods that erred, answers that changed during the timing, slowness, noise."""
     for line_facts in accuracy_facts(record):
         yield from line_facts.failures()
     for kind in (RefusedLine, ForestLine, SceneLine):
@@ -382,14 +382,14 @@ def benchmark_failures(record: Record) -> Iterator[Failure]:
 
 
 def accuracy_facts(record: Record) -> list[LineFacts[Any]]:
-    """The facts of what was answered, method by method."""
+    """The facts about answers, method by method."""
     context = RecordContext(record)
     methods = context.methods.values()
     return [AccuracyFacts(line, context) for method in methods for line in method.accuracy.values()]
 
 
 def _without_baseline(record: Record) -> Iterator[Failure]:
-    """A run in which no speed could be compared with the baseline has not passed."""
+    """The failure of a run with a baseline in which no speed could be compared with it."""
     if record.header.options.get("baseline") and not any(line.gates for line in record.of(ComparisonLine)):
         message = "nothing was compared with the baseline: no gated time was measured in both runs"
         yield Failure(MEASUREMENT, "baseline", "all workloads", INCONCLUSIVE, message)

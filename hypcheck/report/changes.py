@@ -1,7 +1,7 @@
-"""What changed from one record to another: statuses by family, worst errors, errors by workload, ratios of times.
+"""Changes between two records: statuses by family, worst errors, errors by workload, ratios of times.
 
 Times themselves are never compared, since the records may be of two machines, or of two days. A ratio compares two
-methods within one run, and its interval says how exactly that run measured it.
+methods within one run, and its interval gives the accuracy of that run's measurement.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ FASTER, SLOWER, UNCLEAR = "faster", "slower", "no difference shown"
 
 @dataclass(frozen=True, slots=True)
 class StatusChange:
-    """A family of an implementation whose cases ended differently: its lines before and after."""
+    """A family of an implementation with changed statuses or errors: its lines before and after."""
 
     implementation: str
     before: GroupLine
@@ -46,7 +46,7 @@ class StatusChange:
 
     @property
     def worse(self) -> bool:
-        """Whether more cases ended other than right, or the worst error is greater."""
+        """Whether the share of cases that are not right, or the worst error, is greater."""
         return _bad(self.after) > _bad(self.before) or worst_u(self.after) > worst_u(self.before)
 
 
@@ -70,7 +70,7 @@ class RatioChange:
 
     @property
     def verdict(self) -> str:
-        """FASTER or SLOWER if the intervals are apart, UNCLEAR if they overlap or are not known."""
+        """FASTER or SLOWER if the intervals are disjoint, UNCLEAR if they overlap or are not known."""
         before, after = self.before[1], self.after[1]
         if before is None or after is None:
             return UNCLEAR
@@ -80,13 +80,13 @@ class RatioChange:
 
 
 def _bad(group: GroupLine) -> float:
-    """The share of asked cases that did not end right."""
+    """The share of tested cases that are not right."""
     asked = sum(cases for status, cases in group.counts.items() if status != "skipped")
     return 1 - group.counts.get("right", 0) / asked if asked else 0.0
 
 
 def status_changes(before: Record, after: Record) -> list[StatusChange]:
-    """Families of both records whose counts by status or worst errors differ; those that got worse first."""
+    """The families of both records whose counts by status or worst errors differ; worse families come first."""
     changed = []
     for (name, _), (old, new) in _shared(_groups(before), _groups(after)):
         all_right = set(old.counts) == set(new.counts) == {"right"}
@@ -114,7 +114,7 @@ def _errors(line: AccuracyLine) -> tuple[int, int, float]:
 
 
 def ratio_changes(before: Record, after: Record) -> list[RatioChange]:
-    """Every method that both records have timed against their reference, those with a difference first."""
+    """Every method that both records have timed against their reference; methods with a difference come first."""
     ratios = [RatioChange(*key, *pair) for key, pair in _shared(_ratios(before), _ratios(after))]
     return sorted(ratios, key=lambda change: [SLOWER, FASTER, UNCLEAR].index(change.verdict))
 
@@ -138,7 +138,7 @@ def _accuracies(record: Record) -> dict[tuple[str, str], AccuracyLine]:
 
 
 def only_in_one(before: Record, after: Record) -> Iterator[str]:
-    """Sentences about the implementations and methods, and the families of shared ones, that one record lacks."""
+    """Sentences about implementations and methods that one record lacks, and about families lacking in shared ones."""
     old, new = _groups(before), _groups(after)
     measured = [{line.method for line in record.of(AccuracyLine)} for record in (before, after)]
     for mine, others, which in ((old, new, "the other record"), (new, old, "this record")):
@@ -177,7 +177,7 @@ def _differing(before: Mapping[str, Any], after: Mapping[str, Any]) -> Iterator[
 
 
 def _shared(before: Mapping[Key, Value], after: Mapping[Key, Value]) -> list[tuple[Key, tuple[Value, Value]]]:
-    """The keys of both with their two values."""
+    """The keys that both have, with their two values."""
     return [(key, (before[key], after[key])) for key in before if key in after]
 
 

@@ -1,7 +1,7 @@
-"""What code hosts show of a run: failures beside the code, in SARIF and in GitLab's format, a badge, GitHub's outputs.
+"""Outputs for code hosts: failures at lines of code, in SARIF and in GitLab's format, a badge, GitHub's outputs.
 
 A step of GitHub Actions has annotations on standard output, and a summary. Workflow commands are lines that begin with
-"::", after blanks too; "##[" anywhere in a line is the older form. Foreign text is printed between a pair of commands
+"::", also after blanks; the older form is "##[" anywhere in a line. Foreign text is printed between a pair of commands
 that suspends both forms.
 """
 
@@ -33,7 +33,7 @@ from hypcheck.runs.fingerprint import sha256
 
 @dataclass(frozen=True, slots=True)
 class CodePlace:
-    """A file, relative to the working directory where it lies under it, and a line from 1; None: it is not known."""
+    """A file, relative to the working directory if it is inside, and a line number from 1; None if not known."""
 
     file: str
     line: int | None = None
@@ -49,18 +49,18 @@ class PlacedFailure:
 
     @property
     def rule(self) -> str:
-        """What it breaks, in one word for programs: implementation/wrong."""
+        """The id of the broken rule, for programs: implementation/wrong."""
         return sentence(f"{self.failure.subject}/{self.failure.kind}")
 
     @property
     def message(self) -> str:
-        """What happened, and the command that shows it."""
+        """The failure's message, and the command that shows it."""
         replay = f"; replay: {self.failure.replay}" if self.failure.replay else ""
         return sentence(f"{self.failure.message}{replay}")
 
     @property
     def certain(self) -> bool:
-        """Whether it is known to be a failure, and not only too noisy to tell."""
+        """Whether it is certainly a failure; False if noise prevents a decision."""
         return self.failure.kind != INCONCLUSIVE
 
 
@@ -69,7 +69,7 @@ UNKNOWN = CodePlace(FILE)
 
 
 def placed_failures(record: Record) -> list[PlacedFailure]:
-    """Every failure of a run, worst first; a run that ended badly has that as its first."""
+    """Every failure of a run, worst first; if the run ended badly, this is the first failure."""
     failed = failures(record)
     ended = ended_badly(record, failed)
     known = dict(_places(record))
@@ -84,7 +84,7 @@ def placed_failures(record: Record) -> list[PlacedFailure]:
 
 
 def _places(record: Record) -> Iterator[tuple[str, CodePlace]]:
-    """The place of each implementation under test for which one is known, by its name in reports."""
+    """The known places of implementations under test, by their names in reports."""
     hashes = record.header.files or {}
     for tested in under_test(record):
         try:
@@ -97,7 +97,7 @@ def _places(record: Record) -> Iterator[tuple[str, CodePlace]]:
 
 
 def _file(spec: Spec, hashes: Mapping[str, str]) -> str | None:
-    """The file of an implementation: of a command the first argument that names one, else its program if a path."""
+    """The file of an implementation; of a command, the first argument that names a file, else the program's path."""
     first, *arguments = spec.words
     match spec.kind:
         case "library":
@@ -116,14 +116,14 @@ def _file(spec: Spec, hashes: Mapping[str, str]) -> str | None:
 
 
 def _relative(file: str) -> str:
-    """The file relative to the working directory, where it lies under it, with forward slashes."""
+    """The file, relative to the working directory if it is inside, with forward slashes."""
     here = Path.cwd()
     path = Path(file)
     return (path.relative_to(here) if path.is_relative_to(here) else path).as_posix()
 
 
 def _line(spec: Spec, file: str, recorded: str | None) -> int | None:
-    """The line of a Python function in its file; None if the file is another now, or does not define it by name."""
+    """The line of a Python function in its file; None if the file has changed, or does not define it by name."""
     if spec.kind != "python" or recorded is None or sha256(Path(file)) != recorded:
         return None
     name = re.escape(spec.words[1])
@@ -215,7 +215,7 @@ def _cause_rule(facts: CauseFacts) -> dict[str, Any]:
 
 
 def _cause_result(facts: CauseFacts, rule: int, place: CodePlace) -> dict[str, Any]:
-    """A note: the failures that it explains are results of their own."""
+    """A note about a cause; the failures that it explains are separate results."""
     digest = hashlib.sha256(f"cause\0{facts.line.spec}\0{facts.name}".encode("utf-8", "replace")).hexdigest()
     return {
         "ruleId": sentence(facts.name),
@@ -254,7 +254,7 @@ def render_gitlab(record: Record) -> bytes:
 
 
 def render_badge(record: Record) -> bytes:
-    """badge.json: how the run ended, as shields.io draws it from an address (its endpoint schema, version 1)."""
+    """badge.json: the result of the run, in the schema of shields.io's endpoint badge, version 1."""
     message, color = _badge_text(record)
     badge = {"schemaVersion": 1, "label": "hypcheck", "message": message, "color": color}
     return (json.dumps(badge, ensure_ascii=False) + "\n").encode("utf-8")
@@ -286,7 +286,7 @@ _PROPERTY = {**_DATA, ":": "%3A", ",": "%2C"}
 
 
 def on_github(environment: Mapping[str, str]) -> bool:
-    """Whether these environment variables are those of a step of GitHub Actions."""
+    """Whether these environment variables show a step of GitHub Actions."""
     return environment.get("GITHUB_ACTIONS") == "true"
 
 
@@ -325,7 +325,7 @@ def _escaped(text: str, escapes: Mapping[str, str]) -> str:
 
 
 def append_summary(record: Record, path: Path) -> str | None:
-    """Append the report to a step's summary; returns the reason if that fails, which does not fail the run."""
+    """Append the report to a step's summary; returns the reason if this fails, which is no failure of the run."""
     try:
         already = path.stat().st_size if path.exists() else 0
         with path.open("ab") as file:

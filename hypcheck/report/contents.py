@@ -1,4 +1,4 @@
-"""The content of reports: title, verdict and sections in reading order; and the overview, a report on one page."""
+"""The content of reports: title, verdict and sections in reading order; and of the overview, a report on one page."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ from hypcheck.runs.judge import in_words, truth_in_words
 
 
 def settings_sections(record: Record) -> Iterator[Section]:
-    """The settings file of the run and the options that weaken its gate; none if there are neither."""
+    """The settings file of the run and the options that weaken its gate; none if the run has neither."""
     facts = list(settings_facts(record.header.settings))
     if facts:
         items = [Strong(f"{fact[:1].upper()}{fact[1:]}.") for fact in facts]
@@ -55,7 +55,7 @@ def settings_sections(record: Record) -> Iterator[Section]:
 
 
 def run_sections(record: Record) -> Iterator[Section]:
-    """When, on what machine, with which versions and options; every record has this section."""
+    """The time, machine, versions and options of the run; every record has this section."""
     header, machine = record.header, record.header.machine
     versions = {"hypcheck": header.hypcheck, "Python": header.python, **header.versions}
     seconds = f", took {figure(record.footer.seconds)} s" if record.footer else ""
@@ -122,7 +122,7 @@ def _omitted_failures(left_out: int) -> list[Text]:
 
 
 def square_sections(record: Record) -> Iterator[Section]:
-    """How often each answer was given where each was right; none if no answer was wrong."""
+    """The table of given answers by right answers, for each implementation; none if no answer was wrong."""
     if verdict(record).passed:
         return
     blocks: list[Block] = []
@@ -140,7 +140,7 @@ _CAUSES = prose(
 
 
 def cause_sections(record: Record) -> Iterator[Section]:
-    """The causes of wrong answers with their remedies; none if nothing was wrong, or the record is of before 1.7.0."""
+    """The causes of wrong answers with their remedies; none without wrong answers, or in records before 1.7.0."""
     causes = cause_facts(record)
     if not causes:
         return
@@ -166,12 +166,12 @@ ON_THE_RING = (1.0, 2.0, 1.0, 1.0, 2.5, 0.0, 0.0)
 
 
 def can_be_drawn(row: Sequence[float]) -> bool:
-    """Whether the half plane shows the truth about a row: a valid one of an upright spheroid that stands still."""
+    """Whether the half plane shows the truth about a row: a valid row of an upright spheroid that does not move."""
     return len(row) > 0 and not PAIRS.has_axis(row) and trouble_with_row(row) is None  # a case may have no row
 
 
 def explorer_sections(record: Record) -> Iterator[Section]:
-    """The bodies of a failing case, to be moved; none if no failing case can be drawn."""
+    """The picture with the bodies of a failing case, which a reader can move; none if no failing case can be drawn."""
     shown = list(shown_case(record))
     rows = [failure.row for failure in failures(record) if can_be_drawn(failure.row)]
     if shown or rows:
@@ -184,9 +184,9 @@ _ON_THE_RING = Section("Look closer", (Explorer(ON_THE_RING),), page=True)
 
 
 def shown_case(record: Record) -> Iterator[tuple[tuple[float, ...], Text]]:
-    """The wrong answer with the greatest error whose bodies one can see: its row and a sentence; none without any.
+    """The drawable wrong answer with the greatest error: its row and a sentence; None if there is no such answer.
 
-    One whose wall is flat or far is taken only if there is no other.
+    An answer whose wall looks flat or is far away is taken only if there is no other.
     """
     failing = [
         (case, from_hex(numbers_of(case)), total)
@@ -206,7 +206,7 @@ _ALIKE = 20.0
 
 
 def _spread(row: Sequence[float]) -> float:
-    """How much the sizes of waist and spheroid differ, or four times the radii to the wall, if that is more."""
+    """The ratio of the sizes of waist and spheroid, or four times the radii to the wall if this is more."""
     alpha, gamma, b, d, x, y, z = row
     gap = abs(math.hypot(x, y) - alpha * math.hypot(1, z / gamma))
     return max(max(alpha, b, d) / min(alpha, b, d), 4 * gap / b)
@@ -219,7 +219,7 @@ def _flat(row: Sequence[float]) -> bool:
 
 
 def compared_sections(record: Record) -> Iterator[Section]:
-    """What a benchmark compared: methods, workloads, and what was missing; none if nothing was measured."""
+    """The subjects of a benchmark: methods, workloads, missing requirements; none if nothing was measured."""
     methods = measured_methods(record)
     if not methods:
         return
@@ -297,7 +297,7 @@ PASSING = tuple(part for part in PARTS if part not in (accuracy.family_sections,
 
 @dataclass(frozen=True, slots=True)
 class ReportContent:
-    """What a report for people shows."""
+    """The content of a report for people."""
 
     title: str
     verdict: Verdict
@@ -305,7 +305,7 @@ class ReportContent:
 
 
 def content(record: Record, against: Record | None = None) -> ReportContent:
-    """The content of a report; with another record, the changes follow the failures."""
+    """The content of a report; with another record `against`, the changes follow the failures."""
     ended = verdict(record)
     first, later = (FAILING, PARTS) if not ended.passed else ((), PASSING if under_test(record) else PARTS)
     failing = [section for part in first for section in part(record)]
@@ -317,7 +317,7 @@ def content(record: Record, against: Record | None = None) -> ReportContent:
 
 
 def report_title(record: Record) -> str:
-    """The command that made the record."""
+    """The title of a report: the command that made the record."""
     return f"hypcheck {record.header.options.get('command', 'verify')}"
 
 
@@ -329,7 +329,7 @@ _OTHER_REPORTS = (
 
 
 def overview(record: Record, beside: Collection[str]) -> ReportContent:
-    """The content of the page; it shows the pictures among the files `beside` it."""
+    """The content of the overview; it shows the pictures among the files `beside` it."""
     parts = (oracle_facts, paper_facts, method_facts, benchmark_facts)
     shows = bullets([f"{fact[:1].upper()}{fact[1:]}." for part in parts for fact in part(record)])
     pictures = tuple(figures for figures in (verification.MAP, FRONT, PARETO, ERRORS) if figures.file in beside)

@@ -1,7 +1,8 @@
 """measurements.csv: every measurement of a record, one on each line, for spreadsheets and statistics.
 
 A line is [kind, method, workload, detail, quantity, value, low, high]: the type of the record's line, the method, the
-workload or family, a detail that tells it from similar ones, and the value, with an interval if there is one.
+workload or family, a detail that distinguishes it from similar measurements, and the value, with an interval if there
+is one.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""A report as values that know no format: sections of paragraphs, lists, tables and figures.
+"""A report as values without a format: sections of paragraphs, lists, tables and figures.
 
-Text is foreign unless it went through `prose`; each renderer escapes it.
+Text is foreign unless `prose` returned it; each renderer escapes it.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ LONGEST = 2000
 
 @dataclass(frozen=True, slots=True)
 class Code:
-    """Text to type or copy: a name, an id, a command. Of a case's id, `row` are its numbers, which the page draws."""
+    """Text to type or copy: a name, an id, a command. For a case's id `row` has its numbers, which the page draws."""
 
     text: str
     row: tuple[float, ...] = ()
@@ -48,7 +48,7 @@ _MARKS = re.compile(r"`([^`]+)`|\*\*(.+?)\*\*|\*(.+?)\*")
 
 
 def prose(words: str) -> Text:
-    """Text of hypcheck with marks for `code`, **strong** and *emphasised*; never for foreign text."""
+    """Text of hypcheck whose marks are parsed: `code`, **strong** and *emphasised*; never call it with foreign text."""
     parts: list[Text] = []
     end = 0
     for mark in _MARKS.finditer(words):
@@ -60,7 +60,7 @@ def prose(words: str) -> Text:
 
 
 def bounded(foreign: str) -> str:
-    """The text; a text of more than LONGEST characters is cut, and its length is added."""
+    """The text; if it has more than LONGEST characters, it is cut and its length is added."""
     return foreign if len(foreign) <= LONGEST else f"{foreign[:LONGEST]}… ({len(foreign):,} characters)"
 
 
@@ -107,7 +107,7 @@ class Column:
 
 @dataclass(frozen=True, slots=True)
 class TableBlock:
-    """A table; `name` says what it holds, for readers who do not see the heading."""
+    """A table; `name` describes its content for readers who do not see the heading."""
 
     name: str
     columns: tuple[Column, ...]
@@ -123,7 +123,7 @@ class Paragraph:
 
 @dataclass(frozen=True, slots=True)
 class Item:
-    """An item of a list, with items of its own below it."""
+    """An item of a list, with a sublist of items."""
 
     text: Text
     below: tuple[Text, ...] = ()
@@ -131,16 +131,16 @@ class Item:
 
 @dataclass(frozen=True, slots=True)
 class Bullets:
-    """A list; one without items is not shown."""
+    """A list; an empty list is not shown."""
 
     items: tuple[Item, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class Figures:
-    """The plots of that name, if they can be drawn; `file` is the picture of them beside a text.
+    """The plots of that name, if they can be drawn; a text refers to the picture `file` beside it instead.
 
-    `small` plots stand side by side; `legend` says what the roles of their colours mean.
+    `small` plots are placed side by side; `legend` explains the roles of their colours.
     """
 
     name: str
@@ -152,7 +152,7 @@ class Figures:
 
 @dataclass(frozen=True, slots=True)
 class Explorer:
-    """The picture whose bodies a reader can move, which only the page has; it begins with a row of seven numbers."""
+    """The picture whose bodies a reader can move; only the page has it. It begins with a row of seven numbers."""
 
     row: tuple[float, ...]
 
@@ -167,7 +167,7 @@ class Details:
 
 @dataclass(frozen=True, slots=True)
 class Either:
-    """Two forms of a block: for the page, which sorts and filters, and for a text."""
+    """Two forms of a block: one for the page, which can sort and filter, and one for a text."""
 
     page: Block
     text: Block
@@ -180,7 +180,7 @@ Block = Paragraph | Bullets | TableBlock | Figures | Explorer | Details | Either
 class Section:
     """A part of a report under a heading; `level` 2 is a part of the report, 3 a part of the section before it.
 
-    `page`: only the page has it, and a text has not.
+    `page`: only the page has this section; a text does not.
     """
 
     title: Text
@@ -215,7 +215,7 @@ def measured(value: float | None, interval: Sequence[float] | None = None) -> Ta
 
 
 def paced(ratio: float | None, interval: tuple[float, float] | None = None) -> TableCell:
-    """The cell of a time by that of the method that the column names: "24 times as fast"; a dash without a ratio."""
+    """The cell of a time relative to the method that the column names: "24 times as fast"; a dash without a ratio."""
     return TableCell(MISSING) if ratio is None else TableCell(pace(ratio, interval=interval), ratio)
 
 
@@ -230,7 +230,7 @@ def number(title: Text, hint: str = "") -> Column:
 
 
 def against(other: str | None, hint: str = "") -> Column:
-    """The column of times by that of a method; None: of the reference, which has no name."""
+    """The column of times relative to another method; None: the reference, which has no name."""
     return number("against the reference" if other is None else ("against ", Code(other)), hint)
 
 

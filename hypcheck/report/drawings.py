@@ -1,7 +1,7 @@
 """Plots as text, each drawn once for all the reports that show it. matplotlib is loaded when a plot is drawn.
 
-matplotlib takes a tenth of a second for a plot, and a benchmark has a hundred of them, so those of a large record are
-drawn ahead by all processors.
+matplotlib takes a tenth of a second for a plot, and a benchmark has a hundred plots. Therefore all processors draw the
+plots of a large record in advance.
 """
 
 from __future__ import annotations
@@ -35,11 +35,10 @@ Drawings = Mapping[str, tuple[DrawnPlot, ...]]
 
 @dataclass(frozen=True, slots=True)
 class ReportContext:
-    """What a report is made of besides its record.
+    """The inputs of a report besides its record.
 
-    beside: the names of the files that stand beside it; it refers to pictures among them.
-    against: another record, with which reports that compare show the changes.
-    drawings: plots that were drawn already.
+    beside: the names of the files in the report's folder; the report refers to pictures among them. against: another
+    record; reports that compare show the changes from it. drawings: the plots that were drawn in advance.
     """
 
     beside: Collection[str] = ()
@@ -57,9 +56,9 @@ def drawn_plots(name: str, record: Record, drawings: Drawings) -> tuple[DrawnPlo
 
 
 def draw_ahead(record: Record, least: int = MANY, names: Collection[str] | None = None) -> Drawings:
-    """All plots, or those of these names, of a record with `least` lines that have plots.
+    """Draw all plots, or the plots of these names, if the record has at least `least` lines with plots.
 
-    None of a smaller one, or if they cannot be drawn here, or a process was killed.
+    Returns no plots for a smaller record, if plots cannot be drawn here, or if a process was killed.
     """
     if sum(isinstance(line, (AccuracyLine, PlacesLine, StabilityLine)) for line in record.lines) < least:
         return {}

@@ -1,7 +1,7 @@
-"""What each line of a verification's record says: its name, measurements, failures and sentences, stated once.
+"""The facts of each line of a verification's record: its name, measurements, failures and sentences, stated once.
 
-A format takes these finished facts and renders them; it interprets no line itself. The facts of a benchmark's lines
-stand in benchmark_facts.py, which also has the table of all types of lines.
+A format renders these facts; it does not interpret lines. The facts of a benchmark's lines are in benchmark_facts.py,
+which also has the table of all types of lines.
 """
 
 from __future__ import annotations
@@ -33,18 +33,13 @@ Line = TypeVar("Line", bound=RecordLine)
 
 @dataclass(frozen=True, slots=True)
 class Failure:
-    """One thing that fails a run.
+    """A failure of a run.
 
-    subject: "proof", "oracle", "implementation", "findings", "measurement", or "run": how it ended.
-    name: the one that failed.
-    group: the family, the quantity or the workload.
-    kind: one word for what happened.
-    message: one sentence about it, without a full stop.
-    case: the id of the first case, if there is one.
-    place: its place in the record.
-    replay: the command that shows it.
-    row: the numbers of the case.
-    count: how many failures of its kind it stands for.
+    subject: what failed: "proof", "oracle", "implementation", "findings", "measurement", or "run" (how it ended). name:
+    the name of the subject that failed. group: the family, the quantity or the workload. kind: one word for the
+    failure. message: one sentence about it, without a full stop. case: the id of the first case, if there is one.
+    place: its place in the record. replay: the command that shows it. row: the numbers of the case. count: the number
+    of failures of its kind that it represents.
     """
 
     subject: str
@@ -69,7 +64,7 @@ class NotJudged:
 
 @dataclass(frozen=True)
 class RecordContext:
-    """A record, and what the facts of one line need of its other lines."""
+    """A record, with the data of its other lines that the facts of one line need."""
 
     record: Record
 
@@ -97,7 +92,7 @@ class LineFacts(Generic[Line]):
 
     @property
     def name(self) -> str:
-        """The name of what the line is about, which does not depend on the result."""
+        """The name of the line's subject; it does not depend on the result."""
         return ""
 
     def measurements(self) -> Iterator[Measurement]:
@@ -105,11 +100,11 @@ class LineFacts(Generic[Line]):
         yield from ()
 
     def failures(self) -> Iterator[Failure]:
-        """What of the line fails the run, worst first."""
+        """The failures of the line, worst first."""
         yield from ()
 
     def headline(self) -> str:
-        """One sentence for all failures of the line together; "" where their own messages say it."""
+        """One sentence for all failures of the line together; "" if their messages are enough."""
         return ""
 
     def not_judged(self) -> NotJudged | None:
@@ -117,11 +112,11 @@ class LineFacts(Generic[Line]):
         return None
 
     def sentences(self) -> Iterator[str]:
-        """What the line says, in sentences without a full stop."""
+        """The content of the line, in sentences without a full stop."""
         yield from ()
 
     def seconds(self) -> float | None:
-        """The time that was spent on it; None if that was not measured."""
+        """The time that was spent on the line's subject; None if it was not measured."""
         return None
 
     def fields(
@@ -133,7 +128,7 @@ class LineFacts(Generic[Line]):
 
 
 class ProofFacts(LineFacts[lines.ProofLine]):
-    """A quantity of a formula: it holds, or the run fails."""
+    """A quantity of a formula; if it does not hold, the run fails."""
 
     @property
     def name(self) -> str:
@@ -153,7 +148,7 @@ class ProofFacts(LineFacts[lines.ProofLine]):
 
 
 class EquationFacts(LineFacts[lines.EquationLine]):
-    """A displayed formula of the paper; one that does not hold is a finding and no failure."""
+    """A displayed formula of the paper; if it does not hold, this is a finding and not a failure."""
 
     @property
     def name(self) -> str:
@@ -210,7 +205,7 @@ class OracleFacts(LineFacts[lines.OracleLine]):
 
 
 class FindingFacts(LineFacts[lines.FindingLine]):
-    """A formula that errs in exact arithmetic, which is a finding and no failure."""
+    """A formula that errs in exact arithmetic; this is a finding and not a failure."""
 
     @property
     def name(self) -> str:
@@ -239,7 +234,7 @@ class DriftFacts(LineFacts[lines.DriftLine]):
 
 
 class GroupFacts(LineFacts[lines.GroupLine]):
-    """A method on a family: the statuses of its cases, the worst of them, and those that fail the run."""
+    """A method on a family: the statuses of its cases, the worst cases, and the cases that fail the run."""
 
     @property
     def name(self) -> str:
@@ -264,7 +259,7 @@ class GroupFacts(LineFacts[lines.GroupLine]):
                 yield self._broken_promise(status, number)
 
     def _breaks_promise(self, status: str) -> bool:
-        """Whether a status fails a built-in method; of an implementation under test the line names what fails it."""
+        """Whether a status fails a built-in method; for an implementation under test the line has the statuses."""
         return status not in HARMLESS if self.line.exact else status in UNANSWERED
 
     def _broken_promise(self, status: str, number: int) -> Failure:
@@ -319,7 +314,7 @@ class CauseFacts(LineFacts[lines.CauseLine]):
 
     @property
     def command(self) -> str:
-        """The command that explains the cause; "" where no known cause gives the answers."""
+        """The command that explains the cause; "" if no known cause gives the answers."""
         return "" if self.line.cause == lines.UNEXPLAINED else f"hypcheck explain {self.line.cause}"
 
     @property
@@ -357,7 +352,7 @@ def cause_facts(record: Record) -> list[CauseFacts]:
 
 
 class ImplementationFacts(LineFacts[lines.ImplementationLine]):
-    """An implementation under test as a whole: what it declares, and what of its behaviour fails the run."""
+    """An implementation under test as a whole: its declarations, and the behaviour that fails the run."""
 
     @property
     def name(self) -> str:
@@ -386,7 +381,7 @@ class NotStartedFacts(LineFacts[lines.NotStartedLine]):
 
 
 class MapFacts(LineFacts[lines.MapLine]):
-    """A method over the half plane of a scene."""
+    """A method's errors over the half plane of a scene."""
 
     def measurements(self) -> Iterator[Measurement]:
         return self.fields(self.line.method, self.line.name, "", "points", "wrong")

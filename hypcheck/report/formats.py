@@ -10,12 +10,11 @@ from pathlib import Path
 class ReportFormat:
     """One format of a report.
 
-    file: the name of its file.
-    shows: the type of lines that it shows; without one of them no file is written, and none is missed.
-    sweeps: whether it shows wrong answers about sweeps; without one it is neither written nor missed.
-    compares: whether it shows changes against another record.
-    kept: whether every run writes it; others are made on demand.
-    by_suffix: whether a file name with its suffix alone means it; else only its own name does.
+    file: the name of its file. shows: the type of lines that it shows; if the record has no such line, no file is
+    written or expected. sweeps: whether it shows wrong answers about sweeps; if there are none, no file is written or
+    expected. compares: whether it shows changes against another record. kept: whether every run writes it; other
+    formats are made on demand. by_suffix: whether any file name with its suffix selects it; else only its own name
+    does.
     """
 
     file: str

@@ -1,7 +1,7 @@
-"""report.html: one file that needs no other file and no network, for any screen, keyboard, paper or colours.
+"""report.html: one file that needs no other file and no network, for any screen, keyboard, printer or colours.
 
-Its content security policy allows only its own style and script, which it names by their hashes; templates escape all
-text. A reader can move the bodies in its explorer: the script templates/explorer.js decides and draws. It runs the same
+Its content security policy allows only its own style and script, given by their hashes; templates escape all text. A
+reader can move the bodies in its explorer: the script templates/explorer.js decides and draws. It runs the same
 programs that are proved and printed, step by step.
 """
 
@@ -80,7 +80,7 @@ def render(record: Record, context: ReportContext = ALONE) -> bytes:
 
 
 def explorer_page() -> bytes:
-    """The explorer as a page of its own, in UTF-8; it begins on the ring."""
+    """The explorer as a separate page, in UTF-8; its first case is on the ring."""
     block = _TemplateBlock("explorer", document.Explorer(ON_THE_RING))
     section = {"title": "Move the bodies", "level": 2, "anchor": "explorer", "blocks": [block]}
     return _page(title="Spheroid and hyperboloid", verdict=None, sections=[section], source="")
@@ -105,7 +105,7 @@ def _hash(text: str) -> str:
 
 
 def _trusted(text: str) -> markupsafe.Markup:
-    """Our own text, or SVG in which plots/style.py has escaped foreign text: it needs no escaping."""
+    """Mark text of hypcheck, or SVG in which plots/style.py has escaped foreign text, as not to be escaped."""
     return markupsafe.Markup(text)  # noqa: S704
 
 
@@ -170,12 +170,12 @@ _POINTS = 16
 
 
 def small_picture(row: Sequence[float]) -> str:
-    """The spheroid of a row of seven numbers and the wall beside it, as an element of SVG: our own words and numbers.
+    """The SVG element with the spheroid of a row of seven numbers and the wall; it contains no foreign text.
 
-    Heights have a scale of their own where the spheroid would be too thin to be seen. A spheroid whose centre is more
-    than two radii from the wall is drawn smaller, at least as a dot, so that both are in the picture.
+    Heights have a different scale if the spheroid would be too thin to be seen. A spheroid whose centre is more than
+    two radii from the wall is drawn smaller, at least as a dot, so that both are in the picture.
     """
-    # Tiny lengths are scaled by a power of two first: their scale in the picture would be beyond the floats.
+    # Tiny lengths are first scaled by a power of two: otherwise their scale in the picture would overflow.
     shift = max(0, min(-math.frexp(row[2])[1], _FINE - math.frexp(max(map(abs, row)))[1]))
     alpha, gamma, b, d, x, y, z = (math.ldexp(length, shift) for length in row)
     r = min(math.hypot(x, y), sys.float_info.max)
@@ -210,12 +210,12 @@ def _limited_gap(gap: float) -> float:
 
 
 def _limited(place: float, size: float) -> float:
-    """A place that is at most a picture beside the picture."""
+    """The coordinate, limited to at most one picture width outside the picture."""
     return min(max(place, -size), 2 * size)
 
 
 def row_as_text(row: Sequence[float]) -> str:
-    """The numbers of a row as the script reads them, each the shortest that is the same float64."""
+    """The numbers of a row as the script reads them, each the shortest text of the same float64."""
     return " ".join(map(repr, row))
 
 

@@ -1,8 +1,8 @@
 """junit.xml: the run as test suites and cases, in the dialect that CI systems read.
 
 There is a suite for each subject, and a case for each thing that can go wrong in it. A failure of the run is a failure;
-a run that stopped before its end is an error. Errors of the paper's formulas, and of methods that promise nothing, are
-expected: their cases pass, with what was found as output (docs/record.md, "junit.xml").
+a run that stopped before its end is an error. Errors of the paper's formulas, and of methods without a promise, are
+expected: their cases pass, with the findings as output (docs/record.md, "junit.xml").
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ class JunitTrouble:
 class JunitCase:
     """A test case; `output` are the lines of its system-out.
 
-    Its name does not depend on its result. Times are whole milliseconds, so that sums add up; None: not measured.
+    Its name does not depend on its result. Times are whole milliseconds, so that sums agree; None: not measured.
     """
 
     name: str
@@ -53,7 +53,7 @@ class JunitSuite:
     cases: tuple[JunitCase, ...]
 
     def count(self, tag: str) -> int:
-        """How many of its cases have a trouble with this tag."""
+        """The number of its cases that have a trouble with this tag."""
         return sum(case.trouble is not None and case.trouble.tag == tag for case in self.cases)
 
     @property
@@ -78,7 +78,7 @@ def details(failed: Iterable[Failure]) -> Iterator[str]:
 
 
 def _trouble(failed: Sequence[Failure], message: str = "") -> JunitTrouble | None:
-    """The trouble of a case with these failures, with the cases and commands that show them; None without any."""
+    """The trouble of a case with these failures, with the cases and commands that show them; None if there are none."""
     if not failed:
         return None
     text = message or "; ".join(failure.message for failure in failed)
@@ -120,7 +120,7 @@ def junit_suites(record: Record) -> Iterator[JunitSuite]:
 
 
 def _others(record: Record, failed: list[Failure]) -> Iterator[JunitSuite]:
-    """The suites after that of the run itself."""
+    """The suites that follow the run's suite."""
     yield JunitSuite("proofs", _cases(facts_of(record, lines.ProofLine)))
     yield JunitSuite("equations", _cases(facts_of(record, lines.EquationLine)))
     answers = facts_of(record, lines.OracleLine)
@@ -153,7 +153,7 @@ def _by_type(record: Record, *kinds: type[RecordLine]) -> Iterator[LineFacts[Any
 
 
 def _findings(record: Record, failed: list[Failure]) -> Iterator[JunitCase]:
-    """A case for each mathematical finding, and one about whether they are the known ones."""
+    """A case for each mathematical finding, and one case that checks that all are known."""
     cases = _cases(facts_of(record, lines.FindingLine))
     yield from cases
     drifted = [failure for failure in failed if failure.subject == "findings"]
@@ -164,7 +164,7 @@ def _findings(record: Record, failed: list[Failure]) -> Iterator[JunitCase]:
 
 
 def _ended(record: Record, failed: list[Failure], others: int) -> JunitCase:
-    """The end of the run: an error if it was not reached, or if the exit code contradicts the record's lines.
+    """The case about the run's end: an error if it was not reached, or if the exit code contradicts the lines.
 
     Its time is that of the run without the milliseconds of the `others`, if the run has an end and a time. Failures of
     other cases are not repeated here.
@@ -190,7 +190,7 @@ def render(record: Record) -> bytes:
     """The test suites as XML 1.0 in UTF-8."""
     suites = [suite for suite in junit_suites(record) if suite.cases]
     root = Xml.Element("testsuites", {"name": "hypcheck", **_attributes(suites)})
-    # Without its offset: the schema that most parsers use allows none.
+    # without its UTC offset, which the schema of most parsers does not allow
     started = escaped(record.header.started)[:19]
     for suite in suites:
         element = Xml.SubElement(root, "testsuite", {"name": escaped(suite.name), **_attributes([suite])})

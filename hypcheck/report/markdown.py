@@ -1,6 +1,6 @@
 """report.md and overview.md: a report as Markdown (CommonMark, GitHub's tables), with foreign text escaped.
 
-report.md is a whole run for people: how it ended, what failed, and what was found. overview.md is one page, such as the
+report.md describes a whole run for people: its result, failures and findings. overview.md is one page, such as the
 README of a folder of reports.
 """
 

@@ -37,12 +37,12 @@ class MeasuredMethod:
 
     @property
     def tier(self) -> str:
-        """The language that it is written in."""
+        """The language in which it is written."""
         return self.line.tier
 
     @property
     def foreign(self) -> bool:
-        """Whether a SPEC of the user names it."""
+        """Whether it is the implementation of a user's SPEC."""
         return self.line.kind == "foreign"
 
     @property
@@ -81,7 +81,7 @@ class MeasuredMethod:
         return None if line is None or line.ratio is None or lost(line) else line.ratio
 
     def ratio_interval(self, workload: str, mode: str = BATCH) -> tuple[float, float]:
-        """The interval of that ratio, or the ratio twice where it has no interval. The method must have been timed."""
+        """The interval of that ratio, or the ratio twice if it has no interval. The method must have been timed."""
         line = self.speed[workload, mode]
         ratio = line.ratio or 0.0
         return line.ratio_ci95 or (ratio, ratio)
@@ -110,10 +110,10 @@ def measured_methods(record: Record) -> list[MeasuredMethod]:
 
 @dataclass(frozen=True, slots=True)
 class SweepTotal:
-    """A method for sweeps: its answers on all workloads together, and the time of a sweep on the principal one.
+    """A method for sweeps: its answers on all workloads together, and its time per sweep on the principal workload.
 
-    typical: half of the wrong answers need about this change of the spheroid's size at least; 0 without any.
-    worst: the greatest such change, of those that were measured exactly.
+    typical: half of the wrong answers need at least about this change of the spheroid's size; 0 if there are none.
+    worst: the greatest exactly measured change of size.
     """
 
     name: str
@@ -130,7 +130,7 @@ class SweepTotal:
     ratio_ci95: tuple[float, float] | None
 
     def share(self, part: int) -> float:
-        """The share of these in all sweeps that were asked."""
+        """The share of `part` in all tested sweeps."""
         return part / self.asked
 
 
@@ -164,7 +164,7 @@ def _sweep_total(method: MeasuredMethod, speed: measurements.SpeedLine | None) -
 
 
 def _median_size(octaves: Sequence[measurements.Octave]) -> float:
-    """The lower end of the octave in which the median of the wrong answers lies; 0 without any, or of tangencies."""
+    """The lower end of the octave with the median of the wrong answers; 0 if there are none, or for tangencies."""
     wrong = sorted((float(exponent), number) for exponent, _, number in octaves if number)
     left = sum(number for _, number in wrong) / 2
     for exponent, number in wrong:
@@ -175,7 +175,7 @@ def _median_size(octaves: Sequence[measurements.Octave]) -> float:
 
 
 def workloads(record: Record) -> dict[str, measurements.WorkloadLine]:
-    """The workloads by name, in the order of the record, also those that are measured but not described."""
+    """The workloads by name, in the order of the record, including measured workloads without a description."""
     known = {line.workload: line for line in record.of(measurements.WorkloadLine)}
     judged, timed = record.of(measurements.AccuracyLine), record.of(measurements.SpeedLine)
     for name in [*(line.workload for line in judged), *(line.workload for line in timed)]:
@@ -202,7 +202,7 @@ def reference(record: Record) -> str | None:
 
 
 def by_ratio(methods: Iterable[MeasuredMethod], workload: str, mode: str = BATCH) -> list[MeasuredMethod]:
-    """The methods that have a ratio there, the fastest first."""
+    """The methods that have a ratio on this workload in this mode, the fastest first."""
     ranked = [(ratio, method) for method in methods if (ratio := method.ratio(workload, mode)) is not None]
     return [method for _, method in sorted(ranked, key=lambda pair: pair[0])]
 
@@ -216,7 +216,7 @@ def noise_floor(record: Record, workload: str, mode: str) -> float | None:
 
 
 def stability_title(line: measurements.StabilityLine) -> str:
-    """The name of a method with the precision that it was measured in."""
+    """The name of a method with the precision in which it was measured."""
     return line.method if line.method.endswith(line.precision) else f"{line.method}, {line.precision}"
 
 

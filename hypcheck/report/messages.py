@@ -48,7 +48,7 @@ def with_interval(value: float, interval: Sequence[float] | None) -> str:
 
 
 def pace(ratio: float, other: str = "", interval: tuple[float, float] | None = None) -> str:
-    """A time by that of another method: "24 times as fast as NAME", "takes 3 times as long as NAME (2 to 4)".
+    """The words for a ratio of times: "24 times as fast as NAME", "takes 3 times as long as NAME (2 to 4)".
 
     Without a name, "24 times as fast". `interval` holds the ends of the ratio's interval.
     """
@@ -90,9 +90,9 @@ def classify_command(row: Sequence[float]) -> str:
 
 
 def error_text(case: lines.WrongAnswer) -> str:
-    """How wrong an answer is, in the unit of the tolerance: "wrong by 12 u", "wrong at any distance".
+    """The error of an answer, in the unit of the tolerance: "wrong by 12 u", "wrong at any distance".
 
-    Of a time, the first contact and the sweep to it.
+    For a wrong time: the first contact, and the part of the sweep between them.
     """
     if case.time is UNSET or case.first is UNSET:
         if case.backward_error >= 1:
@@ -105,7 +105,7 @@ def error_text(case: lines.WrongAnswer) -> str:
 def settings_facts(settings: lines.SettingsPart | UnsetType | None) -> Iterator[str]:
     """A sentence without a full stop about the settings of a run: their file, and each option that weakens the gate.
 
-    Nothing if there is no settings file, and every option that decides is as strict as its default.
+    Empty if there is no settings file and every deciding option is as strict as its default.
     """
     if not settings:
         return
@@ -120,9 +120,9 @@ def settings_facts(settings: lines.SettingsPart | UnsetType | None) -> Iterator[
 def implementation_claims(
     line: lines.ImplementationLine | lines.NotStartedLine, rows: Mapping[str, int] = MappingProxyType({})
 ) -> Iterator[str]:
-    """Sentences without a full stop about an implementation; none about one that did not start.
+    """Sentences without a full stop about an implementation; none if it did not start.
 
-    `rows` counts rows that were not asked, by reason.
+    `rows` counts rows that were not tested, by reason.
     """
     if isinstance(line, lines.NotStartedLine):
         return
@@ -144,7 +144,7 @@ def implementation_claims(
 
 
 def spread(line: lines.ImplementationLine) -> Iterator[str]:
-    """Sentences without a full stop: how narrow a fault could have escaped the run, and which coincidences met."""
+    """Sentences without a full stop: the width of a fault that the run could miss, and the tested coincidences."""
     for family, slices in (line.slices or {}).items():
         if family in SEARCHED:
             yield from _searched(slices, tilted=SEARCHED[family].tilted)
@@ -161,7 +161,7 @@ def spread(line: lines.ImplementationLine) -> Iterator[str]:
 
 
 def _searched(slices: lines.SlicesPart, *, tilted: bool) -> Iterator[str]:
-    """How evenly a directed search asked at all distances from contact."""
+    """The evenness of a directed search over all distances from contact."""
     yield (
         f"a directed search followed {'tilted' if tilted else 'upright'} spheroids from clear to contact, to where its "
         f"answers change; from {2.0**NEAREST_OCTAVE:.1g} of their size off contact to all of it, every slice of "
@@ -170,20 +170,20 @@ def _searched(slices: lines.SlicesPart, *, tilted: bool) -> Iterator[str]:
 
 
 def _percent(share: float) -> str:
-    """A share, rounded up to two digits: what is said of a slice holds for wider ones."""
+    """A share, rounded up to two digits: a statement about a slice holds for wider slices too."""
     digits = 1 - math.floor(math.log10(100 * share)) if share else 2
     return f"{math.ceil(100 * share * 10**digits) / 10**digits:.{max(0, digits)}f} %"
 
 
 def rows_not_asked(counts: Mapping[str, int]) -> str:
-    """Rows that were not asked, by reason: "120 rows not zero or normal in its precision"; "" without any."""
+    """The rows that were not tested, by reason: "120 rows not zero or normal in its precision"; "" if none."""
     return listed(
         [f"{counted(counts[reason], 'row')} {text}" for reason, text in domain.ROWS.items() if counts.get(reason)]
     )
 
 
 def families_not_asked(line: lines.ImplementationLine, reasons: Collection[str] = domain.FAMILIES) -> str:
-    """Families that were not asked, by reason: "5 families left out by --families"; "" without any."""
+    """The families that were not tested, by reason: "5 families left out by --families"; "" if there are none."""
     left_out = {reason: (line.not_asked or {}).get(reason) for reason in reasons}
     return listed(
         [
@@ -239,8 +239,8 @@ _LIMITS = ("startup_timeout", "timeout", "memory")
 class Replays:
     """The commands that show the cases of one record.
 
-    numbers: the number of each case, by its id().
-    options: those of `hypcheck replay` that judge as the run did.
+    numbers: the number of each case, by its id(). options: the options of `hypcheck replay` that give the run's
+    judgement.
     """
 
     numbers: Mapping[int, int]
@@ -253,11 +253,11 @@ class Replays:
         return cls(numbers, tuple(_options(record.header.options)))
 
     def place(self, case: lines.WrongAnswer | lines.FaultPart) -> str:
-        """The case as `hypcheck replay` reads it beside the record: record.jsonl:7."""
+        """The case as `hypcheck replay` reads it in the record's folder: record.jsonl:7."""
         return f"record.jsonl:{self.numbers[id(case)]}"
 
     def command(self, group: lines.GroupLine, case: lines.WrongAnswer | lines.FaultPart) -> str:
-        """The command that replays a case of a gated implementation, or decides and proves one of a built-in method."""
+        """The command that replays a gated implementation's case, or decides and proves a built-in method's case."""
         if not group.tested:
             return classify_command(from_hex(numbers_of(case)))
         return self.of_case(case.case, str(group.spec))

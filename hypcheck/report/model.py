@@ -1,6 +1,7 @@
 """The totals of a verification: each oracle, each implementation, each contender that was timed.
 
-Every report starts here or, of a benchmark, in measured.py, so that all reports count in the same way.
+Every report of a verification uses these totals, and every report of a benchmark the totals of measured.py, so that all
+reports count in the same way.
 """
 
 from __future__ import annotations
@@ -43,11 +44,10 @@ REFERENCE = "plain numpy formula"
 
 @dataclass(frozen=True, slots=True)
 class OracleTotal:
-    """The answers of one oracle about all families: asked = agreed + undecided + disagreements.
+    """The answers of one oracle about all families; asked = agreed + undecided + disagreements.
 
-    stages: its answers by the part of it that gave them.
-    seconds: its time, over all processes.
-    unavailable: why it could not be asked; None if it was.
+    stages: its answers by the part of the oracle that gave them. seconds: its time, over all processes. unavailable:
+    the reason why it could not be used; None if it was used.
     """
 
     name: str
@@ -79,17 +79,17 @@ class ImplementationTotal:
 
     @property
     def asked(self) -> int:
-        """The cases that it was asked, without skipped ones."""
+        """The number of tested cases, without skipped ones."""
         return sum(group.asked for group in self.groups)
 
     @property
     def skipped(self) -> int:
-        """The cases that it was not asked."""
+        """The number of skipped cases."""
         return sum(group.skipped for group in self.groups)
 
     @property
     def judged(self) -> int:
-        """The cases that it was asked, without those of which it said that it cannot say."""
+        """The number of tested cases without those that it answered with "cannot say"."""
         return sum(group.judged for group in self.groups)
 
     @property
@@ -99,7 +99,7 @@ class ImplementationTotal:
 
     @property
     def fresh(self) -> int | None:
-        """The cases asked that nobody knew before the run; None if the record does not say."""
+        """The number of tested cases that were not known before the run; None if the record does not have it."""
         counts = [group.fresh for group in self.groups if group.fresh is not UNSET]
         return sum(counts) if counts else None
 
@@ -116,7 +116,7 @@ class ImplementationTotal:
 
     @property
     def answers(self) -> dict[str, dict[str, int]]:
-        """How often each answer was given, by what is true, then by the answer; empty in records before 1.10.0."""
+        """The number of rows by the truth, then by the answer; empty in records before 1.10.0."""
         total: dict[str, Counter[str]] = {}
         for group in self.groups:
             for truth, counts in (group.answers or {}).items():
@@ -125,7 +125,7 @@ class ImplementationTotal:
 
     @property
     def worst(self) -> WrongAnswer | None:
-        """The recorded case with the greatest backward error; the first of equals."""
+        """The recorded case with the greatest backward error; the first of equal ones."""
         return worst_case([case for group in self.groups for case in group.worst])
 
 
@@ -143,10 +143,10 @@ class UnderTest:
 
 @dataclass(frozen=True, slots=True)
 class TimingTotal:
-    """Nanoseconds a row: the median of the rounds, the least and the greatest.
+    """Nanoseconds per row: the median, the least and the greatest of the rounds.
 
-    `ratio` is the median over the rounds of its time by the reference's in the same round, `ratio_range` the least and
-    the greatest; None without a reference.
+    `ratio` is the median over the rounds of its time divided by the reference's time in the same round; `ratio_range`
+    is the least and the greatest; None without a reference.
     """
 
     name: str
@@ -168,7 +168,7 @@ def in_order(counts: Counter[str]) -> dict[str, int]:
 
 
 def oracle_totals(record: Record) -> list[OracleTotal]:
-    """A total for each oracle: those that were asked, then those that could not be asked."""
+    """A total for each oracle: first the used oracles, then the unavailable ones."""
     by_name: dict[str, list[OracleLine]] = {}
     for line in record.of(OracleLine):
         by_name.setdefault(line.oracle, []).append(line)
@@ -188,12 +188,12 @@ def _oracle_total(name: str, lines: list[OracleLine]) -> OracleTotal:
 
 
 def unlisted(finding: FindingLine) -> bool:
-    """Whether a formula errs within its stated regimes, and this is no known finding."""
+    """Whether a formula errs within its stated regimes, and the finding is not a known one."""
     return finding.inside and finding.reason is None
 
 
 def explanation(finding: FindingLine) -> str:
-    """Why a formula errs, as far as it is known."""
+    """The known reason why a formula errs."""
     if finding.reason is not None:
         return finding.reason
     cause = f"cause: {finding.cause}"
@@ -226,13 +226,13 @@ def _tested(record: Record) -> list[Tested | NotStartedLine]:
 
 
 def subject_of(line: GroupLine | Tested | NotStartedLine) -> SubjectKey:
-    """The implementation that a line is about: its declared name, and its spec if it has one."""
+    """The implementation of a line: its declared name, and its spec if it has one."""
     name = line.method if isinstance(line, GroupLine) else line.name
     return name, line.spec or None
 
 
 def names_in(record: Record) -> dict[SubjectKey, str]:
-    """The name of each implementation in reports: the declared one, with the spec if others have the same name."""
+    """The name of each implementation in reports: the declared name, with the spec if others have the same name."""
     subjects = dict.fromkeys(map(subject_of, [*record.of(GroupLine), *_tested(record)]))
     alike = Counter(name for name, _ in subjects)
     return {(name, spec): name if alike[name] == 1 else f"{name} ({spec})" for name, spec in subjects}
@@ -252,7 +252,7 @@ def _implementation(name: str, lines: list[GroupLine]) -> ImplementationTotal:
 
 
 def worst_case(cases: list[WrongAnswer]) -> WrongAnswer | None:
-    """The case with the greatest backward error; the first of equals, None if there is none."""
+    """The case with the greatest backward error, the first of equal ones; None if there is no case."""
     return max(cases, key=lambda case: case.backward_error_u, default=None)
 
 
@@ -291,7 +291,7 @@ def _timing_total(line: TimingLine, reference: list[float] | None) -> TimingTota
 
 
 def drawn_sweep(implementation: ImplementationTotal) -> WrongAnswer | None:
-    """The worst answer about a sweep of an upright spheroid, which can be drawn in the half plane; None without any."""
+    """The worst wrong answer about an upright spheroid's sweep, which the half plane can show; None if none."""
     if implementation.question != PASSAGE or not implementation.gated:
         return None
     return worst_case([case for group in implementation.groups for case in group.worst if case.axis is UNSET])

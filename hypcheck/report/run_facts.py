@@ -1,7 +1,7 @@
-"""What a whole run says, in sentences without a full stop: each fact of several lines together, stated once.
+"""The facts of a whole run, in sentences without a full stop: each fact about several lines, stated once.
 
-The facts of one line stand in facts.py and benchmark_facts.py, the advice of a benchmark in advice.py, and what changed
-from one run to another in changes.py.
+The facts of one line are in facts.py and benchmark_facts.py, the advice of a benchmark in advice.py, and the changes
+between two runs in changes.py.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from hypcheck.report.messages import figure, implementation_claims, listed, pace
 
 
 def oracle_facts(record: Record) -> Iterator[str]:
-    """One sentence about the oracles that were asked, one about those that could not be asked."""
+    """One sentence about the used oracles, one about the unavailable oracles."""
     totals = model.oracle_totals(record)
     agreements = [f"{total.name} {total.agreed:,} of {total.asked:,}" for total in totals if total.unavailable is None]
     if agreements:
@@ -54,7 +54,7 @@ def paper_facts(record: Record) -> Iterator[str]:
 
 
 def method_facts(record: Record) -> Iterator[str]:
-    """A sentence for each precision: how many methods err beyond the tolerance, and the greatest backward error."""
+    """A sentence for each precision: the number of methods that err beyond the tolerance, the greatest error."""
     tolerance = tolerance_of(record.header.options)
     beyond = "the tolerance" if tolerance is None else f"the tolerance of {figure(tolerance)} u"
     totals = [total for total in model.implementations(record) if total.asked and not total.gated]
@@ -69,7 +69,7 @@ _REMARKS = {"wrong": "", "tolerated": " (tolerated)", "excused": " (excused as a
 
 
 def _farthest(methods: Sequence[model.ImplementationTotal]) -> str:
-    """The answer with the greatest backward error, or that no answer is wrong, if one was judged."""
+    """A clause about the answer with the greatest backward error, or that no answer is wrong, if any was judged."""
     method = max(methods, key=lambda total: model.worst_error_u(total.worst))
     worst = method.worst
     if worst is not None:
@@ -95,7 +95,7 @@ def benchmark_facts(record: Record) -> Iterator[str]:
 
 
 def _sweep_fact(total: SweepTotal) -> str:
-    """What a method for sweeps gets wrong, and what a sweep costs."""
+    """The errors of a method for sweeps, and its cost per sweep."""
     missed, false = (figure(100 * total.share(part)) for part in (total.missed, total.false))
     silent = f", {figure(100 * total.share(total.abstained))} % cannot say" if total.abstained else ""
     time = "" if total.time_ns is None else f", {figure(total.time_ns / 1000)} µs a sweep"
@@ -110,7 +110,7 @@ def _endings(title: str, workload: str, methods: Sequence[MeasuredMethod]) -> It
     most = max((method.accuracy[workload].asked for method in methods), default=0)
     for precision in ("float64", "float32"):
         mine = {method: end for method, end in ends.items() if method.line.precision == precision and end < math.inf}
-        # A method that was asked only a few rows would seem to err less.
+        # A method that answered only a few rows would seem to err less.
         mine = {method: end for method, end in mine.items() if 2 * method.accuracy[workload].asked >= most}
         if mine and max(mine.values()):
             best, worst = min(mine, key=mine.__getitem__), max(mine, key=mine.__getitem__)
@@ -136,7 +136,7 @@ def _end(distance: float) -> str:
 
 
 def tested_facts(record: Record) -> Iterator[str]:
-    """What gated implementations declare, what they were judged as, and what a verdict that is no pass leaves out."""
+    """What gated implementations declare, the values that judged them, and facts that a failing verdict leaves out."""
     for tested in model.under_test(record):
         counts: Counter[str] = sum((Counter(group.not_asked or {}) for group in tested.groups), Counter())
         yield from (f"{tested.name}: {claim}" for claim in implementation_claims(tested.line, counts))
@@ -153,7 +153,7 @@ def timing_facts(record: Record) -> Iterator[str]:
 
 
 def unmeasured_facts(record: Record) -> Iterator[str]:
-    """What could not be timed, and how many samples were dropped as impossible."""
+    """The measurements without a time, and the number of samples dropped as impossible."""
     for facts in facts_of(record, UnmeasuredLine):
         yield f"not measured: {facts.name}: {facts.line.reason}"
     dropped = [(speed, speed.dropped) for speed in record.of(SpeedLine) if speed.dropped]

@@ -1,4 +1,4 @@
-"""The summary of a run on the terminal: how it ended, what failed, what was found, and where the reports are."""
+"""The summary of a run on the terminal: its result, its failures and findings, and the places of the reports."""
 
 from __future__ import annotations
 
@@ -49,9 +49,9 @@ def summary_lines(
     colour: bool = False,
     width: int | None = None,
 ) -> list[str]:
-    """The summary, the reason of a failure first: at most MOST_LINES lines of plain text, besides squares and causes.
+    """The summary, a failure's reason first: at most MOST_LINES plain lines, besides tables of answers and causes.
 
-    With `colour`, the first is green or red; with `width`, lines are cut to that.
+    With `colour`, the first line is green or red; with `width`, lines are cut to this width.
     """
     ended = verdict(record)
     head = click.style(escaped(ended.sentence), fg="green" if ended.passed else "red", bold=True)
@@ -92,7 +92,8 @@ def _line(text: str, width: int | None) -> str:
 def _failures(record: Record, verdict_sentence: str) -> Iterator[str]:
     """The failures that neither the verdict nor the causes of wrong answers name.
 
-    What an implementation does in several families is one of them; cases that were not asked come after the reason.
+    The same failure of an implementation in several families is listed once; cases that were not tested come after
+    their reason.
     """
     explained = {line.method for line in record.of(CauseLine)}
     alike: dict[tuple[str, ...], list[Failure]] = {}
@@ -112,7 +113,7 @@ def _failures(record: Record, verdict_sentence: str) -> Iterator[str]:
 
 
 def _causes(record: Record) -> Iterator[str]:
-    """Why wrong answers are wrong: the cause, where, the remedy, and the command that shows the worst of them."""
+    """The causes of wrong answers: name, families, remedy, and the command that shows the worst answer."""
     causes = cause_facts(record)
     several = len({facts.line.spec for facts in causes}) > 1
     for facts in causes[:MOST_CAUSES]:

@@ -1,11 +1,12 @@
-"""How a run ended, in one sentence, and every failure behind it, from the lines of the record.
+"""The verdict of a run in one sentence, and every failure behind it, from the lines of the record.
 
 A misprint in the paper or a wrong answer of one of its procedures is a finding and no failure. A run fails if a proof
 does not hold, oracles disagree, a method that promises to be exact errs, a method breaks down, findings differ from the
 known ones, an implementation under test errs, or a benchmark misses a target.
 
-It is the first that a failing run shows, beside a square of each implementation under test: how often it gave each
-answer where each was right. Which answers are confused with which is what a bug looks like from outside.
+The verdict is the first output of a failing run. Next to it is a table for each implementation under test: the number
+of its answers by right answer and given answer. A bug is first visible in this table: it shows which answers are
+confused.
 """
 
 from __future__ import annotations
@@ -93,7 +94,7 @@ EXIT_INCONCLUSIVE = 4
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """Whether the run passed, and a sentence about how it ended; a run without its end has not passed."""
+    """Whether the run passed, and a sentence about its result; a run that did not reach its end has not passed."""
 
     passed: bool
     sentence: str
@@ -115,7 +116,7 @@ def failures(record: Record) -> list[Failure]:
 
 
 def verdict(record: Record) -> Verdict:
-    """How the run ended."""
+    """The verdict of the run."""
     failed = failures(record)
     if record.footer is None:
         so_far = f" What was finished has already failed: {_failure_counts(failed)}." if failed else ""
@@ -143,7 +144,7 @@ def verdict(record: Record) -> Verdict:
 
 
 def ended_badly(record: Record, failed: Sequence[Failure]) -> Failure | None:
-    """How a run ended, if it stopped before its end or its exit code contradicts the record's lines; else None."""
+    """The verdict of a run that stopped before its end, or whose exit code contradicts its lines; else None."""
     ended, footer = verdict(record), record.footer
     unfinished = footer is None or footer.exit_code in EXITS_UNFINISHED
     unexplained = not ended.passed and not failed
@@ -154,7 +155,7 @@ def ended_badly(record: Record, failed: Sequence[Failure]) -> Failure | None:
 
 
 def _reasons(record: Record, failed: list[Failure]) -> str:
-    """Why the run failed: what happened to implementations; of others how many failures, or what the only one is."""
+    """Why the run failed: a clause for each implementation; for other subjects the number, or the only failure."""
     if len(failed) == 1 and failed[0].subject in _TELLING and failed[0].kind != Status.WRONG.value:
         return failed[0].message
     tested = [failure for failure in failed if failure.subject == "implementation"]
@@ -174,7 +175,7 @@ _WHOLE = ("start", "all families")
 
 
 def _wrong_clauses(record: Record) -> Iterator[str]:
-    """Count, for each implementation under test, how many of the cases asked ended in each way that fails the run."""
+    """For each implementation under test, a clause with the numbers of tested cases by status that fails the run."""
     for total in model.implementations(record):
         ended = sum(
             (
@@ -225,7 +226,7 @@ def _passed(record: Record) -> Verdict:
 
 
 def _gated_clause(total: model.ImplementationTotal, record: Record) -> str:
-    """How many cases of a gated implementation were judged and how they ended, which were skipped, and not asked."""
+    """A clause about a gated implementation: the judged cases by status, the skipped cases, the families left out."""
     ended = ", ".join(f"{number:,} {status}" for status, number in total.statuses.items() if status != "skipped")
     worst = f"worst backward error {messages.figure(model.worst_error_u(total.worst))} u"
     parts = [f"{total.name}: {total.judged:,} judged: {ended}", worst]
@@ -238,7 +239,7 @@ def _gated_clause(total: model.ImplementationTotal, record: Record) -> str:
 
 
 def _skipped(total: model.ImplementationTotal) -> Iterator[str]:
-    """Rows that were skipped, by reason, and families of which all were."""
+    """The skipped rows by reason, and the families of which all rows were skipped."""
     rows = messages.rows_not_asked(total.not_asked)
     if rows:
         yield rows
@@ -252,7 +253,7 @@ def _skipped(total: model.ImplementationTotal) -> Iterator[str]:
 
 
 def _not_asked(total: model.ImplementationTotal, record: Record) -> Iterator[str]:
-    """Families that the run left out."""
+    """The families that the run left out."""
     lines = [tested.line for tested in model.under_test(record) if tested.groups == total.groups]
     for line in lines if record.header.options.get("families") else ():
         families = "" if isinstance(line, NotStartedLine) else messages.families_not_asked(line)
@@ -282,9 +283,9 @@ AMISS = "✗"
 
 
 def tables_of_answers(record: Record) -> Iterator[tuple[TableBlock, str]]:
-    """A square for each implementation under test with answers that are not right, and a sentence if some of them pass.
+    """A table of answers for each implementation under test with wrong answers, and a sentence if some of these pass.
 
-    None of a record before 1.10.0.
+    Records before 1.10.0 give no tables.
     """
     for total in model.implementations(record):
         counts = total.answers
@@ -295,7 +296,7 @@ def tables_of_answers(record: Record) -> Iterator[tuple[TableBlock, str]]:
 
 
 def _square(total: model.ImplementationTotal, counts: Mapping[str, Mapping[str, int]]) -> TableBlock:
-    """What is true in rows, what was answered in columns."""
+    """The table of an implementation's answers: truths in rows, answers in columns."""
     truths = [
         truth for truth in (("1", "0") if total.question == model.PASSAGE else ("1", "0", "-1")) if truth in counts
     ]
@@ -317,7 +318,7 @@ def _square(total: model.ImplementationTotal, counts: Mapping[str, Mapping[str, 
 
 
 def _passing(total: model.ImplementationTotal) -> str:
-    """How many of the answers that are marked do not fail the run; "" without any."""
+    """A sentence about the marked answers that do not fail the run; "" if there are none."""
     reasons = (("tolerated", "within the tolerance"), ("excused", "excused as known failures"))
     parts = [
         f"{counted(total.statuses[status], 'answer')} {words}"
@@ -334,7 +335,7 @@ def _cell(cases: int, *, right: bool) -> TableCell:
 
 
 def _right(question: str, truth: str, answer: str) -> bool:
-    """Whether this is the right answer to a question about a row of which that is true."""
+    """Whether this is the right answer to the question about a row with this truth."""
     position = QUESTIONS[question].position
     return answer == (truth if position is None else str(int(int(truth) == position)))
 
@@ -344,7 +345,7 @@ _WIDEST = 40
 
 
 def aligned(block: TableBlock) -> list[str]:
-    """The lines of a table for a terminal, numbers to the right."""
+    """The lines of a table for a terminal, with numbers aligned to the right."""
     titles: Sequence[str] = [escaped(plain(column.title), _WIDEST) for column in block.columns]
     rows = [titles, *([plain(cell.text) for cell in row] for row in block.rows)]
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]

@@ -1,4 +1,4 @@
-"""Reports of a record and results of a simulation, made and written: all beside their places, then into them.
+"""Write reports of a record and results of a simulation: all to temporary files first, then to their places.
 
 jinja2 and matplotlib, which are extras, are loaded for the reports that need them.
 """
@@ -68,9 +68,9 @@ def render(name: str, record: Record, context: ReportContext = ALONE) -> bytes:
 
 
 def import_all() -> None:
-    """Import what makes reports, and the kernel that explains answers, which nothing reads after foreign code has run.
+    """Import the modules for reports, and the kernel that explains answers: no file is read after foreign code ran.
 
-    Raises InputError where the environment asks for a kernel that is not there.
+    Raises InputError if the environment selects a kernel that is not available.
     """
     kernel()
     for load in (pictures, _html):
@@ -97,7 +97,7 @@ _OF_RUNS = (FILE, GROWING, *(REPORTS[name].file for name in kept_formats()))
 def require_writable(directory: Path, names: Iterable[str] = _OF_RUNS) -> None:
     """Raise InputError if a file of one of these names could not be written to the folder.
 
-    So no long run starts whose result would be lost.
+    This prevents a long run whose result would be lost.
     """
     try:
         with tempfile.TemporaryFile(dir=directory):
@@ -111,7 +111,7 @@ def require_writable(directory: Path, names: Iterable[str] = _OF_RUNS) -> None:
 
 
 def remove_reports(directory: Path) -> None:
-    """Remove the reports of an earlier run, once a new run has a result that they do not show. Raises InputError."""
+    """Remove the reports of an earlier run when a new run has a result that they do not show. Raises InputError."""
     for name in kept_formats():
         remove_file(directory / REPORTS[name].file)
 
@@ -124,10 +124,11 @@ def holds_run(directory: Path) -> bool:
 def write_reports(
     record: Record, directory: Path, formats: Sequence[str] | None = None, against: Record | None = None
 ) -> list[WrittenReport]:
-    """Write reports of the formats (by default those that every run writes) into a directory, which is made if needed.
+    """Write reports of the formats (default: those that every run writes) into a directory, which is created if needed.
 
-    All are written or none. A format that cannot be made here is skipped, and its file of an earlier run removed, since
-    it shows another run. Raises InputError if a file cannot be written; the earlier files then stay.
+    Either all reports are written or none. A format that cannot be made here is skipped, and its file from an earlier
+    run is removed, because it shows another run. Raises InputError if a file cannot be written; the earlier files then
+    stay.
     """
     reports: list[WrittenReport] = []
     contents: dict[str, bytes] = {}
@@ -161,7 +162,7 @@ PICTURES = {
 
 @contextmanager
 def ready_for(kind: str, directory: Path) -> Iterator[None]:
-    """Within the block the folder is there; if the block fails, a new one is removed again.
+    """Within the block the folder exists; if the block fails, a folder that was created is removed.
 
     Raises InputError if a file of the simulation could not be written there.
     """

@@ -1,17 +1,18 @@
-"""A directed search in a run: on lines across the border of contact, to where the answers of an implementation change.
+"""A directed search in a run: it finds where an implementation's answers change on lines across the border of contact.
 
-On a line (vectors/border_lines.py) a spheroid grows, and is clear until it touches, and in contact from then on. Each
-side of the border is a search of its own, for the rung from which on the answers are right:
+On a line (vectors/border_lines.py) a spheroid grows: it is clear until it touches, and in contact after that. A line is
+divided into rungs by distance from the border. Each side of the border is searched separately for the rung from which
+all farther answers are right:
 
-- Far sides come first, a few. Each begins at a rung anywhere, evenly over all distances, and goes on halfway to the
-  border while answers are right.
-- A near side begins beside the border, as near as the tolerance lets an answer be wrong. Where the answer is right
-  there, the side is done. Where it is wrong, though perhaps by less than is tolerated, the search goes outwards in
-  doubled steps until an answer is right, and halves what lies between: its rows are those at which the implementation's
-  border is not the true one.
+- A few far sides are searched first. Their first rungs are spread evenly over all distances. While answers are right,
+  the search of a far side halves the distance to the border.
+- The search of a near side begins just beyond the distances from the border at which most wrong answers are tolerated.
+  If the answer there is right, the search of this side ends. If it is wrong, even by less than the tolerance, the
+  search goes outwards in doubled steps until an answer is right, and then halves the range between the last wrong and
+  the first right rung. Its rows are those at which the implementation's border differs from the true one.
 
-Every row that is asked is judged by the exact truth, like those of any family. So many rows are asked as the run says:
-those that sides need, then those of new lines. Nothing depends on anything but the seed and the answers.
+Every tested row is judged by the exact truth, like the rows of any family. The run fixes the number of rows: if the
+sides of a line need no more rows, new lines begin. The rows depend only on the seed and the answers.
 """
 
 from __future__ import annotations
@@ -50,7 +51,7 @@ _GOLDEN = 0.6180339887498949
 
 @dataclass(frozen=True, slots=True)
 class SearchStep:
-    """The step of a run that asks so many rows of a search, whose lines are those of the seed."""
+    """The step of a run that tests `rows` rows of a search; the seed determines the search's lines."""
 
     family: str
     seed: int
@@ -61,16 +62,17 @@ class SearchStep:
 
     @property
     def chunk(self) -> CaseChunk:
-        """All rows that the search may ask, for their names and places."""
+        """All rows that the search may test, as a chunk that gives their names and places."""
         return CaseChunk(self.family, self.seed, 0, -(-self.rows // LINES) * LINES * RUNGS)
 
 
 @dataclass(slots=True)
 class _Side:
-    """One side of a line: the `first` rung that is asked, and the range in which answers become right.
+    """One side of a line: the `first` tested rung, and the range of rungs in which answers become right.
 
-    At `wrong` and further in they are wrong, or within the tolerance of the border; at `right` one is right. `right` is
-    None until one was. `next` is the rung to ask; None if the side is done.
+    Answers at the rung `wrong` and nearer to the border are wrong, or that near to it is within the tolerance. The
+    answer at the rung `right` is right; `right` is None until an answer was right. `next` is the rung to test next;
+    None if the search of this side has ended.
     """
 
     number: int
@@ -83,7 +85,7 @@ class _Side:
         self.begun = self.wrong
 
     def take(self, status: int) -> None:
-        """Take the status of the row `next`, and choose the one to ask after it."""
+        """Take the status of the answer at the rung `next`, and choose the rung to test after it."""
         rung = self.next
         self.next = None
         if rung is None or status not in (_RIGHT, _WRONG):
@@ -103,10 +105,10 @@ _RIGHT, _WRONG = STATUS_CODES[Status.RIGHT], STATUS_CODES[Status.WRONG]
 
 
 def searched(rows: int, first: int, ask: Callable[[Indices], StatusCodes]) -> None:
-    """Ask so many rows of a search that begins at this rung.
+    """Test `rows` rows of a search that begins at the rung `first`.
 
-    `ask` is given the ascending numbers of rows in the family, and returns the status of each answer before it is
-    judged whether a wrong one is tolerated.
+    `ask` takes the ascending numbers of rows in the family, and returns the status of each answer. A wrong answer has
+    the status wrong, because whether it is tolerated is judged later.
     """
     sides = _sides(first, rows // FAR)
     active: list[_Side] = []
@@ -124,12 +126,12 @@ def searched(rows: int, first: int, ask: Callable[[Indices], StatusCodes]) -> No
 
 
 def at_first(rows: int) -> int:
-    """How many sides a search of so many rows begins at first, so that nothing can keep it from asking them."""
+    """The number of sides with which a search of `rows` rows begins; few enough that it tests all its rows."""
     return -(-rows // 2)
 
 
 def beside_border(step: SearchStep, first: int) -> Rows:
-    """The rows beside the border that a search asks at first, when it begins at this rung."""
+    """The first rows of the near sides of a search that begins at the rung `first`."""
     sides = islice(_sides(first, step.rows // FAR), at_first(step.rows))
     near = np.array([_place(side) for side in sides][2 * (step.rows // FAR) :], dtype=np.int64)
     return rows_at(step.family, step.seed, near)
@@ -142,7 +144,7 @@ def far_numbers(step: SearchStep, first: int) -> Indices:
 
 
 def _sides(first: int, far: int) -> Iterator[_Side]:
-    """The sides of all lines, of which the first are `far` ones."""
+    """The sides of all lines, without end: first `far` far sides, then near sides."""
     begins = far_rungs(first, far)
     for number, begin in enumerate(begins):
         yield _Side(number, first - 1, begin)
@@ -151,19 +153,19 @@ def _sides(first: int, far: int) -> Iterator[_Side]:
 
 
 def far_rungs(first: int, far: int) -> list[int]:
-    """The rungs at which the sides of so many far lines begin: on each side evenly, from the first rung outwards."""
+    """The rungs at which the sides of `far` far lines begin: evenly spread from the rung `first` outwards."""
     shares = ((line + side / 2) * _GOLDEN % 1 for line in range(far) for side in (0, 1))
     return [first + int(share * (RUNGS_ON_A_SIDE - first)) for share in shares]
 
 
 def _place(side: _Side) -> int:
-    """The number in the family of the row that a side asks next."""
+    """The number in the family of the row that the search of this side tests next."""
     line, half = divmod(side.number, 2)
     return line * RUNGS + half * RUNGS_ON_A_SIDE + (side.next or 0)
 
 
 def first_of(criterion: Criterion) -> int:
-    """The rung at which a search begins: nearer, most wrong answers are tolerated."""
+    """The rung at which a search begins: most wrong answers at rungs nearer to the border are tolerated."""
     tolerated = float(criterion.tolerance * criterion.unit)
     if not tolerated:
         return 0
@@ -184,7 +186,7 @@ def rows_at(family: str, seed: int, places: Indices) -> Rows:
 
 
 def ask_search(step: SearchStep, implementation: Implementation | Crashed, rules: JudgingRules) -> CasesResult:
-    """Perform a search. All its answers are judged now."""
+    """Perform a search. All its answers are judged at once, without a retest."""
     parts: list[CasesResult] = []
     most = len(step) if implementation.max_rows is None else min(len(step), implementation.max_rows)
 

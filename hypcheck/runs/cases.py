@@ -1,7 +1,7 @@
 """The cases of a conformance run, in chunks: frozen vectors of a family, or a range of its generated rows.
 
-A chunk names its cases, and any process can make them. The result depends neither on the process nor on the order.
-Frozen vectors are read once; the processes of a pool get them from their parent.
+A chunk names its cases, and any process can compute their rows. The result depends neither on the process nor on the
+order. Frozen vectors are read once; the processes of a pool get them from their parent process.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ def frozen_vectors(name: str) -> FrozenVectors:
 
 
 def loaded_vectors() -> dict[str, FrozenVectors]:
-    """All vectors that this process has read, for another process: reading a file is slow, because it is checked."""
+    """All vectors that this process has read, to send to another process: reading and checking a file is slow."""
     return dict(_LOADED)
 
 
@@ -70,7 +70,7 @@ def keep_loaded(some: Mapping[str, FrozenVectors]) -> None:
 
 
 def _tilted_exponent(vector: Vector) -> float:
-    """The exponent of the distance's proved lower end, or of its upper one if the lower is 0; −inf for a tangency."""
+    """The exponent of the distance's lower bound, or of its upper bound if the lower is 0; −inf for a tangency."""
     clear = vector.position is not Position.CONTACT
     ends = [vector.flips[Position.CONTACT]] if clear else list(vector.flips.values())
     least = min(end.lower for end in ends) or min(end.upper for end in ends)
@@ -97,15 +97,16 @@ CHUNK_ROWS = 64 * BLOCK
 
 @dataclass(frozen=True, slots=True)
 class Pace:
-    """How many rows a run asks together, how many it asks again, and how often it writes its progress.
+    """How many rows a run sends at once, how many it repeats in a retest, and how often it writes its progress.
 
     Generated rows are divided into chunks of `chunk_rows`, a multiple of 64. After `retest_after` rows their pending
-    cases are asked again, which bounds how many are kept: a retest holds them all at once, and twice as many would cost
-    each process about 8 MB more. The first retest asks `single_rows` questions of one row, which overflow a counter of
-    8 or 10 bits, and no more of them after `single_s` seconds: few implementations take longer than one second, and the
-    limit spares those that need many milliseconds for a row. An implementation that answers full batches within
-    `soon_s` seconds is asked the longest batches too, which then take about a second. Progress is
-    written every `progress_s` seconds, which a killed run may lose, and takes one part in `progress_share` of the time.
+    cases are retested, which bounds the number of pending cases: a retest holds all of them in memory, and twice as
+    many would cost each process about 8 MB more. The first retest sends up to `single_rows` questions of one row,
+    enough to overflow a counter of 8 or 10 bits. It stops sending such questions after `single_s` seconds: few
+    implementations need more than one second, and the limit protects those that need many milliseconds for a row. An
+    implementation that answers full batches within `soon_s` seconds also gets the longest batches, which then take
+    about a second. Progress is written every `progress_s` seconds; a killed run may lose that much. Writing takes at
+    most one part in `progress_share` of the time.
     """
 
     chunk_rows: int = CHUNK_ROWS
@@ -132,7 +133,7 @@ FRESH_SEEDS = 1 << 32
 class CaseChunk:
     """Cases `start` to `stop` − 1 of a family: generated rows of a seed, or frozen vectors if `seed` is None.
 
-    The distance to the nearest other position is recorded of the first `measured` cases.
+    For the first `measured` cases the distance to the nearest other position is recorded.
     """
 
     family: str
@@ -182,7 +183,7 @@ class CaseChunk:
 
 @dataclass(frozen=True)
 class ChunkCases:
-    """The cases of a chunk: rows, the same column by column, and the exact positions or hits, int8 (n,)."""
+    """The cases of a chunk: rows (n, k), the same numbers as columns (k, n), and exact positions or hits, int8 (n,)."""
 
     chunk: CaseChunk
     rows: Rows
@@ -196,7 +197,7 @@ class ChunkCases:
 
 
 def family_chunks(family: Family, seed: int, count: int, chunk_rows: int = CHUNK_ROWS) -> Iterator[CaseChunk]:
-    """The frozen vectors of a family, then `count` generated rows after those that are frozen."""
+    """The chunks of a family's frozen vectors, then of the `count` generated rows that follow the frozen ones."""
     measured = EXPONENTS_OF
     known = frozen_count(family.name)
     if known:
@@ -208,14 +209,14 @@ def family_chunks(family: Family, seed: int, count: int, chunk_rows: int = CHUNK
 
 
 def fresh_chunks(family: Family, seed: int, count: int, chunk_rows: int = CHUNK_ROWS) -> Iterator[CaseChunk]:
-    """`count` generated rows of a seed that nobody knew before the run, none of them a frozen vector."""
+    """The chunks of `count` generated rows of a seed not known before the run; none of them is a frozen vector."""
     first = first_unfrozen(family, seed) if seed < FRESH_SEEDS else 0
     for start, stop in _generated_chunks(first, count, chunk_rows):
         yield CaseChunk(family.name, seed, start, stop)
 
 
 def _generated_chunks(start: int, count: int, chunk_rows: int) -> Iterator[tuple[int, int]]:
-    """The first rows of chunks and those after their last: `count` rows from `start`."""
+    """The bounds [first, end) of the chunks that divide `count` rows from `start` on."""
     stop = start + count
     while start < stop:
         end = min(stop, (start // chunk_rows + 1) * chunk_rows)
@@ -237,7 +238,7 @@ def searched_chunks() -> Iterator[CaseChunk]:
 
 
 def cases_of_chunk(chunk: CaseChunk) -> ChunkCases:
-    """The rows of a chunk, with certified positions of frozen vectors and positions of other rows decided now."""
+    """The rows of a chunk with their truths: certified positions for frozen vectors, exact decisions for other rows."""
     if chunk.seed is None:
         known, part = frozen_vectors(chunk.family), slice(chunk.start, chunk.stop)
         return ChunkCases(chunk, known.rows[part], np.ascontiguousarray(known.rows[part].T), known.positions[part])
@@ -248,7 +249,7 @@ def cases_of_chunk(chunk: CaseChunk) -> ChunkCases:
 
 @lru_cache
 def first_unfrozen(family: Family, seed: int) -> int:
-    """The number of first rows of a seed that are all frozen vectors."""
+    """The number of rows at the start of a seed's sequence that are frozen vectors."""
     if not frozen_count(family.name):
         return 0
     known = {row.tobytes() for row in frozen_vectors(family.name).rows}
@@ -261,10 +262,10 @@ def first_unfrozen(family: Family, seed: int) -> int:
 
 
 def flip_exponents_of(made: ChunkCases, indices: NDArray[np.intp]) -> NDArray[np.float64]:
-    """floor(log2) of the distance to the nearest other position, for the (ascending) indices that record it.
+    """floor(log2) of the distance to the nearest other position, for those of the ascending indices that record it.
 
-    Frozen vectors hold their distance. It is not recorded for sweeps, nor for generated rows of tilted spheroids, where
-    to prove it would take longer than all the rest.
+    Frozen vectors hold their distance. It is not recorded for sweeps. It is not recorded for generated rows of tilted
+    spheroids either, because its proof would take longer than the rest of the run.
     """
     chunk, measured = made.chunk, indices[indices < made.chunk.measured]
     frozen = chunk.seed is None and chunk.family in (*vectors.NAMES, *vectors.TILTED_NAMES)

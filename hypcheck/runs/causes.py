@@ -1,12 +1,12 @@
-"""Causes of wrong answers: each is a rule that is known to be wrong, and says at which rows it gives which answer.
+"""Causes of wrong answers: each is a rule that is known to be wrong, with the rows at which it answers and its answers.
 
-A cause is never guessed. It explains a wrong answer only where its rule, evaluated at that row, gives that very answer
-(docs/causes.md). Whether the rule is the implementation's own is judged over a run, in diagnosis.py: a rule
-that errs where the implementation is right is not.
+A cause explains a wrong answer only if its rule, evaluated at that row, gives the same answer (docs/causes.md).
+diagnosis.py judges over a whole run whether the implementation has this rule: if the rule is wrong at rows where the
+implementation is right, it has not.
 
-This file has what a cause is, and the causes that are about places: on the ring, outside a regime, where rounding
-decides. formula_errors.py has those about every row: a wrong sign, a column taken for another, an axis that is ignored.
-causes.toml has the texts of both.
+This file defines a cause, and has the causes that are limited to some places: on the ring, outside a regime, where
+rounding decides. formula_errors.py has the causes that apply to every row: a wrong sign, a column taken for another, an
+axis that is ignored. causes.toml has the texts of all causes.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ SILENT = 100
 
 
 class Scope(IntEnum):
-    """How far a rule reaches, in the order in which rules are asked to explain what is left."""
+    """The rows to which a rule applies, in the order in which rules explain the wrong answers that are left."""
 
     PLACE = 0
     """Wrong in exact arithmetic, in one region."""
@@ -65,19 +65,19 @@ class AnsweredRows:
         return self.criterion.layout.subject(self.rows)
 
     def part(self, places: Sequence[int] | Indices) -> AnsweredRows:
-        """The rows at these indices, as if they alone had been asked."""
+        """The rows at these indices with their truths, answers and times, as a value of their own."""
         times = None if self.times is None else self.times[places]
         rows = np.ascontiguousarray(self.rows[places])
         return AnsweredRows(rows, self.truth[places], self.given[places], self.criterion, times)
 
     def answers_at(self, positions: NDArray[np.int8]) -> Answers:
-        """The answers to the question at these positions; SILENT stays."""
+        """The right answers to the question for these positions; SILENT is unchanged."""
         answers = judge.expected(positions, self.criterion.question)
         return np.where(positions == SILENT, SILENT, answers).astype(np.int8)
 
     @cached_property
     def kinds(self) -> dict[int, Kind]:
-        """The kinds of rows (n, 7) by their place, of those that were decided exactly so far."""
+        """The kinds of rows (n, 7) by index, for the rows that were decided exactly so far."""
         return {}
 
     def kind(self, place: int) -> Kind:
@@ -97,14 +97,14 @@ Rule = Callable[[AnsweredRows], Answers]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Cause:
-    """A rule that is wrong: its name, the published id; what it does, why, and what to do, without a full stop.
+    """A wrong rule: its name (the published id), what it does, why it is wrong, and the remedy, without a full stop.
 
-    Tests read `remedy` as code and apply it, so its formulas are those of A, B, P, Q, c1, c2 and Δ.
+    Tests read `remedy` as code and apply it, so its formulas use the names A, B, P, Q, c1, c2 and Δ.
 
-    `rule` gives its answers. `subject` says of which rows (subject_of). `claim` is a statement of the paper that is the
-    reason, as `hypcheck derive --claim` takes it. `slack` is how often, for each wrong answer that it explains, an
-    implementation with this cause may be right at a row where the rule errs. `certain` says at which rows it cannot be
-    right by luck, whatever the order of its operations.
+    `rule` gives the cause's answers. `subject` is what its rows are about (subject_of). `claim` is the statement of the
+    paper that leads to this rule, as `hypcheck derive --claim` takes it. `slack` is the number of right answers at rows
+    where the rule is wrong that are allowed for each wrong answer that it explains. `certain` gives the rows at which
+    an implementation with this cause cannot be right by luck, whatever the order of its operations.
     """
 
     name: str
@@ -119,14 +119,14 @@ class Cause:
     certain: Callable[[AnsweredRows], Mask] | None = None
 
     def remedy_in(self, language: str) -> str:
-        """The remedy for an implementation in that language: a command in it can be typed as it stands."""
+        """The remedy for an implementation in that language; a command in the text can be typed without changes."""
         name = {"c++": "cpp"}.get(language.lower(), language.lower())
         command = "hypcheck emit --method exact"
         return self.remedy.replace(command, f"{command} --language {name}") if name in DIALECTS else self.remedy
 
     @property
     def rounds(self) -> bool:
-        """Whether its rule explains whatever roundings may give, so that no right answer denies it."""
+        """Whether its rule gives any answer that roundings may produce, so that no right answer contradicts it."""
         return self.scope is Scope.ROUNDING and self.subject == "upright"
 
 
@@ -150,7 +150,7 @@ def cause(
 
 @dataclass(frozen=True, eq=False)
 class Numbers:
-    """A, B, P, Q, c1, c2, Δ and slopes of rows (n, 7) in float64; those that overflow are not finite."""
+    """A, B, P, Q, c1, c2, Δ, g'(B) and g'(−A) of rows (n, 7) in float64; values that overflow are not finite."""
 
     A: Floats
     B: Floats
@@ -173,12 +173,13 @@ class Numbers:
             return cls(A, B, P, Q, c1, c2, delta, (3 * B + 2 * c2) * B + c1, (3 * A - 2 * c2) * A + c1)
 
     def errors(self, unit: float, *, roots: bool = False) -> tuple[Floats, Floats, Floats]:
-        """The most that c0, c1 and c2 can be off where roundings are of this unit: 8 a term, with some to spare.
+        """Bounds of the errors of c0, c1 and c2 with roundings of this unit: 8 roundings a term, which is ample.
 
-        With `roots`, those of the cubic whose exact roots the computed ones are. Divided by powers of N, the largest of
-        |c2|, √|c1| and ∛|c0|, the companion matrix has numbers up to 1. Its computed eigenvalues are those of a matrix
-        with numbers off by 30 u at most, as QR of three rows leaves it. A coefficient is a sum of up to 6 products of
-        up to 3 of them, so the one of λ^(3 − k) is off by 6 · 3 · 30 u N^k, less than 1024 u N^k.
+        With `roots`, bounds of the errors of the cubic whose exact roots are the computed roots. Divided by powers of
+        N, the largest of |c2|, √|c1| and ∛|c0|, the companion matrix has numbers up to 1. Its computed eigenvalues are
+        the exact ones of a matrix whose numbers differ by 30 u at most, as QR of three rows leaves it. A coefficient is
+        a sum of up to 6 products of up to 3 such numbers, so the error of the coefficient of λ^(3 − k) is at most 6 · 3
+        · 30 u N^k, less than 1024 u N^k.
         """
         A, B, P, Q = self.A, self.B, self.P, self.Q
         e0, e1 = 8 * unit * A * B, 12 * unit * (A * B + A + B + B * P + A * Q)
@@ -189,7 +190,7 @@ class Numbers:
         return e0, e1, e2
 
     def delta_error(self, unit: float, *, roots: bool = False) -> Floats:
-        """The most that Δ can be off: 16 roundings a term, and what the coefficients' errors do to it."""
+        """A bound of the error of Δ: 16 roundings a term, and the effect of the coefficients' errors."""
         e0, e1, e2 = self.errors(unit, roots=roots)
         m0, m1, m2 = self.A * self.B + e0, np.abs(self.c1) + e1, np.abs(self.c2) + e2
         carried = (
@@ -201,12 +202,13 @@ class Numbers:
         return np.asarray(carried + 16 * unit * terms)
 
     def possible(self, unit: float, *, printed: bool = False, roots: bool = False) -> NDArray[np.bool_]:
-        """Which of −1, 0, +1 a plain evaluation can give where its roundings are of this unit: (n, 3).
+        """Which of −1, 0, +1 a plain evaluation with roundings of this unit can give: a mask (n, 3).
 
-        With `printed`, one of the rules of Propositions 3 and 5, which do not ask where the poles −A and B are. With
-        `roots`, one of the roots, with or without the poles: a root at a pole is on either side of it.
+        With `printed`, the evaluation is one of the rules of Propositions 3 and 5, which do not compare roots with the
+        poles −A and B. With `roots`, it is a rule about computed roots, with or without the poles: a root at a pole can
+        be on either side of it.
 
-        The bounds are first-order ones with a factor to spare, so that any order of the operations is covered.
+        The bounds are of first order, multiplied by a factor above 1, so that they cover any order of the operations.
         """
         with np.errstate(all="ignore"):
             A, B, c1, c2 = self.A, self.B, self.c1, self.c2
@@ -245,7 +247,7 @@ def silent(answered: AnsweredRows) -> Answers:
 
 
 def where_kind(candidates: Mask, answered: AnsweredRows, kind: Kind, position: Position) -> Answers:
-    """The answer of a position at those candidates that are of this kind, in exact arithmetic."""
+    """The answer for this position at the candidates of this kind, which exact arithmetic decides; SILENT elsewhere."""
     positions = silent(answered)
     for place in np.flatnonzero(candidates).tolist():
         if answered.kind(place) is kind:
@@ -260,7 +262,7 @@ def _ring(answered: AnsweredRows) -> Answers:
 
 
 def _unless_rounded(answered: AnsweredRows, answers: Answers) -> Answers:
-    """The answers, but nothing where the answer given is right, and rounding may be what made it so."""
+    """The answers, but SILENT where the given answer is right and may be right by rounding."""
     luck = answered.numbers.possible(2 * max(unit_of(answered), FLOAT64), printed=True)[:, 1]
     right = answered.given == answered.answers_at(answered.truth)
     return np.where(right & luck, SILENT, answers).astype(np.int8)
@@ -313,7 +315,7 @@ def _delta_is_exact(answered: AnsweredRows) -> Mask:
 
 
 def _on_a_grid(answered: AnsweredRows, size: Floats, power: int) -> Mask:
-    """The rows where the declared precision holds every digit of numbers up to this size.
+    """A mask of the rows where the declared precision represents numbers up to this size exactly.
 
     The numbers are polynomials of degree `power` in the lengths. After a division by powers of two, the lengths are
     multiples of 1, ½, ¼ or 1/64.
@@ -329,7 +331,7 @@ def _on_a_grid(answered: AnsweredRows, size: Floats, power: int) -> Mask:
 
 
 def _tangency(kind: Kind, clear: Position) -> Rule:
-    """A tangency of this kind, taken for the clear position of which it is the limit."""
+    """The rule that answers a tangency of this kind with the clear position of which it is the limit."""
 
     def rule(answered: AnsweredRows) -> Answers:
         at = (answered.truth == Position.CONTACT) & answered.numbers.possible(2.0**-50)[:, 1]
@@ -343,14 +345,14 @@ FLOAT64 = 2.0**-53
 
 
 def unit_of(answered: AnsweredRows) -> float:
-    """The unit of the declared precision; 0 where none is tolerated."""
+    """The unit u of the declared precision; 0 if no rounding is tolerated."""
     return float(UNIT_ROUNDOFF[answered.criterion.precision])
 
 
 def rounded(
     answered: AnsweredRows, unit: float, at: Mask | bool = True, *, printed: bool = False, roots: bool = False
 ) -> Answers:
-    """The answers given where roundings of this unit may turn them into these, at these rows (Numbers.possible)."""
+    """The given answers, at those of the rows `at` where roundings of this unit can produce them (Numbers.possible)."""
     answers = judge.expected(np.array([-1, 0, 1], dtype=np.int8), answered.criterion.question)
     possible = answered.numbers.possible(unit, printed=printed, roots=roots)
     agrees = (possible & (answers[None, :] == answered.given[:, None])).any(axis=1)
@@ -358,19 +360,19 @@ def rounded(
 
 
 def _lost_beside_the_ring(answered: AnsweredRows) -> Answers:
-    """Δ has no sign in floats beside the ring, and is taken for 0 or less."""
+    """Beside the ring the rounded Δ has no reliable sign, and is taken for 0 or less."""
     at = (answered.truth == Position.EXTERIOR) & answered.numbers.near_the_ring(2.0**-12)
     return rounded(answered, 2 * max(unit_of(answered), FLOAT64), at)
 
 
 def _lost(answered: AnsweredRows) -> Answers:
-    """A sign that the rounding errors of a plain evaluation may turn."""
+    """A sign that the rounding errors of a plain evaluation can change."""
     unit = unit_of(answered)
     return rounded(answered, 2 * unit) if unit >= FLOAT64 else silent(answered)
 
 
 def _lost_outside(answered: AnsweredRows) -> Answers:
-    """A sign that roundings may turn in the rules as printed, at contacts outside the regimes where these are right."""
+    """A sign that roundings can change in the printed rules, at contacts outside the regimes of these rules."""
     n = answered.numbers
     with np.errstate(all="ignore"):
         outside = (answered.truth == Position.CONTACT) & ((n.A < 1) | (n.B**2 < n.A))
@@ -378,12 +380,12 @@ def _lost_outside(answered: AnsweredRows) -> Answers:
 
 
 def _lost_in_float64(answered: AnsweredRows) -> Answers:
-    """A sign that float64 does not tell, where more is declared."""
+    """A sign that float64 cannot determine, though the declared precision is higher."""
     return rounded(answered, 2 * FLOAT64) if unit_of(answered) < FLOAT64 else silent(answered)
 
 
 def _half_lost(answered: AnsweredRows) -> Answers:
-    """A sign that half the digits of the precision do not tell."""
+    """A sign that half the digits of the precision cannot determine."""
     return rounded(answered, 2 * max(unit_of(answered), FLOAT64) ** 0.5)
 
 
@@ -392,7 +394,7 @@ _RANGES = {"float16": (-14, 16), "bfloat16": (-126, 128), "float32": (-126, 128)
 
 
 def _out_of_range(answered: AnsweredRows) -> Answers:
-    """A square or a product of the plain formula is not in the range of the format, so that Δ has no sign."""
+    """A square or a product of the plain formula overflows or underflows in the format, so that Δ has no sign."""
     if answered.criterion.precision not in _RANGES:
         return silent(answered)
     least, greatest = _RANGES[answered.criterion.precision]

@@ -66,10 +66,10 @@ SCRATCH = "hypcheck-cluster-"
 
 
 def call_with_timeout(seconds: int, call: Callable[[], Result]) -> Result:
-    """What a call returns. Raises what the call raises, or TimeoutError, after which the call is left running.
+    """The return value of a call. Raises what the call raises, or TimeoutError; after a timeout the call keeps running.
 
-    A call may never return if the scheduler's process exists but no longer works. Seconds in which this process stood
-    still do not count.
+    A call may never return if the scheduler's process exists but no longer works. Seconds in which this process was
+    suspended do not count.
     """
     future: futures.Future[Result] = futures.Future()
 
@@ -89,7 +89,7 @@ def call_with_timeout(seconds: int, call: Callable[[], Result]) -> Result:
 
 @contextmanager
 def cluster_client(address: str) -> Iterator[Client]:
-    """A client of the scheduler at that address, which has a worker. What was started here ends with the block.
+    """A client of the scheduler at that address, which has a worker. Processes started here end with the block.
 
     Raises UnavailableError if no certificate can be made for `local:N`, and InputError if the scheduler cannot be
     reached, has no workers, or has other versions than this machine.
@@ -97,7 +97,7 @@ def cluster_client(address: str) -> Iterator[Client]:
     _silence_logs()
     local = LOCAL_CLUSTER.fullmatch(address)
     if local is None:
-        with _client(address, Security()) as client:  # connects as dask's settings say
+        with _client(address, Security()) as client:  # connects according to dask's settings
             yield client
     else:
         with local_cluster(int(local[1])) as (cluster, security), _client(cluster, security) as client:
@@ -109,7 +109,7 @@ def _client(address: str, security: Security) -> Iterator[Client]:
     _require_scheduler(address, security)
     try:
         with warnings.catch_warnings(), interrupts_held():
-            warnings.simplefilter("ignore")  # about versions, which are compared below
+            warnings.simplefilter("ignore")  # warnings about versions, which are compared below
             client = Client(address, timeout=CONNECT, security=security, set_as_default=False, name="hypcheck")
     except Exception as error:  # noqa: BLE001 - a foreign server may cause any error
         raise _no_scheduler(address, error) from None
@@ -131,7 +131,7 @@ def _client(address: str, security: Security) -> Iterator[Client]:
 def _require_scheduler(address: str, security: Security) -> None:
     """Raise InputError if no dask scheduler of this version answers.
 
-    A Client would raise errors of its own, and print tracebacks of some when it is freed.
+    A Client would raise other errors, and print tracebacks of some when it is freed.
     """
 
     async def identity() -> tuple[str, Any]:
@@ -151,7 +151,7 @@ def _require_scheduler(address: str, security: Security) -> None:
 
 
 def _no_scheduler(address: str, error: BaseException) -> InputError:
-    chain = [error]  # dask wraps errors of connections, and tries again until its time is over
+    chain = [error]  # dask wraps connection errors in others, and retries until its timeout
     while (before := chain[-1].__cause__ or chain[-1].__context__) is not None:
         chain.append(before)
     reasons = [error.strerror for error in chain if isinstance(error, OSError) and error.strerror]
@@ -170,7 +170,7 @@ def _no_scheduler(address: str, error: BaseException) -> InputError:
 def _require_workers(client: Client, address: str) -> None:
     try:
         client.wait_for_workers(1, timeout=CONNECT)
-    except OSError:  # a timeout is one
+    except OSError:  # TimeoutError is an OSError
         raise InputError(
             f"--cluster {address}: the scheduler has no workers; `dask worker {address}` starts one"
         ) from None
@@ -197,10 +197,10 @@ def _require_same_versions(node: str, there: Mapping[str, Any], here: Mapping[st
 
 
 def _require_same_files(files: Mapping[str, Any], address: str) -> None:
-    """Raise InputError if a worker has other files of hypcheck, though its version is the same.
+    """Raise InputError if a worker's files of hypcheck differ, though its version is the same.
 
-    `found` are the fingerprints by worker; an OSError stands for a worker that was lost before it answered. A worker
-    that replaces it is checked when it performs its first task.
+    `files` are the fingerprints by worker, with an OSError for a worker that was lost before it answered. A worker that
+    replaces a lost one is checked when it performs its first task.
     """
     here = code_fingerprint()
     for worker, there in files.items():
@@ -217,7 +217,7 @@ _LOUD = ("distributed", "tornado", "asyncio")
 
 
 def _silence_logs() -> None:
-    """Silence the logs of dask: this process reports troubles of the cluster in sentences of its own."""
+    """Silence the logs of dask: this process reports problems of the cluster in its own messages."""
     for name in (*_LOUD, *logging.root.manager.loggerDict):
         if name.split(".")[0] in _LOUD:
             logging.getLogger(name).setLevel(logging.CRITICAL + 1)
@@ -240,7 +240,7 @@ class Worker(_WithoutHttp, distributed.Worker):  # type: ignore[misc]  # as abov
 
 @contextmanager
 def local_cluster(workers: int) -> Iterator[tuple[str, Security]]:
-    """The address of a scheduler that runs here with so many workers, and what a client needs to connect.
+    """Start a scheduler with `workers` workers here: its address, and the security settings that a client needs.
 
     All processes end with the block. Raises UnavailableError if no certificate can be made.
     """
@@ -249,7 +249,7 @@ def local_cluster(workers: int) -> Iterator[tuple[str, Security]]:
     others = active_children()
     with _scratch_folder() as scratch:
         try:
-            # The threads that start workers hold interrupts as long as they live.
+            # The threads that start workers inherit the blocked interrupts for their whole life.
             with (
                 dask.config.set({"temporary-directory": str(scratch)}),
                 warnings.catch_warnings(),
@@ -260,7 +260,7 @@ def local_cluster(workers: int) -> Iterator[tuple[str, Security]]:
             try:
                 yield cluster.scheduler_address, security
             finally:
-                with suppress(Exception):  # workers may need longer
+                with suppress(Exception):  # closing the workers may take longer
                     cluster.close(timeout=CLOSE_LOCAL)
         finally:
             for process in set(active_children()) - set(others):
@@ -269,9 +269,9 @@ def local_cluster(workers: int) -> Iterator[tuple[str, Security]]:
 
 
 def _started(workers: int, security: Security) -> distributed.SpecCluster:
-    """The scheduler and its workers. If a worker's process ends while it starts, all begin anew, START_TRIES times."""
+    """The scheduler and its workers. If a worker's process ends at its start, all start again, START_TRIES times."""
     for _ in range(START_TRIES):
-        with suppress(RuntimeError, OSError):  # what dask raises if a process ended
+        with suppress(RuntimeError, OSError):  # dask raises this if a process ended
             return _start_once(workers, security)
     raise UnavailableError(f"--cluster local:{workers}: workers died at start, {START_TRIES} times")
 
@@ -300,7 +300,7 @@ def _temporary_security() -> Security:
 
 @contextmanager
 def _scratch_folder() -> Iterator[Path]:
-    """A folder for the files of workers, removed with the block. Folders that killed runs left are removed first.
+    """A folder for the files of workers; it is removed after the block. Folders left by killed runs are removed first.
 
     A run holds a lock on its folder. The system releases the lock however the run ends.
     """
@@ -320,7 +320,7 @@ def _locked_folder() -> tuple[Path, int | None]:
         folder = Path(tempfile.mkdtemp(prefix=SCRATCH))
         if sys.platform == "win32":
             return folder, None
-        with suppress(OSError):  # another run took it for a folder that was left, and removed it
+        with suppress(OSError):  # another run removed it because it was not locked yet
             lock = os.open(folder, os.O_RDONLY)
             if _try_lock(lock) and folder.exists():
                 return folder, lock

@@ -54,14 +54,14 @@ def run_conformance(
     state: RunState | None = None,
     expect: Advance = lambda _: None,
 ) -> None:
-    """Ask and judge the implementations of the plan; `advance` is called with the number of cases that were asked.
+    """Test the implementations of the plan; `advance` is called with the number of cases that were tested.
 
-    `expect` is called with how many more cases than planned_size says an implementation will be asked.
-    A resumed run skips implementations that its record has finished, and continues the next one from `state`;
-    `advance` is not called for either. An interrupted run records the finished part. Raises NothingJudgedError if no
-    case at all was judged, which proves nothing.
+    `expect` is called with the number of cases of an implementation beyond planned_size. A resumed run skips
+    implementations that its record has finished, and continues the next one from `state`; `advance` is not called for
+    either. An interrupted run records the finished part. Raises NothingJudgedError if no case was judged, because such
+    a run proves nothing.
     """
-    known_failures_of(plan)  # a file that cannot be read is refused before anything is asked
+    known_failures_of(plan)  # a file that cannot be read is refused before any case is tested
     cases = planned_size(plan)
     keep_freed_memory()
     with _cluster_client(plan.cluster) if plan.cluster else nullcontext() as client:
@@ -95,7 +95,7 @@ def _run_implementation(
     advance: Advance,
     expect: Advance,
 ) -> None:
-    """Ask and judge the implementation with this number, and record the lines about it at the end.
+    """Test the implementation with this number, and record the lines about it at the end.
 
     If the run is interrupted, its progress is recorded too. Raises StartError if the implementation does not start.
     """
@@ -117,7 +117,7 @@ def _run_implementation(
             except StartError:
                 raise
             except BaseException:
-                with interrupts_deferred(), suppress(OSError):  # of a full disk: the progress before stays
+                with interrupts_deferred(), suppress(OSError):  # the disk is full: the earlier progress line stays
                     progress.keep(state)
                 lines.add(state, recorder, finished=False)
                 raise
@@ -132,7 +132,7 @@ def _task_execution(
     rules: JudgingRules,
     client: Client | None,
 ) -> AbstractContextManager[TaskExecution]:
-    """What performs the tasks: this process, or a pool or a cluster, whose processes open the implementation."""
+    """The executor of the tasks: this process, or a pool or a cluster, whose processes open the implementation."""
     workers = plan.pool_workers
     if client is None and workers is None:
         return execution_here(implementation, rules)
@@ -145,10 +145,10 @@ def _task_execution(
 
 
 def add_exit_codes(recorded: Iterable[RecordLine], outcome: RunOutcome) -> None:
-    """Add to the outcome the codes that the lines of a run give a reason for.
+    """Add to the outcome the exit codes that the lines of a run give reasons for.
 
-    An implementation of which nothing was judged is Exit.USAGE, whatever else was judged; one of which too few rows
-    were is Exit.INCONCLUSIVE. Raises NothingJudgedError if no case at all was asked, which proves nothing.
+    The code is Exit.USAGE if no row of some implementation was judged, and Exit.INCONCLUSIVE if too few rows of one
+    were judged. Raises NothingJudgedError if no case was tested, because such a run proves nothing.
     """
     asked, judged, skipped = 0, 0, 0
     for line in recorded:
@@ -189,7 +189,7 @@ class ImplementationLines:
     rules: JudgingRules
 
     def add(self, state: RunState, recorder: Recorder, *, finished: bool) -> None:
-        """Record the state; in an unfinished run, pending cases are judged by their first answers."""
+        """Record the state. In an unfinished run pending cases are judged by their first answers."""
         total = merged_result(
             [replace(state.total, pending=()), result_without_retest(state.total.pending, self.rules)]
         )
@@ -219,7 +219,7 @@ class ImplementationLines:
         )
 
     def _subjects(self) -> set[str]:
-        """What all families that were asked are about, as causes have it; none if only some families were asked."""
+        """The subjects of all tested families, in the terms of causes; none if only some families were tested."""
         families = () if self.plan.filtered else chosen_families(self.plan, self.used)
         return {family.layout.subject(family.columns) for family in families}
 
@@ -233,7 +233,7 @@ class ImplementationLines:
         )
 
     def _causes(self, tallies: Mapping[str, Tally]) -> Iterator[CauseLine]:
-        """Why its wrong answers are wrong. Families with right answers alone say which causes it has not."""
+        """The causes of its wrong answers. Families with only right answers show which causes it does not have."""
         clean = [
             family for family, tallied in tallies.items() if {Status.RIGHT.value} == tallied.counts.keys() - _NOT_ASKED
         ]

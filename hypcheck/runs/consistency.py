@@ -1,7 +1,7 @@
-"""Consistency of a resumed run: the numbers of its record against each other, and against what was planned.
+"""Consistency of a resumed run: the numbers of its record are compared with each other and with the plan.
 
-The checksums of a record do not protect it from a person who edits it. Therefore nothing that is read back is trusted:
-each number is bounded before it is used, sums must agree, and every case that was planned must be tallied.
+The checksums of a record do not protect it from a person who edits it. Therefore no number that is read back is
+trusted: each is checked against its bounds before it is used, sums must agree, and every planned case must be tallied.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ _UNANSWERED = frozenset(status.value for status in UNANSWERED)
 
 
 class MissingCasesError(HypcheckError):
-    """A run whose tallies do not hold the cases that were planned, so that it proves nothing."""
+    """The tallies of a run do not hold the planned cases, so the run proves nothing."""
 
     exit_code = Exit.INTERNAL
 
@@ -89,7 +89,7 @@ def _lacks_trouble(whole: ImplementationLine, groups: Sequence[GroupLine], plan:
 
 
 def _of_fresh(family: str, sums: GroupLine | Tally, plan: ConformancePlan, *, unfinished: bool = False) -> str:
-    """The fresh rows that were asked must be those of the plan, but for skipped ones; no more in an unfinished run."""
+    """The fresh rows that were tested or skipped must be as many as planned; in an unfinished run at most as many."""
     generated = plan.fresh is not None and (family in ALL or family in SEARCHED or MARK in family)
     most = plan.count * family_of(family).times if generated else 0
     most = min(most, border_search.MOST) if family in SEARCHED else most
@@ -100,7 +100,7 @@ def _of_fresh(family: str, sums: GroupLine | Tally, plan: ConformancePlan, *, un
 
 
 def _of_failing(line: GroupLine, plan: ConformancePlan) -> str:
-    """The statuses for which a group fails the run must be those of its counts, as far as these decide it."""
+    """The statuses for which a group fails the run must agree with its counts, as far as the counts decide them."""
     must = {name for name in (*_UNANSWERED, Status.UNDECIDED.value) if line.counts.get(name)}
     may = must | ({str(Status.WRONG.value)} if line.counts.get(Status.WRONG.value) else set())
     if plan.fail_on == "wrong" or line.family in INVALID_CONTENTS:
@@ -142,7 +142,7 @@ def _require_steps(state: RunState, steps: Iterable[Step]) -> list[CaseChunk]:
         if isinstance(step, CaseChunk):
             done[step.family] += len(step)
             waiting.append(step)
-            if done[step.family] > counted[step.family]:  # not one step more than was done is made
+            if done[step.family] > counted[step.family]:  # no step beyond the performed ones is generated
                 break
         elif isinstance(step, (SearchStep, InvalidRows)):
             done[step.family] += len(step)
@@ -163,7 +163,7 @@ def _difference(tallied: Mapping[str, int], planned: Mapping[str, int]) -> str:
 
 
 def _of_allowance(state: RunState, plan: ConformancePlan) -> str:
-    """Why the restarts, faults and hangs that are left contradict the plan, or the rows asked; "" if they do not."""
+    """Why the restarts, faults and hangs that are left contradict the plan or the tested rows; "" if they do not."""
     left = state.left
     hangs = left.hangs is None or 0 <= left.hangs <= MAX_HANGS
     if not (0 <= left.restarts <= plan.limits.restarts and 0 <= left.faults <= MAX_FAULTS and hangs):
@@ -195,7 +195,7 @@ Bins = Sequence[Sequence[int]]
 def _of_sums(
     family: str, sums: GroupLine | Tally, exponents: Mapping[str, Mapping[str, int]], bins: tuple[Bins, Bins]
 ) -> str:
-    """The numbers about one family, of a line or of a tally, must agree with each other."""
+    """The numbers about one family in a line or a tally must agree with each other."""
     counts = Counter(sums.counts)
     if not {*counts} <= {name.value for name in Status} or not {*sums.mistakes} <= {name.value for name in Mistake}:
         return f"{family} has a status or a mistake that does not exist"
@@ -251,7 +251,7 @@ def _of_tally(family: str, tally: Tally, rules: JudgingRules) -> str:
 
 
 def _is_judged_so(case: WorstCase, rules: JudgingRules) -> bool:
-    """Whether a worst case is judged now as the record has it."""
+    """Whether judging a worst case now gives the judgement in the record."""
     rows, answers = np.array([row_of(case)]), np.array([case.answer], dtype=np.int8)
     criterion, times = rules.criterion, None if case.time is None else np.array([case.time])
     wrong = np.flatnonzero(judge.is_amiss(rows, judge.truth_of(rows, criterion.layout), answers, times, criterion))

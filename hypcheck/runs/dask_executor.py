@@ -1,6 +1,6 @@
 """The executor of a cluster: tasks go to a dask scheduler, and a plugin holds the implementation on each worker.
 
-If a worker dies, dask reassigns its tasks. It blames every task that the worker had, and gives a task up that it has
+If a worker dies, dask reassigns its tasks. dask blames every task that the worker had, and gives up a task that it has
 blamed too often; such a task raises WorkerLost here.
 """
 
@@ -80,12 +80,12 @@ def execution_on_cluster(
         finally:
             executor.shutdown()
             if client.status == "running":
-                with suppress(Exception):  # if it is lost meanwhile, workers close idle implementations themselves
+                with suppress(Exception):  # if the cluster is lost, workers close idle implementations themselves
                     call_with_timeout(CLOSE, lambda: client.unregister_worker_plugin(name))
 
 
 def _register(client: Client, plugin: ImplementationPlugin, executor: DaskExecutor) -> None:
-    """Give the plugin to all workers, again if a worker ended meanwhile: one that replaces it has it from the start."""
+    """Give the plugin to all workers; try again if one ended meanwhile: its replacement has it from the start."""
     for _ in range(START_TRIES):
         with suppress(ConnectionError):  # to a worker; see _registered
             return _registered(client, plugin, executor)
@@ -97,7 +97,7 @@ def _registered(client: Client, plugin: ImplementationPlugin, executor: DaskExec
         call_with_timeout(CONNECT, lambda: client.register_plugin(plugin))
     except TimeoutError:
         raise executor.lost(f"it did not answer within {CONNECT} s") from None
-    except OSError as error:  # as dask says that a connection closed
+    except OSError as error:  # dask's error for a closed connection
         raise ConnectionError(str(error)) from None
 
 
@@ -146,7 +146,7 @@ class DaskExecutor(Executor):
     def _forget(self, future: Future[Any]) -> None:
         there = self._running.pop(future, None)
         if there is not None:
-            there.release()  # does not wait for the scheduler, as cancel() would
+            there.release()  # unlike cancel(), this does not wait for the scheduler
 
     def _settle(self, future: Future[Any], there: DaskFuture) -> None:
         """Set the result or the error of a future."""
@@ -157,7 +157,7 @@ class DaskExecutor(Executor):
         except KilledWorker as killed:
             self._fail(future, WorkerLost("workers of the cluster", deaths=killed.allowed_failures + 1))
         except (*_CANCELLED, asyncio.TimeoutError, OSError) as error:
-            if there.status == "error":  # the call itself raised it
+            if there.status == "error":  # the call itself raised the error
                 self._fail(future, error)
             elif not isinstance(error, asyncio.TimeoutError):
                 self._fail(future, self.lost("its scheduler is gone"))
@@ -175,7 +175,7 @@ class DaskExecutor(Executor):
             future.set_exception(error)
 
     def _watch(self) -> None:
-        """Fail all calls if the cluster is lost, which is checked while no results arrive."""
+        """Let all calls fail if the cluster is lost; this is checked while no results arrive."""
         alone = silent = 0
         while not self._over.wait(TICK):
             if self._news.is_set() or not self._running:
@@ -203,8 +203,9 @@ class DaskExecutor(Executor):
 class ImplementationPlugin(WorkerPlugin):  # type: ignore[misc]  # of a package that is not checked
     """The plugin that dask gives to all workers, present and later ones: it holds the implementations of one run.
 
-    On each worker these are as many as it performs tasks at the same time. `name` is that of the run. `files` are the
-    files that the SPEC names, `module` is the sha256 of its Python module, `fingerprint` that of hypcheck's own files.
+    Each worker has as many implementations as it performs tasks at the same time. `name` is the name of the run.
+    `files` are the files that the SPEC names, `module` is the sha256 of its Python module, `fingerprint` that of
+    hypcheck's own files.
     """
 
     name: str
@@ -215,7 +216,7 @@ class ImplementationPlugin(WorkerPlugin):  # type: ignore[misc]  # of a package 
     fingerprint: str
 
     def setup(self, worker: Worker) -> None:
-        """Prepare the worker; the first task opens the implementation."""
+        """Prepare the worker. The first task opens the implementation."""
         keep_freed_memory()
         self._worker, self._home = worker.address, Path(worker.local_directory)
         self._folder: Path | None = None

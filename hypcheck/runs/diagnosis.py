@@ -1,16 +1,18 @@
-"""A diagnosis: wrong answers counted by the causes that explain them, and the causes that stand once all are counted.
+"""A diagnosis: wrong answers are counted by the causes that explain them; some causes are then confirmed.
 
-Of each chunk, every wrong answer is compared with what each cause's rule gives at its row. The causes that give that
-very answer are a set, and wrong answers are counted by set. Of the right answers some are compared, too: a rule that
-errs at their rows is denied by them. Diagnoses of parts add up in any order, like tallies.
+In each chunk, every wrong answer is compared with the answer of each cause's rule at the same row. The causes that give
+the same answer form a set, and wrong answers are counted by set. Some right answers are compared too: a right answer at
+a row where a rule is wrong denies that rule. Diagnoses of parts add up in any order, like tallies.
 
-At the end a cause stands where hardly any right answer denies it. Several faults may be mixed, so what they explain is
-counted in parts: each wrong answer for one cause, the cause that explains most of what is left first. A whole rule
-comes first where it explains more than the others together. Then come the causes about places that are wrong in exact
-arithmetic, then those about rounding, then whole rules for what is left. What none explains is unexplained.
+At the end a cause stands (is confirmed) if hardly any right answer denies it. An implementation may have several
+faults, so each wrong answer is counted for one cause; the cause that explains most of the answers that are left comes
+first. A whole rule comes first if it explains more than the others together. Then come the causes about places that are
+wrong in exact arithmetic, then the causes about rounding, then whole rules for the rest. Answers that no cause explains
+are unexplained.
 
-Where floats are often right by luck, and where roundings may give any answer, right answers deny little. Such a cause
-explains most of what is left, or wrong answers are much more frequent at its rows than elsewhere.
+Where floats are often right by luck, and where roundings may give any answer, right answers deny little. A cause of
+this kind stands only if it explains most of the answers that are left, or if wrong answers are much more frequent at
+its rows than elsewhere.
 """
 
 from __future__ import annotations
@@ -70,7 +72,7 @@ FAILING = (Status.WRONG, Status.UNDECIDED)
 
 
 def kept_case(case: WrongCase, place: Place, name: str, layout: Layout, error: float) -> WorstCase:
-    """The wrong answer at that place with that id, for the record; `error` is what is known of its size."""
+    """The wrong answer at that place with that id, for the record; `error` is the known information about its size."""
     return WorstCase(
         place=place,
         case=name,
@@ -101,7 +103,7 @@ def wrong_case(explained: Explained) -> WrongCase:
 
 
 def _joined(parts: Sequence[Explained]) -> Explained:
-    """The sum of these (one at least), with the causes of the worst: the largest error, then the first place."""
+    """The sum of at least one part, with the causes of the worst answer: the largest error, then the first place."""
     worst = min(parts, key=lambda explained: (-explained.exponent, explained.worst.place))
     return structs.replace(worst, cases=sum(explained.cases for explained in parts))
 
@@ -118,7 +120,7 @@ class Diagnosis:
 
 
 def merged(parts: Iterable[Diagnosis | Tally]) -> Diagnosis:
-    """The sum of these diagnoses, the same in whatever order they come; sets of causes ascend."""
+    """The sum of these diagnoses, the same in any order; the sets of causes are sorted."""
     denied: Counter[str] = Counter()
     by_set: dict[int, list[Explained]] = {}
     for part in parts:
@@ -171,7 +173,7 @@ def _explained(causes: int, some: Sequence[tuple[WrongCase, tuple[Place, str]]],
 
 
 def _against(cause: Cause, answered: AnsweredRows, answers: Answers, first: int = 0) -> int:
-    """How strongly the answers given, from the place `first` on, deny a rule that would give `answers`."""
+    """How strongly the given answers, from the index `first` on, deny a rule that gives `answers`."""
     other = (answers != SILENT) & (answers != answered.given)
     other[:first] = False
     certain = 0 if cause.certain is None or not other.any() else int((other & cause.certain(answered)).sum())
@@ -179,7 +181,7 @@ def _against(cause: Cause, answered: AnsweredRows, answers: Answers, first: int 
 
 
 def _exposed(cause: Cause, answered: AnsweredRows) -> int:
-    """The number of these rightly answered rows at which a cause about rounding would explain another answer."""
+    """The number of these right answers at rows where a cause about rounding would explain another answer."""
     exposed = np.zeros(len(answered.rows), dtype=bool)
     for answer in (-1, 0, 1):
         other = replace(answered, given=np.full(len(answered.rows), answer, dtype=np.int8))
@@ -189,7 +191,7 @@ def _exposed(cause: Cause, answered: AnsweredRows) -> int:
 
 @dataclass(frozen=True, slots=True)
 class CountedCause:
-    """A cause that stands, None where wrong answers are unexplained; their number in each family, and the worst."""
+    """A cause that stands (None: unexplained), with the number of its wrong answers in each family, and the worst."""
 
     cause: Cause | None
     families: Mapping[str, int]
@@ -203,7 +205,7 @@ class CountedCause:
 
 @dataclass
 class _Left:
-    """Wrong answers that no cause has taken yet, by family and set of causes; and what the causes took."""
+    """Wrong answers that no cause has taken yet, by family and set of causes; and the answers taken by causes."""
 
     explained: dict[tuple[str, int], Explained]
     taken: list[CountedCause] = field(default_factory=list)
@@ -219,7 +221,7 @@ class _Left:
         return sum(explained.cases for (_, causes), explained in self.explained.items() if causes & bits)
 
     def take_each(self, some: Sequence[Cause], *, least: float = 0.0, in_order: bool = False) -> None:
-        """Take what each cause explains, the one that explains most first, while that is a share of `least` or more."""
+        """Let each cause take what it explains, the largest number first, while this is at least the share `least`."""
         waiting = list(some)
         while waiting and self.total:
             cause = waiting[0] if in_order else max(waiting, key=self.number)
@@ -252,9 +254,9 @@ CLEAN = 16
 def causes_of(
     diagnoses: Mapping[str, Diagnosis | Tally], clean: Sequence[str], criterion: Criterion, domain: Domain
 ) -> list[CountedCause]:
-    """The causes that stand, of the diagnoses of all families, most wrong answers first, what is unexplained last.
+    """The causes that stand after all families: those with most wrong answers first, unexplained answers last.
 
-    `clean` families were asked and have no wrong answer.
+    `clean` are the tested families without a wrong answer.
     """
     by_subject: dict[str, dict[str, Diagnosis | Tally]] = {}
     for family, diagnosis in diagnoses.items():
@@ -281,7 +283,7 @@ def causes_of(
 
 
 def _right_answers(clean: Sequence[str], criterion: Criterion, domain: Domain) -> Iterator[AnsweredRows]:
-    """Frozen vectors of these families in the domain with the right answers to them."""
+    """The frozen vectors of these families that lie in the domain, with the right answers as the given ones."""
     layout = QUESTIONS[criterion.question].layout
     by_groups: dict[int, list[tuple[Rows, Positions]]] = {}
     for family in clean:
@@ -309,7 +311,7 @@ def _in_all_families(some: list[CountedCause]) -> CountedCause:
 
 
 def _standing(diagnoses: Mapping[str, Diagnosis | Tally], elsewhere: Mapping[str, int]) -> list[CountedCause]:
-    """The causes that stand, of families with rows of one subject; `elsewhere` denies them in other families."""
+    """The causes that stand for families of one subject; `elsewhere` holds denials in other families."""
     denied = Counter(merged(diagnoses.values()).denied) + Counter(elsewhere)
     left = _Left(
         {
@@ -320,14 +322,14 @@ def _standing(diagnoses: Mapping[str, Diagnosis | Tally], elsewhere: Mapping[str
     )
 
     def of(scope: Scope) -> list[Cause]:
-        """The causes of this scope that explain something, and that right answers hardly deny."""
+        """The causes of this scope that explain some wrong answer and that right answers hardly deny."""
         some = ((cause, left.number(cause)) for cause in CAUSES if cause.scope is scope)
         return [
             cause for cause, number in some if number and (cause.rounds or denied[cause.name] <= cause.slack * number)
         ]
 
     def stands_out(cause: Cause, others: Sequence[Cause]) -> bool:
-        """Whether wrong answers are much more frequent at its rows than where none of the others explains any."""
+        """Whether wrong answers are much more frequent at its rows than at rows that no other cause explains."""
         inside, outside = left.number(cause), left.total - left.number(*others)
         right = denied[RIGHT] - denied[cause.name]
         return inside * (outside + right) > LIFT * outside * (inside + denied[cause.name])
@@ -335,10 +337,10 @@ def _standing(diagnoses: Mapping[str, Diagnosis | Tally], elsewhere: Mapping[str
     everywhere, places, rounding = of(Scope.EVERYWHERE), of(Scope.PLACE), of(Scope.ROUNDING)
     known = [*places, *rounding]
     first = max(everywhere, key=left.number, default=None)
-    # A few families may hold nothing that denies a rule: what is known of their places explains as much then.
+    # If only a few families were tested, nothing may deny a rule; causes about places explain as much then.
     if first is not None and left.number(first) > max(MIXED * left.total, left.number(*known)):
         left.take(first)
-    if left.number(*known) < PLACED * left.total:  # something else is wrong, and may be wrong by chance there too
+    if left.number(*known) < PLACED * left.total:  # another fault exists, and may be wrong there by chance
         places = [cause for cause in places if cause.slack < 1 or stands_out(cause, known)]
     left.take_each(places)
     if left.number(*rounding) < ROUNDED * left.total:

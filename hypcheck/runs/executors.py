@@ -33,9 +33,9 @@ from hypcheck.runs.results import JudgingRules
 
 @dataclass(frozen=True, slots=True)
 class Watch:
-    """Seconds between two looks at a process, and how many looks in a row may find it stopped before it is killed.
+    """Seconds between two checks of a process, and how many checks in a row may find it stopped before it is killed.
 
-    While the machine sleeps, this process does not look either, so that time does not count.
+    While the machine sleeps, this process makes no checks either, so that time does not count.
     """
 
     every_s: float = 1.0
@@ -59,7 +59,7 @@ class SerialExecutor(Executor):
     def submit(
         self, function: Callable[Arguments, Result], /, *args: Arguments.args, **kwargs: Arguments.kwargs
     ) -> Future[Result]:
-        """A future that is done."""
+        """A future that is already done."""
         future: Future[Result] = Future()
         try:
             future.set_result(function(*args, **kwargs))
@@ -131,7 +131,7 @@ class WorkerPool(Executor):
         worker.leave()
 
     def _begun(self) -> _Worker:
-        """A worker that is ready, or knows why it is not."""
+        """A new worker that is ready, or that holds the reason why it is not."""
         worker = _Worker(self._watch)
         with self._lock:  # multiprocessing's list of children is shared by the threads
             if not self._over:
@@ -142,7 +142,7 @@ class WorkerPool(Executor):
 
 
 class _Worker:
-    """A process and the connection to it; or the reason why there is no process, which each call raises."""
+    """A process and the connection to it; or the reason why there is no process: each call raises it."""
 
     def __init__(self, watch: Watch) -> None:
         self._watch = watch
@@ -199,7 +199,7 @@ class _Worker:
     def leave(self) -> None:
         """Let the process end."""
         if self.process is not None:
-            with suppress(OSError):  # it has ended
+            with suppress(OSError):  # the process has already ended
                 self._line.send(None)
             self.process.join()
 
@@ -227,7 +227,7 @@ def is_stopped(process: SpawnProcess) -> bool:
         return False
     try:
         return os.waitid(os.P_PID, process.pid, os.WSTOPPED | os.WNOHANG | os.WNOWAIT) is not None
-    except ChildProcessError:  # it ended
+    except ChildProcessError:  # the process ended
         return False
 
 
@@ -250,7 +250,7 @@ def execution_in_pool(
 ) -> Iterator[schedule.TaskExecution]:
     """Perform tasks in so many processes, each of which opens the implementation.
 
-    A task raises StartError if the implementation describes itself otherwise there than here.
+    A task raises StartError if the implementation's description in its process differs from the one here.
     """
     opener = replace(opener, declared=implementation.declared)
     setup = partial(_opened, opener, rules, code_fingerprint(), loaded_vectors())

@@ -1,7 +1,8 @@
-"""What is known of a cause of wrong answers: what it is, why, how it shows, what to do, and a row that shows it.
+"""The explanation of a cause of wrong answers: what it is, why, its symptoms, its remedy, and an example row.
 
-The row is a frozen vector, the shortest of the first family that has one. Its truth is proved; the wrong answer is what
-the cause's rule gives there. Causes about rounding give any answer that roundings of float64 may give.
+The row is a frozen vector, the shortest one of the first family that shows the cause. Its truth is proved; the wrong
+answer is the answer of the cause's rule at this row. For causes about rounding it is an answer that roundings of
+float64 can give.
 """
 
 from __future__ import annotations
@@ -65,7 +66,7 @@ _SHOWN = {
 
 @dataclass(frozen=True, slots=True)
 class Witness:
-    """A row with its case id and its truth, and the wrong answer that a cause gives there, of a sweep with a time."""
+    """A row with its case id, its truth, and the wrong answer of a cause there, with a time if it is a sweep."""
 
     case: str
     row: Row
@@ -92,7 +93,7 @@ def witness_of(cause: Cause) -> Witness:
         witness = _witness_in(cause, name)
         if witness is not None:
             return witness
-    raise AssertionError(f"no frozen vector shows the cause {cause.name}")  # tests look at every cause
+    raise AssertionError(f"no frozen vector shows the cause {cause.name}")  # tests explain every cause
 
 
 def _witness_in(cause: Cause, name: str) -> Witness | None:
@@ -112,7 +113,7 @@ def _witness_in(cause: Cause, name: str) -> Witness | None:
 
 
 def _possible_answers(rows: Floats, truth: Any, criterion: Criterion) -> Iterator[AnsweredRows]:  # noqa: ANN401 - Positions
-    """The rows with each answer of the question given to all of them; of sweeps, with times that are wrong as well."""
+    """For each answer to the question, the rows with this answer given to all; for sweeps also with wrong times."""
     answered = AnsweredRows(np.ascontiguousarray(rows), truth, truth, criterion)
     for answer in (0, 1, -1) if criterion.question == "position" else (0, 1):
         yield replace(answered, given=np.full(len(rows), answer, dtype=np.int8))
@@ -125,13 +126,13 @@ def _possible_answers(rows: Floats, truth: Any, criterion: Criterion) -> Iterato
 
 
 def _is_wrong(answered: AnsweredRows) -> Mask:
-    """Whether the answers given are wrong; a hit that is right is wrong by its time, where one is given."""
+    """A mask of the wrong answers; a right hit is wrong if its time is given and wrong."""
     wrong = np.asarray(answered.given != judge.expected(answered.truth, answered.criterion.question))
     return wrong if answered.times is None else ~wrong & (answered.given == 1)
 
 
 def listed() -> Iterator[str]:
-    """All causes, a line for each, by what they are about."""
+    """The lines that list all causes, grouped by their subjects."""
     width = max(map(len, BY_ID))
     for subject, about in _ABOUT.items():
         yield f"{about}:"
@@ -143,7 +144,7 @@ def listed() -> Iterator[str]:
 
 
 def explained(cause: Cause) -> dict[str, Any]:
-    """All that is known of a cause, for JSON."""
+    """The full explanation of a cause, for JSON."""
     return brief(cause) | {
         "why": cause.why,
         "claim": cause.claim or None,
@@ -153,7 +154,7 @@ def explained(cause: Cause) -> dict[str, Any]:
 
 
 def brief(cause: Cause) -> dict[str, Any]:
-    """A cause in the JSON of a list."""
+    """A cause in short, as an element of the JSON list."""
     return {"id": cause.name, "about": cause.subject, "sentence": cause.sentence, "remedy": cause.remedy}
 
 
@@ -163,7 +164,7 @@ def as_json(content: Any) -> str:  # noqa: ANN401 - whatever JSON holds
 
 
 def explained_lines(cause: Cause) -> Iterator[str]:
-    """All that is known of a cause, for reading."""
+    """The lines of the full explanation of a cause, for the terminal."""
     shown = witness_of(cause)
     first = None if shown.time is None else passage_of(shown.row).first_lower
     yield f"{cause.name} (a cause of wrong answers about {_ABOUT[cause.subject]})"
@@ -199,7 +200,7 @@ def _columns(row: Row, cause: Cause) -> tuple[str, ...]:
 
 
 def _numbers(row: Row) -> str:
-    """The row as the commands take it."""
+    """The numbers of a row as the commands take them."""
     return ",".join(repr(value).removesuffix(".0") for value in row)
 
 

@@ -1,10 +1,10 @@
 """The plan and the cases of a self-check, the errors of formulas on them, and the map of the cooling tower.
 
-A mathematical finding is an error in exact rationals, where only the formula can be wrong. Known findings have a
-reason. A complete run fails if a finding is not known, and if a known finding no longer occurs.
+A mathematical finding is an error in exact rationals, where only the formula can be wrong. Each known finding has a
+reason. A complete run fails if a finding is not known, or if a known finding does not occur.
 
 The map shows exact positions over the half plane (r, z), and the errors of a method in low precision. It shows the
-ring: at z = 0, far outside the surface, the discriminant vanishes, and a plain evaluation says "contact" though both
+ring: at z = 0, far outside the surface, the discriminant vanishes, and a plain evaluation answers "contact" though both
 bodies are far apart (docs/mathematics.md, "The ring").
 """
 
@@ -46,10 +46,11 @@ ALL_BUT_EXTREME: tuple[str, ...] = ()
 class SelfCheckPlan:
     """Options of a self-check.
 
-    `families` are names and globs (none: all families but the extreme ones). The exact and the nearest-point oracle are
-    asked `count` rows of each family, and every method the first `judged` of these. The two slow oracles are asked
-    `roots` and `meshes` rows in total, by default the roots oracle all that are upright. Every formula is evaluated in
-    exact arithmetic on `exact_formulas` rows of each family. `workers` processes ask the oracles; 1 means this process.
+    `families` are names and globs (none: all families but the extreme ones). The exact and the nearest-point oracle
+    decide `count` rows of each family, and every method answers the first `judged` of these. The roots and the mesh
+    oracle, which are slow, decide `roots` and `meshes` rows in total; by default the roots oracle decides all upright
+    rows. Every formula is evaluated in exact arithmetic on `exact_formulas` rows of each family. `workers` processes
+    evaluate the oracles; 1 means this process.
     """
 
     families: tuple[str, ...] = ALL_BUT_EXTREME
@@ -65,7 +66,7 @@ class SelfCheckPlan:
 
     @property
     def complete(self) -> bool:
-        """Whether this run has at least the cases of the default, so that its findings must be the known ones."""
+        """Whether this run has at least the cases of the default plan, so that its findings must be the known ones."""
         default = SelfCheckPlan()
         enough = min(self.count, self.exact_formulas) >= default.exact_formulas
         return enough and (self.families, self.seed) == (default.families, default.seed)
@@ -73,7 +74,7 @@ class SelfCheckPlan:
 
 @dataclass(frozen=True)
 class Batch:
-    """Cases of one family from `start` on: the ids by which they can be asked for again, rows, and exact decisions."""
+    """Cases of one family from `start` on: the ids by which they can be replayed, their rows, and exact decisions."""
 
     family: Family
     ids: tuple[str, ...]
@@ -109,7 +110,7 @@ def batch_of(family: Family, seed: int, start: int, stop: int) -> Batch:
 def mathematical_findings(formula: Formula, batch: Batch, plan: SelfCheckPlan) -> list[FindingLine]:
     """A formula's errors in exact rationals on the first rows of a family, by cause, inside and outside its regimes.
 
-    The lines have no reason yet. `asked` counts all rows inside or outside the regimes.
+    The lines have no reason yet. Their key `asked` counts all tested rows inside or outside the regimes.
     """
     head = batch.head(plan.exact_formulas)
     answer = answering(formula, EXACT)
@@ -135,7 +136,7 @@ def mathematical_findings(formula: Formula, batch: Batch, plan: SelfCheckPlan) -
 
 
 def cause(batch: Batch, place: int) -> str:
-    """The special property of a case that printed statements often forget."""
+    """The special property of a case that printed statements often do not treat."""
     decision = batch.decisions[place]
     if decision.kind is Kind.EXTERIOR_RING:
         return "ring"
@@ -146,7 +147,7 @@ def cause(batch: Batch, place: int) -> str:
 
 
 def exact_formulas() -> list[Formula]:
-    """The formulas that take a pair only, so that exact arithmetic can evaluate them."""
+    """The formulas whose only input is a pair, so that exact arithmetic can evaluate them."""
     return [formula for formula in FORMULAS.values() if formula.classifies_pairs]
 
 
@@ -203,7 +204,8 @@ def reason_for(finding: FindingLine, known: Iterable[KnownFinding]) -> str | Non
 def finding_drift(lines: Sequence[FindingLine], known: Sequence[KnownFinding], *, complete: bool) -> list[str]:
     """A sentence for each difference between the findings and the known ones.
 
-    These are errors inside the stated regimes that are not known and, in a complete run, known ones that did not occur.
+    A difference is an error inside the stated regimes that is not known or, in a complete run, a known error that did
+    not occur.
     """
     unknown = [line for line in lines if line.inside and reason_for(line, known) is None]
     sentences = [

@@ -1,7 +1,8 @@
 """Fingerprints (SHA-256) of the files under test and of hypcheck's own code; files that the workers of a cluster lack.
 
-A SPEC of a command names its program, if that is given as a path, and words that are files here. A program on the PATH
-is each worker's own. A Python module is not sent, but must have the same content everywhere.
+The SPEC of a command names the program, if it is a path, and the words that are files on this machine. A program on the
+PATH is not sent: each worker uses its own. A Python module is not sent either, but must have the same content
+everywhere.
 
 Two machines may have the same version of hypcheck but other files, if it is installed from a repository. Code under
 test runs as the same user as hypcheck: it could overwrite the judge, or itself, during a run.
@@ -46,7 +47,7 @@ def _started(spec: str) -> list[Path]:
 
 
 def not_hashed(specs: Iterable[str]) -> list[str]:
-    """What SPECs start that no look at them tells, in words without a full stop; once each."""
+    """The files that SPECs start and that only running them would show, in words without a full stop; once each."""
     return list(dict.fromkeys(sentence for spec in specs for sentence in started_files(spec).missing))
 
 
@@ -76,7 +77,7 @@ def files_of(text: str) -> Iterator[NamedFile]:
 
 
 def sha256(path: Path) -> str:
-    """The sha256 of a file's content, in hexadecimal; the reason if it cannot be read, or is a pipe or device."""
+    """The sha256 of a file's content, in hexadecimal; if it cannot be read, or is a pipe or device, the reason."""
     digest = hashlib.sha256()
     try:
         if path.exists() and not path.is_file():  # a pipe may block for ever
@@ -134,7 +135,7 @@ def files_to_ship(text: str) -> tuple[ShippedFile, ...]:
 def spec_on_worker(text: str, files: tuple[ShippedFile, ...], worker: str, folder: Path) -> str:
     """The SPEC as a worker can open it: files that the worker lacks are written into the folder.
 
-    Raises InputError if a file on the worker has another content.
+    Raises InputError if a file on the worker has different content.
     """
     spec = parse_spec(text)
     words = list(spec.words)
@@ -158,7 +159,7 @@ def _path_on_worker(file: ShippedFile, worker: str, folder: Path) -> str:
 
 
 def require_same_sha256(what: str, here: str, there: str, worker: str) -> None:
-    """Raise InputError if two hashes differ."""
+    """Raise InputError naming the worker if the two hashes differ."""
     if here != there:
         raise InputError(f"{what} is another file on worker {worker}: sha256 {there} there, and {here} here")
 
@@ -181,7 +182,7 @@ _HEADER = 16
 
 @lru_cache
 def code_fingerprint() -> str:
-    """The fingerprint of hypcheck's modules and frozen vectors, with their names, at the first call."""
+    """The fingerprint of the names and contents of hypcheck's modules and frozen vectors, taken at the first call."""
     digest = hashlib.sha256()
     for place, pattern in ((_PACKAGE, "**/*.py"), (folder(), "*.json*")):
         for path in sorted(place.glob(pattern)):
@@ -250,7 +251,7 @@ def _own_files() -> dict[str, str]:
 
 def _content_of(path: str) -> bytes:
     """The content of a small file; empty if it cannot be read, or was removed meanwhile."""
-    with suppress(OSError), open(path, "rb", buffering=0) as file:  # a buffer would take longer than a small file
+    with suppress(OSError), open(path, "rb", buffering=0) as file:  # faster without a buffer
         return file.read()
     return b""
 

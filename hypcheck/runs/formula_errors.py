@@ -1,8 +1,8 @@
 """Causes about every row: a sign or a term of a formula wrong, a column taken for another, positions for a sweep.
 
-Each is a whole rule. Rules about what is asked are answered exactly after what their sentence in causes.toml says was
-done to the row. Rules about a formula are evaluated in float64 and, where most of their answers agree with the ones
-given, in whole numbers at the rows where they do not.
+Each is a whole rule. A rule about the input changes the row as its sentence in causes.toml says, and then answers
+exactly. A rule about a formula is evaluated in float64. If most of its answers agree with the given ones, it is
+evaluated in whole numbers at the rows where they disagree.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ Lengths = Mapping[str, Number]
 
 @dataclass(frozen=True)
 class Terms:
-    """A, B, P, Q and 1 of the cubic, all times U = b² d², so that they are whole where the lengths are."""
+    """A, B, P, Q and 1 of the cubic, all multiplied by U = b² d², so that whole lengths give whole numbers."""
 
     A: Number
     B: Number
@@ -86,10 +86,10 @@ _DELTA = {"c2³ c0": -4, "c2² c1²": 1, "c2 c1 c0": 18, "c1³": -4, "c0²": -27
 
 @dataclass(frozen=True, slots=True)
 class SlippedRule:
-    """The coefficient rule for all regimes, with one of its parts replaced.
+    """The coefficient rule for all regimes, with a part replaced.
 
-    `factors` of terms of coefficients, by both names, are 1 unless given. `delta` are the factors of the terms of Δ.
-    `signs` are those of c1 and c2 where all roots are positive.
+    `factors` are the factors of terms of coefficients, by the names of the coefficient and the term; 1 unless given.
+    `delta` are the factors of the terms of Δ. `signs` are the signs of c1 and c2 when all roots are positive.
     """
 
     terms: Callable[[Lengths], Terms] = Terms.of
@@ -115,7 +115,7 @@ class SlippedRule:
             return np.where(exterior, 1, np.where(interior, -1, 0)).astype(np.int8)
 
     def __call__(self, answered: AnsweredRows) -> Answers:
-        """The rule's answers: in float64, or exactly where that gives the answer given and float64 does not."""
+        """The rule's answers: from float64, or from exact arithmetic where only this gives the given answer."""
         answers = answered.answers_at(self.positions(_in_floats(answered.rows)))
         others, wrong = np.flatnonzero(answers != answered.given), answered.given != answered.answers_at(answered.truth)
         if (answers == answered.given)[wrong].sum() < _MOSTLY * wrong.sum():
@@ -127,7 +127,7 @@ class SlippedRule:
 
 
 def _formula_errors() -> Iterator[Cause]:
-    """Formulas with a sign or a term of a coefficient or of Δ wrong, or the decision."""
+    """The causes with a wrong sign or term in a coefficient or in Δ, or with a wrong decision."""
 
     def slip(name: str, what: str, why: str, remedy: str, rule: Rule) -> Cause:
         sentence = f"it answers as if{what}"
@@ -157,12 +157,12 @@ def _formula_errors() -> Iterator[Cause]:
 
 
 def _terms(**changed: Callable[[Lengths], Number]) -> Rule:
-    """The formula with some of A, B, P, Q (times b² d²) computed otherwise."""
+    """The rule of the formula with some of A, B, P, Q (times b² d²) replaced."""
     return SlippedRule(lambda row: replace(Terms.of(row), **{name: compute(row) for name, compute in changed.items()}))
 
 
 def _changed(change: Callable[[Rows], Rows]) -> Rule:
-    """The exact answers to other rows than those asked; SILENT where the changed row is none."""
+    """The rule that answers the changed rows exactly; SILENT where a changed row is not valid."""
 
     def rule(answered: AnsweredRows) -> Answers:
         with np.errstate(all="ignore"):
@@ -174,7 +174,7 @@ def _changed(change: Callable[[Rows], Rows]) -> Rule:
 
 
 def _put(**columns: Callable[[dict[str, Floats]], Floats]) -> Rule:
-    """The rows with some columns computed from all columns."""
+    """The change of rows that replaces some columns by values computed from all columns."""
 
     def change(rows: Rows) -> Rows:
         names = PAIRS.columns(rows.shape[1])
@@ -270,7 +270,7 @@ Axes = tuple[Floats, Floats, Floats]
 
 
 def _axis(compute: Callable[[Floats, Floats, Floats], Axes]) -> Rule:
-    """The rows with another axis; upright where that has no direction."""
+    """The change of rows that replaces the axis; upright if the new axis has no direction."""
 
     def change(rows: Rows) -> Rows:
         rows[:, 7:] = np.column_stack(compute(*rows[:, 7:].T.copy()))
@@ -281,7 +281,7 @@ def _axis(compute: Callable[[Floats, Floats, Floats], Axes]) -> Rule:
 
 
 def _angle(turn: Callable[[Floats], Floats]) -> Rule:
-    """The rows with the axis at another angle from the vertical, in radians."""
+    """The change of rows that turns the axis to another angle from the vertical, in radians."""
 
     def compute(x: Floats, y: Floats, z: Floats) -> Axes:
         across = np.hypot(x, y)
@@ -358,14 +358,14 @@ _MOST_SWEEPS = 512
 
 
 def _touches(answered: AnsweredRows, place: int) -> Answers:
-    """Whether the spheroid is in contact at the start (place 4) or the end (7) of each sweep, with its axis if any."""
+    """Whether the spheroid is in contact at one end of each sweep: the start (`place` 4) or the end (7)."""
     rows = answered.rows
     ends = np.hstack([rows[:, :4], rows[:, place : place + 3], rows[:, 10:]])
     return np.asarray(classify(np.ascontiguousarray(ends)) == 0, dtype=np.int8)
 
 
 def _timed(answered: AnsweredRows, hits: Answers, times: Floats | float) -> Answers:
-    """The hits, but SILENT where the answer is a hit at another time: these times do not explain that one."""
+    """The hits, but SILENT where the given answer is a hit at a time other than this rule's."""
     if answered.times is None:
         return hits
     with np.errstate(invalid="ignore"):
@@ -379,14 +379,14 @@ def _at_both_ends(answered: AnsweredRows) -> Answers:
 
 
 def _between(answered: AnsweredRows) -> Answers:
-    """Clear where both ends are clear and the sweep between them is not."""
+    """The rule that answers clear where both ends are clear and the sweep between them is not."""
     first, last = _touches(answered, 4), _touches(answered, 7)
     missed = (answered.truth == 1) & (answered.given == 0) & (first == 0) & (last == 0)
     return np.where(missed, 0, SILENT).astype(np.int8)
 
 
 def _other_sweeps(*order: int) -> Rule:
-    """The hits on sweeps with their columns in this order; nothing about tilted spheroids."""
+    """The rule that answers sweeps whose columns are in this order; SILENT about tilted spheroids."""
 
     def rule(answered: AnsweredRows) -> Answers:
         answers, times = silent(answered), np.zeros(len(answered.rows))
@@ -401,7 +401,7 @@ def _other_sweeps(*order: int) -> Rule:
 
 
 def _where_time(answered: AnsweredRows, holds: Callable[[tuple[float, ...], float], bool]) -> Answers:
-    """The answer given where it is a hit, and right, and this holds of the sweep and the time of the answer."""
+    """The given answer where it is a right hit and `holds` is true of its sweep and its time; SILENT elsewhere."""
     answers = silent(answered)
     if answered.times is not None:
         for place in np.flatnonzero((answered.given == 1) & (answered.truth == 1)).tolist():
@@ -411,7 +411,7 @@ def _where_time(answered: AnsweredRows, holds: Callable[[tuple[float, ...], floa
 
 
 def _times_from_the_end(answered: AnsweredRows) -> Answers:
-    """The answer given where its time, counted from the end, is right."""
+    """The given answer where its time is right if it is counted from the sweep's end."""
 
     def counted_back(row: tuple[float, ...], time: float) -> bool:
         near = abs(1 - time - passage_of(row).first_lower) < _FAR_OFF
@@ -421,7 +421,7 @@ def _times_from_the_end(answered: AnsweredRows) -> Answers:
 
 
 def _times_off(answered: AnsweredRows, *, late: bool) -> Answers:
-    """The answer given where only its time is wrong, in this direction, by less than a thousandth of the sweep."""
+    """The given answer where only its time is wrong, `late` or early, by less than a thousandth of the sweep."""
 
     def is_off(row: tuple[float, ...], time: float) -> bool:
         off = time - passage_of(row).first_lower

@@ -1,4 +1,4 @@
-"""A hunt: its plan, the rows that were asked, the wrong answers found, grouped by where their rows lie, and its report.
+"""A hunt: its plan, the tested rows, the wrong answers grouped by the places of their rows, and its report.
 
 hunt_search.py chooses the rows.
 """
@@ -41,7 +41,7 @@ _ANSWERED = (Status.RIGHT, Status.WRONG, Status.ABSTAINED)
 
 @dataclass(frozen=True, slots=True)
 class HuntPlan:
-    """The budget of a hunt in seconds, in queries, or in both, of which the first ends it; None is no limit.
+    """The budget of a hunt in seconds, queries, or both: the hunt ends when either is spent; None is no limit.
 
     `seed` determines the rows.
     """
@@ -53,10 +53,11 @@ class HuntPlan:
 
 @dataclass(frozen=True, slots=True)
 class HuntTarget:
-    """An implementation with its SPEC, the criterion by which it is judged, and the domain in which it is asked.
+    """An implementation with its SPEC, the criterion that judges it, and the domain in which it is tested.
 
-    `options` are options of the command line, as name and value, that replace what it declares; reports repeat them.
-    If `extreme`, it is also asked at the ends of the float formats, unless its domain excludes them.
+    `options` are options of the command line, as name and value, that replace what it declares; reports repeat them. If
+    `extreme`, it is also tested with the largest and smallest numbers of the float formats, unless its domain excludes
+    them.
     """
 
     spec: str
@@ -76,7 +77,7 @@ class HuntTarget:
         return claimed(rows, self.domain, self.criterion.precision, extreme=self.extreme, layout=self.layout)
 
     def ask(self, rows: Rows) -> Score:
-        """Ask these rows; their score."""
+        """Send these rows to the implementation; return their score."""
         answered = self.implementation.classify(rows)
         return score(rows, judge.truth_of(rows, self.layout), answered, self.criterion)
 
@@ -116,13 +117,13 @@ class HuntFinding:
 
     @property
     def rank(self) -> tuple[bool, float]:
-        """The order of findings: beyond the tolerance or not, then the error."""
+        """The sorting key of findings: beyond the tolerance or not, then the error."""
         return self.case.status is Status.WRONG, self.error
 
 
 @dataclass(slots=True)
 class FindingCluster:
-    """Wrong answers of one kind: the worst, and how many were found beyond the tolerance and within it."""
+    """Wrong answers of one kind: the worst one, and the numbers beyond the tolerance and within it."""
 
     worst: HuntFinding
     beyond: int = 0
@@ -138,8 +139,8 @@ class Hunt:
     """The state of a hunt.
 
     `clusters` are the wrong answers found, by kind. `counts` are rows by status; a tolerated answer counts as wrong.
-    `unanswered` is the first case of each status without a valid answer. `piece` is the number of rows to ask next.
-    `nothing_in_domain` says that the implementation claimed no row of a whole round of strata.
+    `unanswered` is the first case of each status without a valid answer. `piece` is the number of rows to send next.
+    `nothing_in_domain` says that the implementation claims no row of a whole round of strata.
     """
 
     target: HuntTarget
@@ -153,17 +154,17 @@ class Hunt:
 
     @property
     def asked(self) -> int:
-        """Rows asked so far."""
+        """The number of rows tested so far."""
         return self.counts.total()
 
     @property
     def answered(self) -> int:
-        """Rows with an answer, "cannot say" included."""
+        """The number of rows with an answer, "cannot say" included."""
         return sum(self.counts[status.value] for status in _ANSWERED)
 
     @property
     def seconds(self) -> float:
-        """Seconds since the start."""
+        """The seconds since the start."""
         return time.monotonic() - self.started
 
     @property
@@ -175,7 +176,7 @@ class Hunt:
 
     @property
     def over(self) -> bool:
-        """Whether the budget is spent, there is nothing to ask, or the implementation was given up."""
+        """Whether the budget is spent, the domain has no row, or the implementation was given up."""
         return self.spent >= 1 or self.nothing_in_domain or Status.NOT_RUN in self.unanswered
 
     def worst_first(self) -> list[FindingCluster]:
@@ -184,7 +185,7 @@ class Hunt:
         return sorted(beyond, key=lambda cluster: cluster.worst.rank, reverse=True)
 
     def add(self, cases: Iterable[WrongCase], source: str) -> None:
-        """Add judged cases that one stratum or one search found."""
+        """Add judged cases that the stratum or search `source` found."""
         for case in cases:
             place = place_of_row(case.row, self.target.layout)
             key = (case.mistake, case.truth, place.kind)
@@ -201,9 +202,10 @@ class Hunt:
                 cluster.tolerated += 1
 
     def ask(self, rows: Rows, ladders: Integers | None = None) -> list[WrongCase]:
-        """The target's wrong answers to the rows that it claims; their `index` is that of the given rows.
+        """Test the rows that the target claims; the wrong answers, with `index` counted in the given rows.
 
-        With `ladders`, (n,) numbers, only the last wrong answer of each number is judged and returned.
+        With `ladders`, the number of each row's ladder, (n,), only the last wrong answer of each ladder is judged and
+        returned.
         """
         places = self.target.claimed(rows)
         if self.plan.queries is not None:
@@ -220,7 +222,7 @@ class Hunt:
         ]
 
     def _pieces(self, rows: Rows, places: Indices) -> Iterator[tuple[Indices, Score]]:
-        """Ask the rows at these places, some at a time, until the budget is spent."""
+        """Test the rows at these places, a piece at a time, until the budget is spent."""
         start = 0
         while start < len(places) and not self.over:
             part = places[start : start + self.piece]
@@ -305,7 +307,7 @@ def finding_lines(finding: HuntFinding, target: HuntTarget) -> Iterator[str]:
 
 
 def _command(target: HuntTarget, *words: str) -> str:
-    """A command about the target, with the options with which it was opened."""
+    """The start of a command about the target, with the options that opened it."""
     given = [
         part for name, value in target.options if words[0] != "replay" or name != "--regimes" for part in (name, value)
     ]
@@ -313,7 +315,7 @@ def _command(target: HuntTarget, *words: str) -> str:
 
 
 def decimals(row: Sequence[float]) -> str:
-    """A row as the command line reads it back."""
+    """The decimal text of a row that the command line reads back exactly."""
     return ",".join(repr(value).removesuffix(".0") for value in np.add(row, 0.0).tolist())
 
 
@@ -322,7 +324,7 @@ def _row(row: Sequence[float], target: HuntTarget) -> str:
 
 
 def how_wrong(finding: HuntFinding) -> str:
-    """The error of a finding: in units u, of a time in spheroid radii of the sweep."""
+    """The text of a finding's error: in units u; for a wrong time, in spheroid radii of the sweep."""
     if finding.case.time is not None:
         return f"{finding.error:.3g} spheroid radii"
     if finding.error_u == math.inf:
@@ -336,5 +338,5 @@ def name_of_target(target: HuntTarget) -> str:
 
 
 def titled(title: str, line: str) -> str:
-    """A line of a finding with its title."""
+    """A line of a finding that begins with its title."""
     return f"   {title:9} {line}"

@@ -1,8 +1,9 @@
-"""Where a row of a hunt lies: the surfaces next to it, by which findings are grouped.
+"""The place of a row of a hunt: the surfaces next to it. Findings are grouped by place.
 
-Wrong answers are likely on a few surfaces, where an argument about the pair changes its case. In their names a = α/b,
-c = γ/d; r and z are the centre's distances from the axis and from the plane of the waist, in radii of the spheroid; c1,
-c2 and Δ belong to the cubic g (docs/mathematics.md). Of a sweep, what happens on it stands in place of a surface.
+Wrong answers are likely on a few surfaces in the space of rows, on which a case distinction about the pair changes. In
+their names a = α/b, c = γ/d; r and z are the centre's distances from the axis and from the plane of the waist, in radii
+of the spheroid; c1, c2 and Δ belong to the cubic g (docs/mathematics.md). For a sweep, the events on it are used
+instead of surfaces.
 """
 
 from __future__ import annotations
@@ -50,8 +51,8 @@ _OTHER_DOUBLE_ROOTS = (
 class RowPlace:
     """The surfaces next to a row.
 
-    `kind` is the surface that explains most; findings are grouped by it. `words` name every surface. `cause` is equal
-    for rows that fail for the same reason: a special surface, or else the regime.
+    `kind` is the most specific surface; findings are grouped by it. `words` name every surface next to the row. `cause`
+    is equal for rows that probably fail for the same reason: a special surface, or else the regime.
     """
 
     kind: str
@@ -65,7 +66,7 @@ def place_of_row(row: Sequence[float], layout: Layout) -> RowPlace:
 
 
 def place_of(pair: Pair) -> RowPlace:
-    """The place of a pair: what it is on or next to, and the cause that this suggests."""
+    """The place of a pair: the surfaces that it is on or next to, and the cause that they suggest."""
     if pair.has_ends:
         return _ended_place(pair)
     if not pair.is_upright:
@@ -80,7 +81,7 @@ def place_of(pair: Pair) -> RowPlace:
 
 
 def _tilted_place(pair: Pair) -> RowPlace:
-    """The place of a tilted spheroid: what is special about its axis and its centre."""
+    """The place of a tilted spheroid: the special properties of its axis and its centre."""
     x, y, z, axis_x, axis_y, axis_z = map(Fraction, (pair.x, pair.y, pair.z, *pair.axis))
     across, along = axis_x**2 + axis_y**2, axis_z**2
     signs = {
@@ -98,7 +99,7 @@ def _tilted_place(pair: Pair) -> RowPlace:
 
 
 def _ended_place(pair: Pair) -> RowPlace:
-    """The place of a pair whose hyperboloid ends: what the ends change, and how the centre lies to them."""
+    """The place of a pair whose hyperboloid ends: the change that the ends cause, and the centre's position to them."""
     decision, whole = exact.decide(pair.lengths), exact.position(pair.without_ends.lengths)
     low, high = pair.z_min, pair.z_max
     signs = {
@@ -166,7 +167,7 @@ def _planes(lengths: Lengths) -> Iterator[tuple[str, str]]:
 
 
 def _off_the_ring(lengths: Lengths) -> float | None:
-    """The rough distance of the centre from the ring, the circle z = 0, in radii; None if not near."""
+    """The approximate distance of the centre from the ring, a circle in the plane z = 0, in radii; None if not near."""
     a, c = _a(lengths), _c(lengths)
     radius = _ring_radius(a, c)
     if radius is None:
@@ -178,7 +179,7 @@ def _off_the_ring(lengths: Lengths) -> float | None:
 
 
 def _ring_radius(a: float, c: float) -> float | None:
-    """The ring's radius √((c² + 1)(a² + c²))/c in radii of the spheroid; None where there is no ring."""
+    """The ring's radius √((c² + 1)(a² + c²))/c in radii of the spheroid; None if there is no ring."""
     return math.sqrt(c * c + 1) * math.hypot(a / c, 1) if 0 < a < c * c < math.inf else None
 
 
@@ -202,7 +203,7 @@ def _ratio(top: int, bottom: int) -> float:
 
 
 def sweep_place(row: tuple[float, ...]) -> RowPlace:
-    """The place of a sweep: what happens on it, and how it lies; findings are grouped by what is named first."""
+    """The place of a sweep: the events on it, and its direction; findings are grouped by the first name."""
     start, end = row[len(SIZES) : len(COLUMNS)], row[len(COLUMNS) : len(SWEEP_COLUMNS)]
     passage, length = passage_of(row), sweep_in_radii(row)
     still, sides = start == end, (passage.start, passage.end)
@@ -226,7 +227,7 @@ def sweep_place(row: tuple[float, ...]) -> RowPlace:
 
 
 def _crosses_the_ring(row: tuple[float, ...]) -> bool:
-    """Whether an upright spheroid's centre comes to the ring, or nearly, where its sweep crosses the waist's plane."""
+    """Whether an upright spheroid's centre is on or near the ring when its sweep crosses the waist's plane."""
     alpha, gamma, b, d, x, y, z, end_x, end_y, end_z = row
     radius = _ring_radius(alpha / b, gamma / d)
     if radius is None or z * end_z > 0:

@@ -1,20 +1,22 @@
-"""The search of a hunt: thin strata of rows first, then alternately local search and more of the strata.
+"""The search of a hunt: first rows of thin strata, then local search and further strata rows in turn.
 
-A stratum is a thin set of rows on which an argument about the pair changes its case. Each family of vectors is one:
+A stratum is a thin set of rows on which a case distinction about the pair changes. Each family of vectors is a stratum:
 tangencies and other double roots (Δ = 0), the ring, vanishing coefficients, the axis, the waist, the borders of the
 regimes, long ratios. The other strata are the crossings of four surfaces, z = 0, r = 0, a = 1 and c² = a, with each
-other and with the border of contact: rows exactly on them, and rows very close. An implementation with fixed sizes is
-asked only the families for these sizes. One that takes heights is asked first where hyperboloids end.
+other and with the border of contact: rows exactly on them, and rows very close to them. An implementation with fixed
+sizes is tested only with the families for these sizes. One that takes heights is tested first with hyperboloids that
+end.
 
 Rows are brought to the border of contact by bisection on exact positions. The position is monotone in every input
-(docs/mathematics.md, "Monotone in every input"), so it changes at most twice along a factor on one length, or on x and
-y together.
+(docs/mathematics.md, "Monotone in every input"), so it changes at most twice while one length, or x and y together, are
+multiplied by a growing factor.
 
 Local search goes from a wrong answer to worse ones, as a pattern search with halving steps. The neighbours of a row
 have one of the six unknowns multiplied by 1 ± step (the search space is logarithmic), or lie exactly on a surface.
-Floats mostly fail in a thin layer at the border of contact, which a plain step would leave. Therefore each neighbour is
-asked, and also brought to the border, with a ladder of growing steps away from it: the farthest rung with a wrong
-answer counts. A sweep is brought there by the spheroid's size, in which contact is monotone (truth/passage_error.py).
+Floats mostly fail in a thin layer at the border of contact, and a plain step would leave it. Therefore each neighbour
+is tested, and is also moved to the border. From there a ladder of rows leads away in growing steps; its farthest rung
+with a wrong answer counts. A sweep is moved there by the spheroid's size, in which contact is monotone
+(truth/passage_error.py).
 """
 
 from __future__ import annotations
@@ -64,7 +66,7 @@ RUNGS = 4 ** np.arange(EXPONENTS // 2, dtype=np.int64)
 
 
 def columns_of(movers: NDArray[np.str_], numbers: int = len(COLUMNS)) -> Mask:
-    """The columns that the named movers multiply, as a mask (n, 7), or of rows of so many numbers."""
+    """The columns that the named movers multiply, as a mask (n, `numbers`); a row has 7 numbers by default."""
     mask = np.zeros((len(movers), numbers), dtype=np.bool_)
     for name, columns in _movers_of(numbers).items():
         mask[np.ix_(movers == name, columns)] = True
@@ -72,7 +74,7 @@ def columns_of(movers: NDArray[np.str_], numbers: int = len(COLUMNS)) -> Mask:
 
 
 def _movers_of(numbers: int) -> dict[str, tuple[int, ...]]:
-    """The unknowns of a pair of so many numbers."""
+    """The movers of a row with this many numbers: the unknowns that can be changed."""
     return MOVERS | END_MOVERS if numbers == len(PAIRS.ended) else MOVERS
 
 
@@ -83,16 +85,16 @@ def moved(rows: Rows, mask: Mask, factor: Floats) -> Rows:
 
 
 def border_factors(rows: Rows, mask: Mask, far: Mask, layout: Layout = PAIRS) -> Floats:
-    """The factor just before the position changes, or contact on a sweep begins, (n,); NaN if not within REACH.
+    """The factor just before the position changes or contact on a sweep begins, (n,); NaN if none within REACH.
 
-    Of two changes the one with the greater factor is taken for the rows in `far`.
+    If there are two changes, the rows in `far` take the one with the greater factor.
     """
     low, high = np.full(len(rows), 1 / REACH), np.full(len(rows), REACH)
     at_low, at_high = _truths(moved(rows, mask, low), layout), _truths(moved(rows, mask, high), layout)
     changes = (at_low != at_high) & (at_low != UNUSABLE) & (at_high != UNUSABLE)
     rows, mask, far = rows[changes], mask[changes], far[changes]
     at_low, at_high = at_low[changes], at_high[changes]
-    # To halve bit patterns halves the logarithm at first, and the factor itself at the end.
+    # Bisection of bit patterns bisects the logarithm at first, and the factor itself at the end.
     below, above = low[changes].view(np.int64), high[changes].view(np.int64)
     while (above - below).max(initial=0) > 1:
         middle = below + (above - below) // 2
@@ -108,7 +110,7 @@ UNUSABLE = 3
 
 
 def _truths(rows: Rows, layout: Layout) -> Positions:
-    """Exact positions, or hits of sweeps, and UNUSABLE if a length left the range of float64."""
+    """Exact positions, or hits of sweeps; UNUSABLE if a length is outside the range of float64."""
     usable = ~invalid(rows, layout)
     truths = np.full(len(rows), UNUSABLE, dtype=np.int8)
     truths[usable] = truth_of(rows[usable], layout)
@@ -116,7 +118,7 @@ def _truths(rows: Rows, layout: Layout) -> Positions:
 
 
 def beside_border(draw: Draw, rows: Rows, movers: NDArray[np.str_]) -> Rows:
-    """Each row moved to a border by its mover, then away by a random rung; rows without a border are left out."""
+    """The rows, each moved to a border by its mover, then away by a random rung; rows without a border are left out."""
     mask = columns_of(movers)
     factors = border_factors(rows, mask, draw.signs(len(rows)) > 0)
     rungs = ldexp(draw.signs(len(rows)), draw.integers(len(rows), 0, EXPONENTS - 1)).astype(np.int64)
@@ -125,7 +127,7 @@ def beside_border(draw: Draw, rows: Rows, movers: NDArray[np.str_]) -> Rows:
 
 
 def ladders(rows: Rows, mask: Mask, factors: Floats) -> tuple[Rows, Integers]:
-    """All rungs of every row that has a border, and the number of the ladder of each rung.
+    """The rungs of all rows that have a border, and for each rung the number of its ladder.
 
     Ladder 2i leads outwards from the border of row i, ladder 2i + 1 inwards; rungs are ordered away from the border.
     """
@@ -159,9 +161,9 @@ class HuntStratum:
 def strata(
     settings: tuple[FixedSizes, ...] = (), *, tilt: bool = False, heights: bool = False, layout: Layout = PAIRS
 ) -> tuple[HuntStratum, ...]:
-    """All strata, the families of vectors first; of fixed sizes, and of sweeps, the families for them alone.
+    """All strata, families of vectors first. For fixed sizes and for sweeps there are only the families for them.
 
-    Those where the spheroid is tilted or the hyperboloid ends only if asked for.
+    Strata with tilted spheroids need `tilt`; strata with hyperboloids that end need `heights`.
     """
     if layout.has_end:
         sweeps = (ENDED_SWEEP_FAMILIES | SWEEP_FAMILIES if heights else SWEEP_FAMILIES).values()
@@ -191,7 +193,7 @@ def _of_crossing(surfaces: tuple[str, ...]) -> HuntStratum:
 
 
 def crossing(draw: Draw, n: int, surfaces: tuple[str, ...]) -> Rows:
-    """At most n rows on these surfaces or very close, each at a random distance from the border of contact."""
+    """At most n rows on these surfaces or very close to them, each at a random distance from the border of contact."""
     size = _sizes(draw, n, surfaces)
     height = heights(draw, size.c) * _slack(draw, n, pinned="z = 0" in surfaces)
     radius = np.abs(size.a + offsets(draw, n)) * _slack(draw, n, pinned="r = 0" in surfaces)
@@ -201,7 +203,7 @@ def crossing(draw: Draw, n: int, surfaces: tuple[str, ...]) -> Rows:
 
 
 def _slack(draw: Draw, n: int, *, pinned: bool) -> Floats:
-    """Factors of a distance: 1, or if `pinned` randomly 0 and 2⁻⁵⁰ … 2⁻³."""
+    """Factors for a distance: 1; if `pinned`, randomly 0 (on the surface) or from 2⁻⁵⁰ to 2⁻³."""
     if not pinned:
         return np.ones(n)
     return np.where(draw.signs(n) < 0, 0.0, draw.log_uniform(n, -50, -3))
@@ -226,7 +228,7 @@ def _nearly_one(draw: Draw, n: int) -> Floats:
 
 
 def _movers(surfaces: tuple[str, ...]) -> list[str]:
-    """The movers that reach the border without leaving these surfaces."""
+    """The movers that can bring a row to the border without leaving these surfaces."""
     kept = {SURFACES[surface] for surface in surfaces}
     return [mover for mover in ("radius", "height", "alpha") if mover not in kept]
 
@@ -258,7 +260,7 @@ Where they are all of a unit of length, or an axis, only the rounding changes.
 
 @dataclass(slots=True)
 class Climber:
-    """The state of one local search: its row, the backward error there, and the next step."""
+    """The state of one local search: its row, the backward error of the answer there, and the next step."""
 
     row: Row
     error: float
@@ -272,7 +274,7 @@ class Climber:
 
 @dataclass(frozen=True, slots=True)
 class Neighbours:
-    """Rows (n, 7, 10, 13 or 16) to ask; for each, (n,), the number of its climber and of its ladder.
+    """Rows (n, 7, 10, 13 or 16) to test; for each row the number of its climber and of its ladder, (n,).
 
     A row on no ladder has a ladder of its own. The rungs of a ladder are ordered away from the border: the last with a
     wrong answer is the worst.
@@ -285,7 +287,7 @@ class Neighbours:
 
 def neighbours(draw: Draw, climbers: Sequence[Climber], layout: Layout = PAIRS) -> Neighbours:
     """The neighbours of the climbers, rows of this layout."""
-    with np.errstate(all="ignore"):  # rows that leave float64 are not valid, and not asked
+    with np.errstate(all="ignore"):  # rows beyond float64 are not valid, and not tested
         around = [_around(climber, layout) for climber in climbers]
     rows = np.concatenate(as_wide(around, layout))
     owners = np.repeat(np.arange(len(climbers)), [len(part) for part in around])
@@ -305,7 +307,7 @@ BROUGHT = 3
 
 
 def _borders(draw: Draw, rows: Rows, layout: Layout) -> tuple[Mask, Floats]:
-    """The columns of each row that one factor brings to the border of contact, and that factor; NaN where none does."""
+    """The columns of each row that a factor can bring to the border of contact, and the factor; NaN if none can."""
     if not layout.has_end:
         movers = list(_movers_of(rows.shape[1]))
         mask = columns_of(np.asarray(movers)[draw.integers(len(rows), 0, len(movers) - 1)], rows.shape[1])
@@ -330,7 +332,7 @@ def _around(climber: Climber, layout: Layout) -> Rows:
 
 
 def _at_ends(row: Row, layout: Layout) -> Rows:
-    """Rows with the centre at each end and a half height beyond; with one end, or both, away; with other ends."""
+    """Rows with the centre at each end or half a height beyond; rows without one end or both; rows with other ends."""
     width, d = len(row), row[3]
     low, high = row[-3:-1]
     images = np.repeat(np.array([row]), 8, axis=0)
@@ -346,7 +348,7 @@ def _at_ends(row: Row, layout: Layout) -> Rows:
 
 
 def _special(row: Row, layout: Layout) -> Rows:
-    """The images of a row on the four surfaces; of a sweep those on three, and special sweeps beside it."""
+    """The projections of a row onto the four surfaces; for a sweep onto three, and special sweeps beside it."""
     images = np.repeat(np.array([row]), 7 if layout.has_end else 4, axis=0)
     *others, waist, throat, groove = images
     throat[0] = throat[2]
@@ -374,10 +376,10 @@ Progress = Callable[[Hunt], object]
 
 
 def run_hunt(run: Hunt, progress: Progress = lambda _: None, everywhere: Sequence[HuntStratum] | None = None) -> None:
-    """Search for wrong answers until the budget is spent, and keep them in `run`; `progress` is called now and then.
+    """Search for wrong answers until the budget is spent, and add them to `run`; call `progress` after each step.
 
-    The rows are those of `everywhere`; None: of all strata that the target is about.
-    With a budget of queries only, the same plan finds the same answers. An interrupted hunt keeps its findings.
+    The rows come from the strata `everywhere`; None: from all strata that the target claims. With a budget of queries
+    only, the same plan finds the same answers. An interrupted hunt keeps its findings.
     """
     looking, climbing = _look(run, strata_of(run) if everywhere is None else everywhere), _climb(run)
     in_strata = 0
@@ -386,20 +388,20 @@ def run_hunt(run: Hunt, progress: Progress = lambda _: None, everywhere: Sequenc
         next(looking)
         in_strata += run.asked - before
         progress(run)
-        # Half of the rows go to each, once there is a wrong answer to start from.
+        # Local search and strata get half of the rows each, once there is a wrong answer to start from.
         while not run.over and 2 * in_strata > run.asked and next(climbing):
             progress(run)
 
 
 def strata_of(run: Hunt) -> tuple[HuntStratum, ...]:
-    """All strata that the target of a hunt is about."""
+    """All strata with rows that the target of a hunt can take."""
     target = run.target
     used = target.implementation.description
     return strata(target.domain.settings, tilt=used.tilt, heights=used.heights, layout=target.layout)
 
 
 def _look(run: Hunt, everywhere: Sequence[HuntStratum]) -> Iterator[None]:
-    """The strata, without end: first some rows of each, then block after block."""
+    """Test the strata, without end: first some rows of each, then block after block."""
     for stratum in everywhere:
         _take(run, stratum.rows(run.plan.seed, 0)[:FIRST_LOOK], stratum.name)
         if run.over:
@@ -420,7 +422,7 @@ def _take(run: Hunt, rows: Rows, source: str) -> None:
 
 
 def _climb(run: Hunt) -> Iterator[bool]:
-    """Local search around the worst answer of each cluster, one step of some climbers at a time; False without any."""
+    """Do a step of some local searches around the worst answers of clusters; False if there is none to continue."""
     climbers: dict[ClusterKey, Climber] = {}
     number = 0
     while True:
@@ -438,9 +440,10 @@ def _climb(run: Hunt) -> Iterator[bool]:
 
 
 def _climbers(run: Hunt, climbers: dict[ClusterKey, Climber]) -> list[ClusterKey]:
-    """The climbers to ask next: those with the longest step, then the worst.
+    """The climbers for the next step: those with the longest step first, then those with the worst answer.
 
-    A climber is at the worst answer of its cluster. It starts again with the first step when that has become worse.
+    A climber is at the worst answer of its cluster. It starts again with the first step if the cluster has a new worst
+    answer.
     """
     worst_first = sorted(run.clusters.items(), key=lambda item: item[1].worst.rank, reverse=True)
     for key, cluster in worst_first:

@@ -1,7 +1,7 @@
-"""The intermediates of a formula on one row, in floats and exactly, beside an implementation.
+"""The intermediate values of a formula on one row, in floats and exactly, to compare with an implementation.
 
-The formula is the implementation's own, the one that was asked for, or one that answers as the implementation does.
-Values are shown with a few digits, of which each is right.
+The formula is the implementation's own, the requested one, or one that gives the implementation's answer. Values are
+shown with a few digits, and every digit is right.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ def rational(value: Number, bits: int = 64) -> Fraction:
     """A rational within a relative 2^−bits of the value; the value itself if it is rational."""
     if not isinstance(value, QuadraticSurd):
         return value
-    # p and q√h of one sign cannot cancel. Of two signs, p + q√h = (p² − q²h)/(p − q√h), and p, −q√h have one sign.
+    # p and q√h of equal sign cannot cancel. Else p + q√h = (p² − q²h)/(p − q√h), and p, −q√h have equal sign.
     if value.p * value.q < 0:
         return (value.p**2 - value.q**2 * value.h) / rational(QuadraticSurd(value.p, -value.q, value.h), bits + 1)
     return value.p + value.q * _root(value.h, bits + 1)
@@ -86,7 +86,7 @@ def _trimmed(text: str) -> str:
 
 
 def relative_error(value: object, exact: object) -> float | None:
-    """|value − exact|/|exact|: 0 if equal, inf if exact is 0 or value not finite, None if they are no numbers."""
+    """|value − exact|/|exact|: 0 if equal, inf if exact is 0 or value is not finite, None if they are not numbers."""
     if isinstance(value, bool) or not isinstance(exact, (Fraction, QuadraticSurd)):
         return None
     if not isinstance(value, Fraction):
@@ -125,7 +125,7 @@ class Intermediate:
 
     @property
     def decided_otherwise(self) -> bool:
-        """Whether exact arithmetic takes this decision otherwise."""
+        """Whether exact arithmetic gives the opposite decision."""
         return self.decision and self.value != self.exact
 
 
@@ -133,9 +133,8 @@ class Intermediate:
 class FormulaComparison:
     """All values of a formula on one row, by name; `format` is the machine's.
 
-    `answer` and `exact_answer` are the two results. `first_wrong` names the first decision (a comparison) that exact
-    arithmetic takes otherwise, or is None; `culprit` names the number in that decision with the greatest absolute
-    error.
+    `answer` and `exact_answer` are the two results. `first_wrong` names the first decision (a comparison) that differs
+    from exact arithmetic, or is None; `culprit` names the number in that decision with the greatest absolute error.
     """
 
     formula: Formula
@@ -280,7 +279,7 @@ def choose_formula(
 
 
 def format_of(precision: str) -> tuple[str, str]:
-    """The numpy format for a declared precision, and a note if that is another precision."""
+    """The numpy format for a declared precision, and a note if the format's precision differs from the declared one."""
     if precision in ("float16", "float32", "float64"):
         return precision, ""
     if np.finfo(np.longdouble).nmant == _MANTISSA.get(precision):
@@ -298,10 +297,10 @@ def _of_builtin(implementation: Implementation) -> Formula | None:
 def _nearest(
     used: Description, answer: int | None, row: Row, truth: Position, format_name: str, instead: str
 ) -> FormulaChoice:
-    """A formula with a comparable question that is right or wrong as the implementation is, table-2 first.
+    """A formula with a comparable question that is right if the implementation is, and wrong if it is; table-2 first.
 
-    A formula that errs in the same way explains a wrong answer. A "no" that leaves the truth open would explain
-    nothing.
+    A formula with the same error explains a wrong answer. An answer "no" that leaves several positions possible would
+    explain nothing.
     """
     comparable = _comparable(used.question)
     comparisons = [compared for formula in comparable if (compared := compare_formula(formula, format_name, row))]

@@ -1,16 +1,17 @@
-"""Judging answers: what is true about rows, which answers are right, and the error of a wrong one in one number.
+"""Judging answers: the truth about rows, which answers are right, and the error of a wrong answer as one number.
 
-One judge for every question. What questions differ in is data: `Question` has the answers and the columns of the rows,
-and _SUBJECTS says for each layout of rows what is true and how a wrong answer is measured.
+There is one judge for all questions. Their differences are data: `Question` has the answers and the columns of the
+rows, and _SUBJECTS has for each layout of rows its truths and the measure of a wrong answer.
 
 **A position.** The backward error of a wrong answer is the infimum of all ε for which a relative change of each input
 by at most ε makes that answer right (truth/backward_error.py). It is counted in units u of the declared precision. For
-a tilted spheroid it is bracketed by two proved ends: the answer is wrong if the lower end exceeds the tolerance,
-tolerated if the upper end does not, and undecided otherwise.
+a tilted spheroid two proved bounds enclose it: the answer is wrong if the lower bound exceeds the tolerance, tolerated
+if the upper bound does not, and undecided otherwise.
 
 **A sweep.** A wrong answer is measured by the least relative change of b and d together that makes it right. A time is
-right from the first contact of the spheroid grown by the tolerance to that of the spheroid shrunk by it; a wrong one is
-measured by the sweep between it and the first contact, in spheroid radii (truth/passage_error.py).
+right if it lies between the first contact of the spheroid grown by the tolerance and the first contact of the spheroid
+shrunk by it. A wrong time is measured by the part of the sweep between it and the first contact, in spheroid radii
+(truth/passage_error.py).
 """
 
 from __future__ import annotations
@@ -40,7 +41,7 @@ DEFAULT_TOLERANCE = Fraction(8)
 
 
 class Status(str, Enum):
-    """How a case ended."""
+    """The outcome of a case."""
 
     RIGHT = "right"
     TOLERATED = "tolerated"
@@ -70,12 +71,12 @@ UNANSWERED = (
 
 
 class Mistake(str, Enum):
-    """The kinds of wrong answers, by their consequence."""
+    """The kinds of wrong answers, by their consequences."""
 
-    FALSE_CLEAR = "false-clear"  # dangerous: something is touched
-    FALSE_CONTACT = "false-contact"  # an invisible wall
+    FALSE_CLEAR = "false-clear"  # dangerous: there is contact
+    FALSE_CONTACT = "false-contact"  # contact is reported where there is none
     WRONG_SIDE = "wrong-side"
-    LATE = "late"  # of a time: dangerous, the contact was before
+    LATE = "late"  # a wrong time; dangerous: contact was earlier
     EARLY = "early"
 
 
@@ -114,9 +115,9 @@ class Criterion:
 class WrongCase:
     """A wrong answer: its index in the batch, the row, the truth, the answer, the kind of mistake, and its size.
 
-    `exponent` is floor(log2) of the backward error (−inf: it is 0; inf: no change is enough). For a tilted spheroid it
-    is log2 of `least`, a lower end that is proved, or of an estimate where `least` is 0. measured() gives the number.
-    `time` is that of a sweep's first contact, if it is what is wrong.
+    `exponent` is floor(log2) of the backward error (−inf: the error is 0; inf: no change is enough). For a tilted
+    spheroid it is log2 of `least`, a proved lower bound, or of an estimate if `least` is 0. measured() gives the error
+    itself. `time` is the answered time of a sweep's first contact, if the time is wrong.
     """
 
     index: int
@@ -136,12 +137,12 @@ def exact_positions(rows: Rows) -> Positions:
 
 
 def truth_of(rows: Rows, layout: Layout) -> Positions:
-    """What is true about valid rows of that layout: their positions, or 1 for contact on a sweep, else 0: int8 (n,)."""
+    """The truth about valid rows of this layout, int8 (n,): their positions; for sweeps 1 for contact, else 0."""
     return _SUBJECTS[layout].truth(rows)
 
 
 def expected(truth: Positions, question: str) -> NDArray[np.int8]:
-    """The right answers to a question, int8 (n,): the truth itself, or 1 for yes and 0 for no."""
+    """The right answers to a question, int8 (n,): the truth, or 1 for yes and 0 for no."""
     position = QUESTIONS[question].position
     return truth if position is None else np.asarray(truth == position, dtype=np.int8)
 
@@ -181,7 +182,7 @@ def _judged_positions(
     criterion: Criterion,
     times: Floats | None,  # noqa: ARG001 - a position has none
 ) -> Iterator[WrongCase]:
-    """Judge positions: by float64 where it proves an error beyond the tolerance, by more bits elsewhere."""
+    """Judge positions: by float64 where this proves an error beyond the tolerance, elsewhere with more bits."""
     pairs = [Pair.from_row(row) for row in rows[wrong].tolist()]
     truths = [exact.decide(pair.lengths) for pair in pairs]
     given = [int(answers[index]) for index in wrong.tolist()]
@@ -199,7 +200,7 @@ def _judged_positions(
 
 
 def _judged(index: int, pair: Pair, truth: Decision, answer: int, criterion: Criterion) -> WrongCase:
-    """A wrong answer; UNDECIDED where the tolerance lies between the two ends of the error."""
+    """The judged answer; UNDECIDED if the tolerance lies between the two bounds of the error."""
     targets = right_positions(truth.position, answer, criterion.question)
     within = backward_error.tolerated(pair, truth, targets, criterion.tolerance * criterion.unit)
     status = Status.UNDECIDED if within is None else Status.TOLERATED if within else Status.WRONG
@@ -209,10 +210,10 @@ def _judged(index: int, pair: Pair, truth: Decision, answer: int, criterion: Cri
 
 
 def measured(case: WrongCase, question: str) -> float:
-    """The error of a wrong answer: one of two proved ends where it is bracketed; of a wrong time, spheroid radii.
+    """The error of a wrong answer: a proved bound if only bounds are known; for a wrong time, in spheroid radii.
 
-    The lower end where it is more than tolerated, so that what is said is proved, else the upper. A backward error has
-    4 significant digits, that of a sweep's size 1 %.
+    The bound is the lower one if it exceeds the tolerance, which is then proved, else the upper one. A backward error
+    has 4 significant digits; the error of a sweep's size is within 1 %.
     """
     return _SUBJECTS[QUESTIONS[question].layout].measured(case, question)
 
@@ -239,7 +240,7 @@ def _measured(pair: Pair, answer: int, question: str, beyond: bool) -> float:
 def about_error_of(row: Sequence[float], answer: int, question: str) -> float:
     """The backward error of an answer to a row, right or wrong, to 4 significant digits.
 
-    Of a tilted spheroid an estimate, which takes a small part of the time of a proof.
+    For a tilted spheroid it is an estimate, because a proof takes much longer.
     """
     pair = Pair.from_row(row)
     truth = exact.decide(pair.lengths)
@@ -249,7 +250,7 @@ def about_error_of(row: Sequence[float], answer: int, question: str) -> float:
 
 @lru_cache(KEPT)
 def _exponent(pair: Pair, truth: Decision, answer: int, question: str) -> float:
-    """The exponent: log2 of the least backward error, about."""
+    """About log2 of the least backward error that makes the answer right."""
     targets = right_positions(truth.position, answer, question)
     return min(backward_error.exponent(pair, truth, target) for target in targets)
 
@@ -257,7 +258,8 @@ def _exponent(pair: Pair, truth: Decision, answer: int, question: str) -> float:
 def right_positions(truth: Position, answer: int, question: str) -> tuple[Position, ...]:
     """The positions other than the truth for which a wrong answer would be right.
 
-    "No" to a question about one position is right for two; from a clear one, contact is nearer than the other.
+    "No" to a question about one position is right for two positions; contact is nearer to a clear position than the
+    other.
     """
     position = QUESTIONS[question].position
     if position is None:
@@ -277,7 +279,7 @@ def in_units(error: float, unit: Fraction) -> float:
 
 
 def in_words(answer: int, question: str) -> str:
-    """An answer in words: what is true of the row, or yes or no to the question; any other answer as its number."""
+    """An answer in words: the stated position or hit, or yes or no to the question; any other answer as its number."""
     facts = QUESTIONS[question]
     labels = _SUBJECTS[facts.layout].labels if facts.position is None else _YES_OR_NO
     return labels.get(answer, str(answer)).format(question)
@@ -287,7 +289,7 @@ _YES_OR_NO = {1: "{}: yes", 0: "{}: no"}
 
 
 def truth_in_words(truth: int, question: str) -> str:
-    """What is true about a row, in words."""
+    """The truth about a row, in words."""
     return _SUBJECTS[QUESTIONS[question].layout].labels[truth]
 
 
@@ -343,7 +345,7 @@ def _measured_sweep(case: WrongCase, question: str) -> float:  # noqa: ARG001 - 
 
 @dataclass(frozen=True, slots=True)
 class _Subject:
-    """What rows are about: their truths, `labels` of these, which of them is `contact`, and how wrong answers are."""
+    """The subject of rows: the truths, their `labels`, which one is `contact`, and how wrong answers are judged."""
 
     truth: Callable[[Rows], Positions]
     labels: Mapping[int, str]

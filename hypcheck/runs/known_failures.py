@@ -1,16 +1,17 @@
-"""A project's list of known failures, in TOML: cases, families and causes that may be wrong, each with a reason.
+"""A project's list of known failures, in TOML: cases, families and causes whose errors are excused, with reasons.
 
     [[known_failure]]
     case = "ring-0007"              # or: family = "ring", of which it excuses the rows that stay; or: cause = "ring"
     max_u = 1e6                     # the largest backward error that is excused, in units u; none: any
     reason = "the ring; fixed in 2.0"
 
-A fresh row is excused by a cause alone, or by its own id: with a family excused as a whole, a table of the rows that
-stay would pass. A cause excuses an answer where its rule gives that very answer; it must have a `max_u`, which may be
-inf. Only causes about places and roundings are known failures: with a rule about every row excused, nothing would be
-tested.
+A fresh row is excused only by a cause or by its own id: if a family excused it, an implementation that is right only
+for the rows that stay would pass. A cause excuses an answer if its rule gives the same answer; it must have a `max_u`,
+which may be inf. Only causes about places and roundings can be known failures: if a rule about every row were excused,
+nothing would be tested.
 
-An entry that no longer excuses a case fails the run too. One that names no case, family or cause is refused.
+An entry that no longer excuses a case fails the run too. An entry whose case, family or cause does not exist is
+refused.
 """
 
 from __future__ import annotations
@@ -45,7 +46,7 @@ _KEYS = (*_SUBJECTS, "max_u", "reason")
 
 @dataclass(frozen=True, slots=True)
 class KnownFailure:
-    """One entry: a case id, a family or the id of a cause, the largest excused error in units u, and why."""
+    """One entry: a case id, a family or the id of a cause, the largest excused error in units u, and the reason."""
 
     case: str | None
     family: str | None
@@ -59,13 +60,13 @@ class KnownFailure:
         return next(f"{key} {name}" for key in _SUBJECTS if (name := getattr(self, key)) is not None)
 
     def names(self, case: str, family: str, *, fresh: bool) -> bool:
-        """Whether this entry is about a case by its id or its family. It excuses a wrong answer there up to `max_u`."""
+        """Whether this entry names the case or its family. It then excuses a wrong answer to the case up to `max_u`."""
         return case == self.case or (family == self.family and not fresh)
 
 
 @cache
 def excusable_causes() -> Mapping[str, tuple[Cause, ...]]:
-    """The causes that an entry may name, by their ids: those about places and roundings."""
+    """The causes that an entry may name, by id: the causes about places and roundings."""
     names = dict.fromkeys(cause.name for cause in CAUSES if cause.scope is not Scope.EVERYWHERE)
     return {name: tuple(cause for cause in CAUSES if cause.name == name) for name in names}
 
@@ -73,7 +74,7 @@ def excusable_causes() -> Mapping[str, tuple[Cause, ...]]:
 def entries_about(
     known: Sequence[KnownFailure], cases: Sequence[tuple[int, str]], family: str, answered: AnsweredRows, *, fresh: bool
 ) -> list[list[int]]:
-    """For each case of a family, given by its index among the rows asked and its id, the numbers of its entries."""
+    """The numbers of the entries about each case of a family; a case is its index among the tested rows and its id."""
     numbers = [
         [number for number, entry in enumerate(known) if entry.names(name, family, fresh=fresh)] for _, name in cases
     ]
@@ -89,7 +90,7 @@ def entries_about(
 
 
 def read_known_failures(path: Path) -> tuple[KnownFailure, ...]:
-    """The entries of a file. Raises InputError naming the file, the line, the entry, and what would be right."""
+    """The entries of a file. Raises InputError naming the file, the line, the entry, and the allowed values."""
     try:
         source = TomlSource(str(path), toml.text_of(str(path)))
     except FileNotFoundError:
@@ -194,10 +195,10 @@ def _quoted(text: str) -> str:
 def no_longer_failing(
     entries: Sequence[KnownFailure], used: AbstractSet[int], asked_cases: AbstractSet[str], subjects: AbstractSet[str]
 ) -> list[str]:
-    """A sentence for each entry that excused no case, though its case, its family or what its cause is about was asked.
+    """A sentence for each entry that excused no case, though its case, family or the cause's subject was tested.
 
-    `used` are the numbers of the entries that excused a case; `asked` are the families and case ids that were asked,
-    `subjects` what all families that were asked are about (causes.subject_of), none if only some families were asked.
+    `used` are the numbers of the entries that excused a case; `asked_cases` are the families and case ids that were
+    tested, `subjects` the subjects of all tested families (causes.subject_of), none if only some families were tested.
     """
 
     def was_asked(entry: KnownFailure) -> bool:
@@ -220,8 +221,9 @@ _WITHIN_OCTAVE = 2
 def update(path: Path, record: Record) -> str:
     """Rewrite the file from a run of all families, and return a sentence about it.
 
-    Entries that still excuse a case stay, others are removed. New entries are by cause where one may be known, which
-    excuses fresh rows too, else by family; each with the worst error of the run. A person is to write their reasons.
+    Entries that still excuse a case stay, others are removed. A new entry names a cause if a cause that may be excused
+    explains the answers, because it then excuses fresh rows too; else it names a family. Each new entry has the worst
+    error of the run. A person must write the reasons of the new entries.
     """
     failing: dict[str, float] = {}
     for line in record.of(GroupLine):

@@ -50,7 +50,7 @@ def characters(value: float) -> int:
 
 @lru_cache(maxsize=1 << 17)
 def complexity(row: Row) -> Complexity:
-    """Less for a simpler row: the characters of all its numbers, those of the longest, the sum of the sizes."""
+    """A key that is less for a simpler row: the characters of all numbers, of the longest number, the sum of sizes."""
     lengths = [characters(value) for value in row]
     return sum(lengths), max(lengths), int(min(sum(map(abs, row)), LARGEST_SUM))
 
@@ -75,7 +75,7 @@ def rounded(value: float) -> Iterator[float]:
 
 @cache
 def small_pairs() -> tuple[Row, ...]:
-    """Rows of small whole numbers and halves, one length of each unit 1."""
+    """Rows of small whole numbers and halves; in each group of lengths with a common unit one length is 1."""
     sizes = [(1.0, 1.0), *((float(size), 1.0) for size in range(2, 7)), *((1.0, float(size)) for size in range(2, 7))]
     far, near = [half / 2 for half in range(17)], [0.0, 0.5, 1.0, 1.5, 2.0, 3.0]
     return tuple(
@@ -110,7 +110,7 @@ _SMALL = tuple(map(float, range(1, 7)))
 
 
 def same_query(row: Row, layout: Layout) -> Iterator[Row]:
-    """The row in other coordinates: fewer signs, x and y exchanged, a sweep from its end to its start, other units.
+    """The row in other coordinates: fewer minus signs, x and y exchanged, a reversed sweep, other units.
 
     An upright pair is also turned so that y is 0.
     """
@@ -135,7 +135,7 @@ def _times(signs: Sequence[float], vector: Sequence[float]) -> list[float]:
 
 
 def _units(lengths: list[float]) -> set[float]:
-    """Each length, and the greatest common divisor of all lengths if float64 holds it."""
+    """Units of length to try: each length, and the greatest common divisor of all lengths if float64 holds it."""
     numerators, denominators = zip(*(length.as_integer_ratio() for length in lengths), strict=True)
     shared = math.lcm(*denominators)
     whole = [
@@ -155,7 +155,7 @@ def one_changed(row: Row, layout: Layout) -> Iterator[Row]:
 
 
 def one_changed_between_ends(row: Row, layout: Layout) -> Iterator[Row]:
-    """Rows with heights in which one number is 0, 1 or shorter, or equals another, or which have an end less."""
+    """Rows with heights in which one number is 0, 1 or shorter, or equals another number, or an end is removed."""
     numbers = [value for value in row[: len(layout.tilted)] + row[len(layout.tilted) : -1] if math.isfinite(value)]
     for column, number in enumerate(row):
         simple = {0.0, 1.0, 2.0, 3.0, *numbers}
@@ -168,7 +168,7 @@ def one_changed_between_ends(row: Row, layout: Layout) -> Iterator[Row]:
 
 
 def brought_back(row: Row, layout: Layout) -> Iterator[Row]:
-    """Pairs in which one number is simple, and another is at the border of contact, rounded to ever more digits."""
+    """Pairs in which one number is simple, and another is at the border of contact, rounded to more and more digits."""
     simple = ((column, value) for column in range(7) for value in _simple_values(row, column, layout))
     changed = {row, *(_with(row, {column: value}) for column, value in simple)}
     for alpha, gamma, height in product(_SMALL, _SMALL, {0.0, 1.0, row[6]}):
@@ -178,7 +178,7 @@ def brought_back(row: Row, layout: Layout) -> Iterator[Row]:
         (other, max(columns, key=lambda column: abs(other[column])), name, far)
         for other, (name, columns), far in product(sorted(changed), MOVERS.items(), (False, True))
     ]
-    # Only if the other numbers leave room for one that is not 0.
+    # Only if the limit allows one more number that is not 0.
     moves = [move for move in moves if sum(map(characters, move[0])) - characters(move[0][move[1]]) + 1 < limit]
     rows = np.array([other for other, *_ in moves]).reshape(-1, 7)
     mask = columns_of(np.array([name for _, _, name, _ in moves]))
@@ -222,7 +222,7 @@ Later ones are tried only if the earlier ones give no simpler row.
 
 @dataclass
 class Minimised:
-    """The state of a minimisation: the given row, and each simpler one that replaced it, of which the last counts."""
+    """The state of a minimisation: the given row, and each simpler row that replaced it; the last is the result."""
 
     target: hunt.HuntTarget
     steps: list[hunt.HuntFinding] = field(default_factory=list)
@@ -242,9 +242,10 @@ class Minimised:
 def minimise(target: hunt.HuntTarget, case: ReplayCase) -> Minimised:
     """Simplify until no simpler row fails in the same way.
 
-    Raises InputError if the answer is not wrong, or the row is not of the question.
+    Raises InputError if the answer is not wrong, or the row has not the question's layout.
 
-    The same way means: the same answer, the same truth, beyond the tolerance, and the same cause (RowPlace.cause).
+    A row fails in the same way if it has the same answer, the same truth, an error beyond the tolerance, and the same
+    cause (RowPlace.cause).
     """
     run = Minimised(target)
     row = _row_of(target, case)
@@ -258,7 +259,7 @@ def minimise(target: hunt.HuntTarget, case: ReplayCase) -> Minimised:
 
 
 def _row_of(target: hunt.HuntTarget, case: ReplayCase) -> Row:
-    """The row of a case; of a spheroid that stands upright after all, without its axis."""
+    """The row of a case; if its axis is vertical, without the axis."""
     case = of_question(case, target.implementation.description)
     trouble = trouble_with_row(case.row, target.layout.upright)
     if trouble is not None:

@@ -1,9 +1,9 @@
 """The five oracles behind one interface, and the cross-check that compares each with the exact decision.
 
-An oracle maps rows to opinions; an opinion may be that it cannot decide. The roots oracle is also compared with the
-repaired coefficient rule in exact rationals. Tilted spheroids and hyperboloids that end are those of frozen vectors,
-whose positions are proved. Where the hyperboloid ends, the roots oracle is not asked, and the nearest-point oracle is
-the least value on the wall and the discs, by bounds that may leave it open.
+An oracle maps rows to opinions; an opinion may be undecided. The roots oracle is also compared with the repaired
+coefficient rule in exact rationals. Rows with tilted spheroids or with hyperboloids that end come from frozen vectors,
+whose positions are proved. If the hyperboloid ends, the roots oracle is not used, and the nearest-point oracle takes
+the least value on the wall and the discs; its bounds may leave the position undecided.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ from hypcheck.vectors.family import Family
 
 @dataclass(frozen=True, slots=True)
 class Opinion:
-    """An oracle's opinion about one pair; None where it has none. `stage` names the part of the oracle that decided."""
+    """An oracle's opinion about one pair; None if undecided. `stage` names the part of the oracle that decided."""
 
     position: Position | None
     tangent: bool | None = None
@@ -56,7 +56,7 @@ class Oracle:
 
 
 def _each(opinion_of: Callable[[list[float]], Opinion]) -> Callable[[Rows], list[Opinion]]:
-    """A function of rows that asks about one row at a time."""
+    """A function of rows that calls the given function for one row at a time."""
     return lambda rows: [opinion_of(row) for row in rows.tolist()]
 
 
@@ -79,9 +79,9 @@ def _name_of_kind(decision: Decision) -> str | None:
 
 
 def _nearest(rows: Rows) -> list[Opinion]:
-    """The sign of the clearance to the nearest point: floats with a bound, then exact enclosures until they decide.
+    """The sign of the clearance: floats with an error bound, then exact enclosures, narrowed until they decide.
 
-    Where the hyperboloid ends, the least value by branch and bound.
+    If the hyperboloid ends, the least value by branch and bound.
     """
     if PAIRS.has_heights(rows):
         return [Opinion(least.position(Pair.from_row(row)), stage="least value") for row in rows.tolist()]
@@ -91,9 +91,9 @@ def _nearest(rows: Rows) -> list[Opinion]:
 
 
 def _roots(row: list[float]) -> Opinion:
-    """The pattern of the roots of the pencil beside its poles: after [10], re-derived, its text was not consulted.
+    """The pattern of the pencil's roots and poles, re-derived after [10], whose text was not consulted.
 
-    Of an upright pair the coefficient rule in exact rationals must read the same position from the coefficients.
+    For an upright pair the coefficient rule in exact rationals must give the same position.
     """
     pair = Pair.from_row(row)
     decided = roots.classify_by_roots(pair)
@@ -115,7 +115,7 @@ def _coefficient_rule() -> Callable[[Mapping[str, float]], int]:
 
 
 def _heights(row: list[float]) -> Opinion:
-    """Whether a plane at some height cuts both surfaces where they meet: real roots of a polynomial in the height."""
+    """Whether both surfaces meet in some horizontal plane: by the real roots of a polynomial in the height."""
     return Opinion(heights.position(Pair.from_row(row)), stage="rule in the height")
 
 
@@ -135,9 +135,9 @@ ORACLES = {
 
 
 def frozen_families(plan: SelfCheckPlan) -> tuple[Family, ...]:
-    """The families of which frozen vectors are asked: all of tilted spheroids and of hyperboloids that end.
+    """The families whose frozen vectors are tested: all with tilted spheroids or with hyperboloids that end.
 
-    The extreme ones are not among them; there are none where families were chosen.
+    Extreme families are not among them; if the plan chooses families, the result is empty.
     """
     every = (*TILTED_FAMILIES.values(), *ENDED_FAMILIES.values())
     return () if plan.families else tuple(family for family in every if not family.extreme)
@@ -151,7 +151,7 @@ def frozen_batch(family: Family, count: int) -> Batch:
 
 
 def _limit_of(case: Vector) -> Position | None:
-    """The clear position that a tangency touches from: by the sign of its double root, or as the exact rule says."""
+    """The clear position of which a tangency is the limit: by the sign of its double root, else by the exact rule."""
     root = case.witness.double_root
     if root is None:
         return exact.decide(Pair.from_row(case.row).lengths).limit_of if case.tangent else None
@@ -163,7 +163,7 @@ TILTED_ROOTS = 10
 
 
 def shares(plan: SelfCheckPlan, family: Family, families: Sequence[Family]) -> dict[str, int]:
-    """The number of a family's cases that each oracle of the plan is asked, if `families` are asked."""
+    """The number of a family's cases that each oracle of the plan decides in a run of `families`."""
     with_roots = sum(not other.ended for other in families)
     roots = 0 if family.ended else -(-plan.roots // (with_roots * (TILTED_ROOTS if family.tilted else 1)))
     every = {
@@ -177,13 +177,13 @@ def shares(plan: SelfCheckPlan, family: Family, families: Sequence[Family]) -> d
 
 
 def oracle_lines(batch: Batch, shares: Mapping[str, int]) -> list[OracleLine]:
-    """The record's lines about those cases of a batch that are among the first of their family, for each oracle."""
+    """The record's lines about a batch, for each oracle: about its share of the family's first cases."""
     parts = ((oracle, batch.rows[: max(0, share - batch.start)]) for oracle, share in shares.items())
     return [_oracle_line(oracle, batch, rows) for oracle, rows in parts if len(rows)]
 
 
 def _oracle_line(oracle: str, batch: Batch, rows: Rows) -> OracleLine:
-    """The line about an oracle's opinions on the first rows of a batch, beside the exact decisions."""
+    """The line that compares an oracle's opinions on the first rows of a batch with the exact decisions."""
     started = time.perf_counter()
     opinions = ORACLES[oracle].ask(rows)
     seconds = time.perf_counter() - started
@@ -241,7 +241,7 @@ DISAGREEMENTS_KEPT = 20
 
 
 def _difference(batch: Batch, index: int, opinion: Opinion) -> tuple[str, str] | None:
-    """The exact decision and the opinion in words if they contradict each other, else None."""
+    """The exact decision and the opinion, in words, if they contradict each other; else None."""
     decision = batch.decisions[index]
     kind = _name_of_kind(decision)
     exact_words = f"{decision.position.label}, tangent: {decision.tangent}{'' if kind is None else f', {kind}'}"

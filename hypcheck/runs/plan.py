@@ -1,4 +1,4 @@
-"""The plan of a conformance run: its options, and the cases, steps and rules that follow from them."""
+"""The plan of a conformance run: its options, and the cases, steps and rules that they determine."""
 
 from __future__ import annotations
 
@@ -52,12 +52,11 @@ class ConformancePlan:
     """Options of a conformance run.
 
     `specs` name the implementations. `families` are names and globs (none: all families but the extreme ones); the
-    frozen vectors and `count` generated rows of each family are asked. With `fresh`, a seed that nobody knew before, as
-    many rows of that seed are asked of each family too.
-    `precision`, `question` and `domain` replace what an implementation declares. `fail_on` is one of FAIL_ON: any wrong
-    answer, or only "clear" in contact. `workers` processes ask; None: this process, or in a large run one for each
-    processor. `cluster` is the address of a dask scheduler whose workers ask instead.
-    `pace` does not change what is right or wrong.
+    frozen vectors and `count` generated rows of each family are asked. With `fresh`, a seed that was not known before
+    the run, as many rows of this seed are tested for each family too. `precision`, `question` and `domain` replace what
+    an implementation declares. `fail_on` is one of FAIL_ON: any wrong answer, or only "clear" in contact. `workers`
+    processes test; None: this process, or in a large run one for each processor. `cluster` is the address of a dask
+    scheduler whose workers test instead. `pace` does not change which answers are right or wrong.
     """
 
     specs: tuple[str, ...]
@@ -94,7 +93,7 @@ class ConformancePlan:
 
     @property
     def pool_workers(self) -> int | None:
-        """Processes of a pool on this machine; None if this process asks, which needs no time to start."""
+        """The number of processes of a pool on this machine; None if this process tests, which needs no start."""
         return self.workers or (usable_processors() if planned_size(self) >= LARGE_RUN else None)
 
     def opener(self, number: int) -> ImplementationOpener:
@@ -103,12 +102,12 @@ class ConformancePlan:
 
     @property
     def filtered(self) -> bool:
-        """Whether families were chosen, so that known failures of other families are not asked."""
+        """Whether families were chosen, so that known failures in other families are not tested."""
         return bool(self.families)
 
 
 def check_cluster_address(address: str) -> None:
-    """Raise InputError if the text is no address of a cluster."""
+    """Raise InputError if the text is not the address of a cluster."""
     named = re.fullmatch(r"(?!local:)((tcp|tls|ws|wss|ucx)://)?[^\s/:][^\s/]*:(?P<port>\d{1,5})", address)
     if not LOCAL_CLUSTER.fullmatch(address) and not (named and int(named["port"]) < 1 << 16):
         right = "that of a dask.distributed scheduler, such as tcp://10.0.0.1:8786, or local:N for N workers here"
@@ -118,7 +117,7 @@ def check_cluster_address(address: str) -> None:
 def planned_cases(plan: ConformancePlan, used: Description) -> dict[str, int]:
     """The number of cases of each family for an implementation with this description, skipped cases included.
 
-    A domain with fixed sizes has families of its own. An implementation that refuses invalid rows is asked these too.
+    A domain with fixed sizes has its own families. An implementation that refuses invalid rows is tested with them too.
     Raises InputError naming a family that does not exist.
     """
     families = chosen_families(plan, used)
@@ -130,14 +129,14 @@ def planned_cases(plan: ConformancePlan, used: Description) -> dict[str, int]:
 
 
 def _asks_everything(plan: ConformancePlan, used: Description) -> bool:
-    """Whether cases of other families are asked too: those that a search found, and those of fixed sizes."""
+    """Whether cases outside the families are tested too: the vectors that a search found, and those of fixed sizes."""
     return not (plan.filtered or used.asked.layout.has_end)
 
 
 def searches(plan: ConformancePlan, used: Description) -> tuple[SearchStep, ...]:
     """The directed searches of a run of all families, by the seed of its fresh rows if there are any.
 
-    None about sweeps, whose truth takes milliseconds a row, nor where only fixed sizes are claimed.
+    There are none for sweeps, whose truth takes milliseconds a row, and none for fixed sizes.
     """
     if not _asks_everything(plan, used) or used.domain.settings or not plan.count:
         return ()
@@ -150,9 +149,9 @@ def searches(plan: ConformancePlan, used: Description) -> tuple[SearchStep, ...]
 
 
 def invalid_rows(used: Description) -> tuple[InvalidRows, ...]:
-    """The invalid rows that an implementation is asked: with an axis too if it takes tilt; none unless it refuses.
+    """The invalid rows for an implementation: also with an axis if it takes tilt; none if it does not refuse them.
 
-    Those with heights have an axis, so that an implementation has to take both.
+    Invalid rows with heights also have an axis, so they need an implementation that takes both.
     """
     names = INVALID_NAMES[used.asked.layout][: 1 + used.tilt]
     if used.heights and used.tilt:
@@ -161,17 +160,17 @@ def invalid_rows(used: Description) -> tuple[InvalidRows, ...]:
 
 
 def chosen_families(plan: ConformancePlan, used: Description) -> tuple[Family, ...]:
-    """The families of the plan that an implementation with this description answers about.
+    """The families of the plan that an implementation with this description can answer.
 
-    Their rows have its layout, an axis only if it takes tilt, and heights only if it takes these. Raises InputError
-    naming one that does not exist.
+    Their rows have its layout, an axis only if it takes tilt, and heights only if it takes heights. Raises InputError
+    naming a family that does not exist.
     """
     named = select(plan.families, tilted=True, ended=True, layout=None)
     return tuple(family for family in named if not _lacking(used, family))
 
 
 def _lacking(used: Description, family: Family) -> str:
-    """What an implementation lacks to answer a family, as domain.FAMILIES has it; "" if nothing."""
+    """The key of domain.FAMILIES for what an implementation lacks to answer a family; "" if it lacks nothing."""
     if family.layout != used.asked.layout:
         return "question"
     if family.ended and not used.heights:
@@ -180,10 +179,10 @@ def _lacking(used: Description, family: Family) -> str:
 
 
 def planned_size(plan: ConformancePlan) -> int:
-    """The number of cases for each implementation, those that it will skip included.
+    """The number of cases for each implementation, skipped cases included.
 
     The number is for an implementation that answers about upright spheroids, or about all chosen families. Others have
-    more or fewer, which is known once they have described themselves.
+    more or fewer cases, known after they send their descriptions.
     """
     if plan.filtered:
         return sum(_cases_of(plan, select(plan.families, tilted=True, ended=True, layout=None)).values())
@@ -202,7 +201,7 @@ def known_failures_of(plan: ConformancePlan) -> tuple[KnownFailure, ...]:
 
 
 def families_not_asked(plan: ConformancePlan, used: Description) -> dict[str, dict[str, int]]:
-    """The families of which an implementation is asked no row, with their numbers of rows, by domain.FAMILIES."""
+    """The families of which an implementation gets no row, with their numbers of rows, by key of domain.FAMILIES."""
     planned, by_reason = planned_cases(plan, used), {reason: dict[str, int]() for reason in domain.FAMILIES}
     chosen = {family.name for family in select(plan.families, tilted=True, ended=True, layout=None)}
     for name, cases in _cases_of(plan, ALL.values()).items():
@@ -217,9 +216,9 @@ def families_not_asked(plan: ConformancePlan, used: Description) -> dict[str, di
 
 
 def require_named(plan: ConformancePlan, used: Description) -> None:
-    """Raise InputError if a family was asked for by its full name, and no row of it can be asked.
+    """Raise InputError if the plan has the full name of a family of which no row can be tested.
 
-    A family whose rows are many is judged by its frozen vectors and its first rows.
+    Only the frozen vectors and the first rows of a large family are examined for this.
     """
     rules = rules_of(plan, used)
     for name in (name for name in plan.families if name in ALL):
@@ -252,7 +251,7 @@ _HAS_MORE = {
 
 
 def _reasons_for(plan: ConformancePlan, family: Family, rules: JudgingRules) -> dict[str, int]:
-    """Why none of a family's frozen vectors and first generated rows is asked; nothing if one is."""
+    """The reasons why none of a family's frozen vectors and first generated rows is tested; empty if one is."""
     some = [frozen_vectors(family.name).rows] if frozen_count(family.name) else []
     if plan.count:
         some.append(family.rows(plan.seed, min(plan.count, BLOCK)))
@@ -268,8 +267,8 @@ def _reasons_for(plan: ConformancePlan, family: Family, rules: JudgingRules) -> 
 def steps_of(plan: ConformancePlan, used: Description) -> Iterator[Step]:
     """The steps for an implementation that is judged by this description.
 
-    Raises InputError if the plan names only families that the implementation is not about: those of tilted spheroids
-    where it takes none, or those of the other layout.
+    Raises InputError if the plan names only families that the implementation cannot answer: with tilted spheroids if it
+    takes no tilt, or with the other layout.
     """
     families = chosen_families(plan, used)
     tilted = chosen_families(plan, replace(used, tilt=True))
@@ -299,7 +298,7 @@ def rules_of(plan: ConformancePlan, used: Description) -> JudgingRules:
 
 
 def _chunks(plan: ConformancePlan, families: tuple[Family, ...], used: Description) -> Iterator[CaseChunk]:
-    """The chunks of a run; a domain with fixed sizes has families of its own."""
+    """The chunks of a run; a domain with fixed sizes has its own families."""
     yield from _chunks_of(plan, families)
     if _asks_everything(plan, used):
         yield from searched_chunks()

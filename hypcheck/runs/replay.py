@@ -1,4 +1,4 @@
-"""A replay: one case and one implementation; the truth, the answer, how wrong it is, and where its formula errs.
+"""A replay of one case with one implementation: the truth, the answer, its error, and the wrong step of its formula.
 
 CASE on the command line is the id of a case, the numbers of a position or a sweep, or a case that a record has kept.
 """
@@ -58,7 +58,7 @@ Row = tuple[float, ...]
 
 @dataclass(frozen=True, slots=True)
 class ReplayCase:
-    """A row to replay and its name; the row may be invalid. `layout` says what it is about, None if that is open."""
+    """A row to replay and its name; the row may be invalid. `layout` is its layout, None if the text leaves it open."""
 
     name: str
     row: Row
@@ -66,22 +66,22 @@ class ReplayCase:
 
     @property
     def at_fault(self) -> tuple[str, ...]:
-        """The columns that make the row invalid, so that it must be refused; none of a valid row."""
+        """The columns that make the row invalid, so that it must be refused; empty for a valid row."""
         return columns_at_fault(self.row, (self.layout or PAIRS).columns(len(self.row)))
 
 
 def case_of(text: str) -> ReplayCase:
     """The case that `text` names: ring-0007, ring/1/42/7, "2,5,1,1,3,0,0" in decimals or 0x1p+1 …, or RECORD:N.
 
-    RECORD:N is the N-th case of a record.jsonl or of its folder, as reports number them (recorded_cases). The row is
-    as it was asked: a zero keeps its sign. Raises InputError saying what is wrong with the text.
+    RECORD:N is the N-th case of a record.jsonl or of its folder, as reports number them (recorded_cases). The row is as
+    it was asked: a zero keeps its sign. Raises InputError with the error in the text.
     """
     if begins_as_spec(text):
         raise InputError(f"CASE is {text!r}, which is a SPEC; the order is replay CASE SPEC and minimise SPEC CASE")
     recorded = _RECORDED.fullmatch(text)
     if recorded is not None:
         return _from_record(Path(recorded[1]), int(recorded[2][:19]))
-    if "," in text and MARK not in text:  # the names of families for given sizes have commas
+    if "," in text and MARK not in text:  # the names of families with fixed sizes have commas
         return ReplayCase("the given row", _given_row(text))
     if "/" in text:
         case = parse_case_id(text)
@@ -106,7 +106,7 @@ def _from_record(path: Path, number: int) -> ReplayCase:
 def _given_row(text: str) -> Row:
     """Seven, ten or thirteen numbers, decimal or hexadecimal; or ten, thirteen or sixteen of a sweep.
 
-    of_question checks them together. Of thirteen that have an infinite one the last are heights.
+    of_question checks them together. If one of thirteen numbers is infinite, the last three are heights.
     """
     parts = text.split(",")
     if len(parts) not in (*PAIRS.widths, *SWEEPS.widths):
@@ -137,9 +137,9 @@ REPEATED_ROWS = 33
 
 @dataclass(frozen=True, slots=True)
 class ProvedTruth:
-    """The exact decision about a pair, its proof, and the distance to each other position as a backward error.
+    """The exact decision about a pair, its proof, and its distance to each other position as a backward error.
 
-    Of a tilted spheroid, the two ends between which that is proved to lie.
+    For a tilted spheroid a distance is given by two proved bounds.
     """
 
     pair: Pair
@@ -149,7 +149,7 @@ class ProvedTruth:
 
     @property
     def kind(self) -> Kind | None:
-        """The kind of its roots; None for a tilted spheroid."""
+        """The kind of its roots; None if the spheroid is tilted."""
         return self.decision.kind
 
 
@@ -158,8 +158,8 @@ class ReplayJudgement:
     """The status of the case. `answer` is None if there was none; `reason` then says why, or explains the status.
 
     `mistake`, `error` (the backward error) and `error_u` (the same in units u) describe a wrong answer, tolerated or
-    not; otherwise they are None, 0 and 0. `time` is that of a sweep's first contact, if the answer has one, and `radii`
-    how far off it is in spheroid radii of the sweep.
+    not; otherwise they are None, 0 and 0. `time` is the answered time of a sweep's first contact, if there is one, and
+    `radii` is its error in spheroid radii of the sweep.
     """
 
     status: Status
@@ -179,7 +179,7 @@ class ReplayJudgement:
 
 @dataclass(frozen=True, slots=True)
 class Replay:
-    """The result of a replay; `truth` is None for an invalid row, and `choice` where no formula takes the row.
+    """The result of a replay; `truth` is None for an invalid row, and `choice` is None if no formula takes the row.
 
     `skipped` says why a conformance run would not ask the row. `causes` are those about places that explain a wrong
     answer about an upright spheroid.
@@ -198,10 +198,10 @@ class Replay:
 
 
 def replay(case: ReplayCase, implementation: Implementation, criterion: Criterion, formula: str | None) -> Replay:
-    """Ask, judge and compare. Raises InputError if the row is not of the question, or no formula takes it.
+    """Test, judge and compare. Raises InputError if the row has not the question's layout, or no formula takes it.
 
-    An invalid row is asked if it is one of the frozen ones, and the implementation promises to refuse such rows.
-    Raises DisagreementError if the proof of the truth does not hold.
+    An invalid row is tested if it is a frozen vector, and the implementation promises to refuse invalid rows. Raises
+    DisagreementError if the proof of the truth does not hold.
     """
     declared, used = implementation.declared, implementation.description
     case = of_question(case, used)
@@ -234,7 +234,7 @@ def replay(case: ReplayCase, implementation: Implementation, criterion: Criterio
 
 
 def of_question(case: ReplayCase, used: Description) -> ReplayCase:
-    """The case with the layout of the question. Raises InputError if it is of another, or a given row is invalid."""
+    """The case with the question's layout. Raises InputError if it has another layout, or a given row is invalid."""
     layout = used.asked.layout
     if case.layout not in (None, layout) or len(case.row) not in layout.widths:
         this = "a position" if layout.has_end else "a sweep between two positions"
@@ -245,7 +245,7 @@ def of_question(case: ReplayCase, used: Description) -> ReplayCase:
 
 
 def _causes(truth: ProvedTruth, judgement: ReplayJudgement, criterion: Criterion) -> tuple[Cause, ...]:
-    """The causes about places whose rules give this wrong answer: those in exact arithmetic, else one of rounding."""
+    """The causes about places whose rules give this wrong answer: all in exact arithmetic, else one about rounding."""
     if judgement.answer is None or judgement.mistake is None:
         return ()
     truths, given = (np.array([value], dtype=np.int8) for value in (truth.decision.position, judgement.answer))
@@ -310,7 +310,7 @@ def _alone(scored: Score, truth: ProvedTruth | Passage) -> ReplayJudgement:
 
 
 def _error(case: WrongCase, truth: ProvedTruth | Passage, criterion: Criterion) -> float:
-    """How wrong an answer is; of a tilted spheroid the end that says what the status says, as `flips` shows it."""
+    """The error of an answer; for a tilted spheroid the bound that decides its status, as `flips` shows it."""
     if isinstance(truth, ProvedTruth) and not truth.pair.is_upright:
         targets = judge.right_positions(Position(case.truth), case.answer, criterion.question)
         ends = [flip for target in targets if isinstance(flip := truth.flips[target], tuple)]
@@ -336,7 +336,7 @@ def _refused(case: ReplayCase, implementation: Implementation) -> ReplayJudgemen
 
 
 def _skipped(case: ReplayCase, used: Description, criterion: Criterion) -> str | None:
-    """Why a conformance run would not ask the row; None if it would."""
+    """The reason why a conformance run would skip the row; None if it would test it."""
     rows = np.array([case.row])
     if not representable(rows, criterion.precision)[0]:
         return f"a number of the row is neither zero nor normal in {criterion.precision}"

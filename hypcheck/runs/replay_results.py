@@ -28,7 +28,7 @@ DIGITS = 17
 def replay_as_json(replay: Replay) -> str:
     """The object on one line; numbers that JSON cannot express are the strings "inf", "-inf" and "nan".
 
-    Of a sweep it has the time of the answer in place of causes and values of a formula.
+    For a sweep it has the time of the answer in place of causes and values of a formula.
     """
     judgement = replay.judgement
     more: dict[str, Any] = {"time": judgement.time, "radii_off": judgement.radii}
@@ -180,7 +180,7 @@ def _truth_lines(truth: ProvedTruth) -> Iterator[str]:
 
 
 def _regime(pair: Pair) -> str:
-    """Which of the two conditions of the paper's statements the pair meets, decided exactly."""
+    """The text that says which of the two conditions of the paper's statements the pair meets, decided exactly."""
     alpha, gamma, b, d = map(Fraction, pair.row[:4])
     wide = f"α/b = {float(alpha / b):.4g} {'≥' if alpha >= b else '<'} 1"
     ratio, square = alpha / b, (gamma / d) ** 2
@@ -190,7 +190,7 @@ def _regime(pair: Pair) -> str:
 
 
 def _cause_lines(cause: Cause, language: str, ledger: Callable[[str], tuple[str, str, str]]) -> Iterator[str]:
-    """Why the answer is wrong, the paper's claim that is the reason with the ledger's verdict, and the right line."""
+    """The lines about a cause: the reason, the paper's claim behind it, the ledger's verdict, and the right code."""
     yield from _titled("cause", cause.sentence)
     if cause.claim:
         verdict, claim, correction = ledger(cause.claim)
@@ -217,7 +217,7 @@ def _claim_lines(description: Description) -> str:
 
 
 def _mistake(replay: Replay) -> str:
-    """How wrong an answer is; of one about a sweep by the size, or by what lies between its time and the contact."""
+    """The error of an answer in words; for a sweep the change of size, or the part between its time and the contact."""
     judgement, criterion = replay.judgement, replay.criterion
     if judgement.mistake is None:
         return ""
@@ -291,7 +291,7 @@ def _mark(compared: FormulaComparison, intermediate: Intermediate) -> str:
 
 
 def finding(compared: FormulaComparison, truth: Position) -> Iterator[str]:
-    """The difference between the two columns, in a few sentences."""
+    """The difference between the columns of float and exact values, in a few sentences."""
     question = compared.formula.question
     if compared.first_wrong is None:
         yield f"every decision of {compared.formula.name} in {compared.format} is the same in exact arithmetic"

@@ -1,7 +1,7 @@
-"""The result of a chunk or of the invalid rows: an implementation is asked, its answers are judged and tallied.
+"""The result of a chunk or of the invalid rows: an implementation answers, and the answers are judged and tallied.
 
-The last cases of each chunk stay pending: they are asked again before they are judged. A result is a value that can be
-sent, stored, and merged with others in any order.
+The last cases of each chunk stay pending: they are tested again before they are judged. A result is a value that can be
+sent, stored, and merged with other results in any order.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ from hypcheck.vectors.invalid_rows import InvalidRow
 
 @dataclass(frozen=True, slots=True)
 class PendingRetest:
-    """Cases that were answered and will be asked again before they are judged.
+    """Cases that were answered and will be tested again before they are judged.
 
     `indices` (n,) are their places in the chunk, ascending; `answers`, int8 (n,), are the first answers, and `times`
     (n,) those of hits, if the implementation gives any.
@@ -56,10 +56,10 @@ NO_RETEST = Retest(asked=0, within=0, beyond=0)
 
 @dataclass(frozen=True)
 class CasesResult:
-    """The result of some cases: a tally for each family, and `pending` cases that no tally counts yet.
+    """The result of some cases: a tally for each family, and `pending` cases that are not in a tally yet.
 
-    `retest` counts cases that were asked again. `outcomes` say how questions ended. `excusing` are the
-    numbers of the known failures that excused a case, `named` the cases that known failures name and that were asked.
+    `retest` counts cases that were tested again. `outcomes` are the outcomes of questions. `excusing` are the numbers
+    of the known failures that excused a case, `named` the tested cases that known failures name.
     """
 
     tallies: Mapping[str, Tally] = field(default_factory=dict)
@@ -71,13 +71,13 @@ class CasesResult:
 
     @property
     def cases(self) -> int:
-        """The number of all its cases: asked, skipped and pending."""
+        """The number of all its cases: tested, skipped and pending."""
         counted = sum(sum(tally.counts.values()) for tally in self.tallies.values())
         return counted + sum(len(pending.indices) for pending in self.pending)
 
     @property
     def broke_protocol_throughout(self) -> bool:
-        """Whether every row that was asked ended as PROTOCOL."""
+        """Whether every tested row ended with status PROTOCOL."""
         return self.outcomes - {Outcome.NOT_RUN} == {Outcome.PROTOCOL}
 
 
@@ -113,8 +113,8 @@ RETESTED_MOVEMENTS = 8
 class JudgingRules:
     """How an implementation is judged: the criterion, its domain, the known failures, the seeds of the run.
 
-    `fresh` is the seed of the fresh rows, if there are any. `named` are the families that were asked for by their
-    names: of these, rows with subnormal numbers are asked too.
+    `fresh` is the seed of the fresh rows, if there are any. `named` are the families that the plan names in full: their
+    rows with subnormal numbers are tested too.
     """
 
     criterion: Criterion
@@ -125,7 +125,7 @@ class JudgingRules:
     named: frozenset[str] = frozenset()
 
     def asked_of(self, family: str, rows: Rows) -> tuple[Indices, dict[str, int]]:
-        """The ascending indices of the rows of a family that are asked, and how many others there are, by reason."""
+        """The ascending indices of the rows of a family to test, and the numbers of the other rows by reason."""
         precision, layout = self.criterion.precision, self.criterion.layout
         extreme, subnormal = is_extreme(family), family in self.named
         inside = claimed(rows, self.domain, precision, extreme=extreme, subnormal=subnormal, layout=layout)
@@ -134,13 +134,13 @@ class JudgingRules:
         )
 
     def are_fresh(self, chunk: CaseChunk) -> bool:
-        """Whether the cases of a chunk are rows that nobody knew before the run."""
+        """Whether the cases of a chunk are rows that were not known before the run."""
         return chunk.seed is not None and chunk.seed == self.fresh
 
 
 @dataclass(frozen=True, slots=True)
 class InvalidRows:
-    """All invalid rows of one file, which go to an implementation that declares that it refuses such rows."""
+    """All invalid rows of one file, for implementations that declare that they refuse invalid rows."""
 
     family: str = "invalid"
 
@@ -162,7 +162,7 @@ class InvalidRows:
 
 
 def ask_chunk(chunk: CaseChunk, implementation: Implementation | Crashed, rules: JudgingRules) -> CasesResult:
-    """Ask the cases of a chunk that lie in the domain. Most are judged; the last ones stay pending."""
+    """Test the cases of a chunk that lie in the domain. Most are judged; the last ones stay pending."""
     made = cases_of_chunk(chunk)
     inside, left_out = rules.asked_of(chunk.family, made.by_column)
     indices = inside[: implementation.max_rows]
@@ -182,7 +182,7 @@ def ask_chunk(chunk: CaseChunk, implementation: Implementation | Crashed, rules:
 def ask_invalid_rows(
     invalid: InvalidRows, implementation: Implementation | Crashed, rules: JudgingRules
 ) -> CasesResult:
-    """Ask the invalid rows: each must be answered 127."""
+    """Test the invalid rows: the answer to each must be 127."""
     file = invalid.file
     answered = implementation.classify(file.rows)
     status, reasons = status_of(answered), dict(answered.reasons)
@@ -208,7 +208,7 @@ def result_of_final(
 ) -> CasesResult:
     """The result of the cases `indices` (n,) of a chunk, whose answers are final. Known failures are excused.
 
-    `left_out` counts rows of the chunk that were not asked, by reason.
+    `left_out` counts the rows of the chunk that were not tested, by reason.
     """
     answered = AnsweredRows(scored.rows, scored.truth, scored.answers, scored.criterion, scored.times)
     wrong, excusing = _excused(list(scored.judged()), made.chunk, indices, answered, rules)
@@ -229,7 +229,7 @@ def result_of_final(
 def _diagnosed(
     chunk: CaseChunk, indices: Indices, scored: Score, answered: AnsweredRows, wrong: Sequence[WrongCase]
 ) -> Diagnosis:
-    """Which causes explain the wrong answers to the cases `indices` (n,) of a chunk."""
+    """The diagnosis of the wrong answers to the cases `indices` (n,) of a chunk, by causes."""
     if not wrong:
         return Diagnosis()
     right = np.flatnonzero(scored.status == STATUS_CODES[Status.RIGHT]).tolist()
@@ -238,7 +238,7 @@ def _diagnosed(
 
 
 def _first_pending(chunk: CaseChunk, indices: Indices) -> int:
-    """The first asked case that stays pending. The last cases hold the tail of a vector loop, and whole movements."""
+    """The first tested case that stays pending. From there on are the tail of a vector loop and whole movements."""
     wanted = max(RETESTED_CASES, len(indices) // 100 + 1)
     if chunk.movement > 1:
         wanted = max(wanted, RETESTED_MOVEMENTS * chunk.movement)
@@ -266,7 +266,7 @@ def _excused(
     about = entries_about(rules.known, cases, chunk.family, answered, fresh=rules.are_fresh(chunk))
     for place, numbers in zip(places, about, strict=True):
         case, error_u = wrong[place], 0.0
-        if any(rules.known[number].max_u < math.inf for number in numbers):  # to measure takes a thousand times as long
+        if any(rules.known[number].max_u < math.inf for number in numbers):  # the error takes a thousand times as long
             measured = judge.measured(case, rules.criterion.question)
             error_u = judge.in_units(measured, rules.criterion.unit)
         covering = [number for number in numbers if error_u <= rules.known[number].max_u]
@@ -277,7 +277,7 @@ def _excused(
 
 
 def _named_cases(chunk: CaseChunk, indices: Indices, known: Sequence[KnownFailure]) -> Iterator[str]:
-    """The ids of these cases that known failures name."""
+    """The ids of those of these cases that known failures name."""
     for entry in known:
         if entry.case is not None:
             index = chunk.find(entry.case)

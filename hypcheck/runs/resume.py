@@ -1,4 +1,4 @@
-"""`--resume`: the progress of a run as a line of its record, and the state of a run from such a line.
+"""`--resume`: write the progress of a run as a line of its record, and restore the state of a run from such a line.
 
 Only a run with the same options, files and versions may be resumed.
 """
@@ -47,7 +47,7 @@ def recorded_description(description: Description) -> DescriptionPart:
     """An implementation's description as the record has it."""
     content = asdict(description)
     for name in ("tilt", "times", "heights"):
-        if not content[name]:  # as in records from before there was such a key
+        if not content[name]:  # older records lack this key
             del content[name]
     for setting in content["domain"]["settings"]:
         if setting["axis"] is None:
@@ -56,7 +56,7 @@ def recorded_description(description: Description) -> DescriptionPart:
 
 
 class ProgressWriter:
-    """Writes the progress of one implementation, the run's `number`-th of so many `cases`, into the record."""
+    """Writes the progress of one implementation, number `number` of the run with `cases` cases, into the record."""
 
     def __init__(self, recorder: Recorder, number: int, declared: Description, cases: int, pace: Pace = PACE) -> None:
         self._recorder, self._pace = recorder, pace
@@ -64,7 +64,7 @@ class ProgressWriter:
         self._due = time.monotonic() + pace.progress_s
 
     def offer(self, state: RunState) -> None:
-        """Write the state if enough time has passed since the last."""
+        """Write the state if enough time has passed since it was last written."""
         if time.monotonic() >= self._due:
             began = time.monotonic()
             self.keep(state)
@@ -89,14 +89,14 @@ class ResumedRun:
     """The part of a run that its record holds: the lines to keep, and the state of the next implementation.
 
     The lines are those of finished implementations, and the progress line of the next one if there is one. Without a
-    progress line the state is None, and that implementation is asked from its first case.
+    progress line the state is None, and the implementation is tested from its first case.
     """
 
     carried: tuple[RecordLine, ...] = ()
     state: RunState | None = None
 
     def done(self, cases: int) -> int:
-        """How many cases were asked, if there are so many for each implementation."""
+        """The number of tested cases, if each implementation has `cases` cases."""
         finished = [line for line in self.carried if isinstance(line, (ImplementationLine, NotStartedLine))]
         return len(finished) * cases + (self.state.total.cases if self.state else 0)
 
@@ -122,10 +122,10 @@ def require_same_run(
 
 
 def resume(record: Record, file: Path, plan: ConformancePlan, cases: int) -> ResumedRun:
-    """The state in which the run of the plan continues; each implementation is asked `cases` cases.
+    """The state from which the run of the plan continues; each implementation has `cases` cases.
 
-    Raises InputError if the implementation that was being asked has another description now, or the record contradicts
-    itself; StartError if the implementation does not start.
+    Raises InputError if the unfinished implementation has another description now, or the record contradicts itself;
+    StartError if the implementation does not start.
     """
     carried, begun = finished_part(record)
     with _contradictions_of(file):
@@ -206,7 +206,7 @@ def _shown(value: object) -> str:
 
 
 def saved_state(state: RunState) -> SavedState:
-    """The state as a line of progress has it."""
+    """The state in the form of a progress line."""
     left = state.left
     allowance = SavedAllowance(restarts=left.restarts, faults=left.faults, over=left.over, hangs=left.hangs)
     return SavedState(done=state.done, left=allowance, total=saved_result(state.total))
@@ -215,13 +215,13 @@ def saved_state(state: RunState) -> SavedState:
 def restored_state(content: SavedState) -> RunState:
     """The state in a line of progress. Raises ValueError if pending cases have more answers than cases, or fewer.
 
-    Nothing is made larger than what was read. consistency.require_state checks whether the numbers agree.
+    No array is larger than the data that was read. consistency.require_state checks whether the numbers agree.
     """
     return RunState(Allowance(**structs.asdict(content.left)), content.done, restored_result(content.total))
 
 
 def saved_result(result: CasesResult) -> SavedResult:
-    """The result as a line of progress has it."""
+    """The result in the form of a progress line."""
     return SavedResult(
         tallies=dict(result.tallies),
         pending=[_saved_open(pending) for pending in result.pending],

@@ -1,9 +1,9 @@
-"""The retest: pending cases are asked again later, in a fresh process, in another order and in other batches.
+"""The retest: pending cases are tested again later, in a fresh process, in another order and in other batches.
 
 An implementation that answers many rows at once can be wrong at one place of a batch only: in the tail that fills no
-vector, in the first row of a thread, in a block that is never computed. Such an answer is right by luck if it happens
-to equal the truth. Therefore cases are asked alone, in batches of every size, and at each place of a large batch with
-each position.
+vector, in the first row of a thread, in a block that is never computed. Such an answer may equal the truth by luck.
+Therefore cases are tested alone, in batches of every size, and so that each place of a large batch holds a case of each
+position.
 """
 
 from __future__ import annotations
@@ -60,11 +60,11 @@ is always the same in the last place is wrong in one of them."""
 
 @dataclass(frozen=True, slots=True)
 class RetestStep:
-    """A step that asks pending cases again together: those of one part, of the chunks since the last round.
+    """A step that retests the pending cases of one part of the chunks since the last round.
 
-    `number` counts the rounds of a run. Part 0 holds the first chunks of families, and everything that is asked once in
-    a run. Parts 1 and 2 hold the other chunks, so that two processes are busy at the end of a run. `pending` are the
-    cases, which are known once all chunks before the step were asked.
+    `number` counts the rounds of a run. Part 0 holds the first chunks of families, and everything that is tested once
+    in a run. Parts 1 and 2 hold the other chunks, so that two processes are busy at the end of a run. `pending` are the
+    cases; they are known after all chunks before the step were tested.
     """
 
     number: int
@@ -73,7 +73,7 @@ class RetestStep:
     pace: Pace = PACE
 
     def asks(self, chunk: CaseChunk) -> bool:
-        """Whether the pending cases of a chunk are asked again in this part."""
+        """Whether this part retests the pending cases of a chunk."""
         return chunk.part(self.pace.chunk_rows) == self.part
 
     def of(self, some: tuple[PendingRetest, ...]) -> RetestStep:
@@ -85,7 +85,7 @@ class RetestStep:
 class _Sample:
     """The cases of a round in arrays: rows, positions or hits, and first answers with their times, (n,) each.
 
-    `moments` (n,) are the moments of cases that follow an object, and −1 of all others.
+    `moments` (n,) are the moments of cases that follow an object, and −1 for all other cases.
     """
 
     made: tuple[ChunkCases, ...]
@@ -100,11 +100,11 @@ ChangedAnswers = dict[int, tuple[Status, str]]
 
 
 def retest(step: RetestStep, implementation: Implementation | Crashed, rules: JudgingRules) -> CasesResult:
-    """Ask the pending cases again, and judge all of them; cases with a changed answer get the status of the change."""
+    """Test the pending cases again, and judge all of them; cases with a changed answer get the status of the change."""
     if not step.pending:
         return CasesResult()
     sample, changes, outcomes = _sample(step.pending, rules.criterion), ChangedAnswers(), set[Outcome]()
-    implementation.close()  # so that a fresh process is asked
+    implementation.close()  # so that a fresh process answers
     asking = retest_questions(
         sample.truth,
         sample.moments,
@@ -155,7 +155,7 @@ def _first_answers(some: tuple[PendingRetest, ...]) -> Answered:
 
 
 def _differs(before: Answered, places: Indices, now: Answered) -> Mask:
-    """A mask of the answers, or of the times of hits, that are not those that were given before at these places."""
+    """A mask of the answers or times of hits that differ from the earlier ones at these places."""
     other = np.asarray(now.answers != before.answers[places])
     if now.times is not None and before.times is not None:
         other |= ~((now.times == before.times[places]) | (np.isnan(now.times) & np.isnan(before.times[places])))
@@ -163,7 +163,7 @@ def _differs(before: Answered, places: Indices, now: Answered) -> Mask:
 
 
 def _stacked(parts: list[Rows], layout: Layout) -> Rows:
-    """All rows, with an axis and heights each where some of them have these."""
+    """All rows; if some have an axis or heights, every row has them."""
     return np.concatenate(as_wide(parts, layout))
 
 
@@ -222,10 +222,10 @@ def retest_questions(
 ) -> Iterator[RetestQuestion]:
     """The batches for n cases with these positions; each case is in at least one.
 
-    `moments` (n,) are −1 for cases that follow no object. The others are asked moment by moment, which reveals an
-    implementation that carries answers over from one batch to the next. `proven_batch` returns the largest batch that
-    was answered well within the timeout so far. If that has LARGE_QUESTION rows, each case is asked many times in the
-    first part of the first round of a run, in which `number` and `part` are 0. Parts 1 and 2 share the small batches.
+    `moments` (n,) are −1 for cases that follow no object. The other cases are tested moment by moment, which reveals an
+    implementation that carries answers over from one batch to the next. `proven_batch` returns the size of the largest
+    batch that was answered well within the timeout so far. If it is LARGE_QUESTION rows, each case is tested many times
+    in the first part of the first round of a run (`number` and `part` are 0). Parts 1 and 2 share the small batches.
     """
     random = np.random.Generator(np.random.Philox((seed, PARTS * number + part)))
     order = random.permutation(np.flatnonzero(moments < 0))
@@ -274,7 +274,7 @@ def _filled(cases: Indices, order: Indices, least: int) -> Indices:
 def _in_every_place(
     order: Indices, truth: NDArray[np.int8], random: np.random.Generator, size: int
 ) -> Iterator[RetestQuestion]:
-    """Batches of about `size` rows, one for each position among the cases: at each place another position in each."""
+    """Batches of about `size` rows, one for each position among the cases; no two hold the same position at a place."""
     parts = [part for position in Position if len(part := order[truth[order] == position])]
     which = random.integers(len(parts), size=size)
     for turn in range(len(parts)):

@@ -1,10 +1,10 @@
-"""Causes of wrong answers in code that computes the roots of g: what is done with them, and what their rounding does.
+"""Causes of wrong answers in code that computes the roots of g: wrong decisions from roots, and the roundings of roots.
 
-Two patterns of roots look clear by their signs and are not, or look like contact and are not (docs/mathematics.md,
-"Root patterns and relative position"): a complex pair beside a positive root, a double root beyond a pole, a root
-exactly at a pole. These are decided in integers. Which side of a pole a computed root lies on, and whether two computed
-roots are a complex pair, is known only up to their rounding errors, for which there is a bound; and up to a tolerance
-of the code, which is read from the answers.
+The signs of some patterns of roots suggest a wrong position (docs/mathematics.md, "Root patterns and relative
+position"): a complex pair beside a positive root, a double root beyond a pole, a root exactly at a pole. These patterns
+are decided in integers. Rounding errors of the roots limit what code can decide: on which side of a pole a root lies,
+and whether two roots are a complex pair. These errors have a bound. A tolerance in the code, which is inferred from the
+answers, limits it too.
 """
 
 from __future__ import annotations
@@ -25,9 +25,9 @@ LARGEST_TOLERANCE = 1e-2
 
 
 def _complex_pair_ignored(answered: causes.AnsweredRows) -> causes.Answers:
-    """A complex pair is left out, and the one real root, which is positive, is taken for all of them.
+    """A complex pair is ignored, and the one real root, which is positive, decides as if all roots were positive.
 
-    A double root, or two that are close together, may be a complex pair when it is computed.
+    A double root, or two roots close together, may be computed as a complex pair.
     """
     n = answered.numbers
     with np.errstate(all="ignore"):
@@ -56,16 +56,16 @@ def _repeated_beyond_a_pole(answered: causes.AnsweredRows) -> causes.Answers:
 
 
 def _at_upper_pole(answered: causes.AnsweredRows) -> causes.Answers:
-    """Where z = 0, B itself is a root: an open interval (0, B) does not contain it, and one root is left.
+    """If z = 0, B is a root: the open interval (0, B) does not contain it, so the code counts only one root.
 
-    Not beside the ring, where a root close to B is a reason of its own.
+    Rows beside the ring are left out, because there a root close to B is another cause.
     """
     at = (answered.truth == Position.EXTERIOR) & (answered.rows[:, 6] == 0)
     return _contact(answered, at & ~answered.numbers.near_the_ring(2.0**-12))
 
 
 def _at_lower_pole(answered: causes.AnsweredRows) -> causes.Answers:
-    """Where x = y = 0, −A itself is a root: an open interval (−A, 0) does not contain it, and one root is left."""
+    """If x = y = 0, −A is a root: the open interval (−A, 0) does not contain it, so the code counts only one root."""
     at = (answered.truth == Position.INTERIOR) & (answered.rows[:, 4:6] == 0).all(axis=1)
     return _contact(answered, at)
 
@@ -77,12 +77,12 @@ def _contact(answered: causes.AnsweredRows, at: Mask) -> causes.Answers:
 
 
 def _computed_roots(answered: causes.AnsweredRows) -> causes.Answers:
-    """What the rounding errors of computed roots may make of the answer."""
+    """The given answers that rounding errors of computed roots can produce."""
     return causes.rounded(answered, max(causes.unit_of(answered), causes.FLOAT64), roots=True)
 
 
 def _roots(n: causes.Numbers) -> NDArray[np.complex128]:
-    """The three roots of g (n, 3) in float64, sorted by their real parts; not a number where g overflows."""
+    """The three roots of g (n, 3) in float64, sorted by their real parts; NaN where g overflows."""
     c2, c1, c0 = n.c2, n.c1, -n.A * n.B
     with np.errstate(all="ignore"):
         finite = np.isfinite(c2) & np.isfinite(c1) & np.isfinite(c0)
@@ -96,7 +96,7 @@ def _roots(n: causes.Numbers) -> NDArray[np.complex128]:
 
 
 def _within(answered: causes.AnsweredRows, sizes: Floats, answers: causes.Answers) -> causes.Answers:
-    """The answers where a size is within the tolerance: the largest size at which the code gives such an answer."""
+    """The answers where a size is within the code's tolerance, which is the largest size with such an answer."""
     with np.errstate(invalid="ignore"):
         candidates = (answers != causes.SILENT) & (sizes <= LARGEST_TOLERANCE)
     agree = candidates & (answers == answered.given)
@@ -133,7 +133,7 @@ def _separation(answered: causes.AnsweredRows) -> causes.Answers:
 def _of_either_size(
     answered: causes.AnsweredRows, sizes: Floats, roots: Floats, answers: causes.Answers
 ) -> causes.Answers:
-    """What an absolute tolerance explains, or one relative to the root, whichever explains more."""
+    """The answers for an absolute tolerance or for one relative to the root, whichever explains more."""
     with np.errstate(all="ignore"):
         either = [_within(answered, some, answers) for some in (sizes, sizes / np.abs(roots))]
     return max(either, key=lambda some: int((some == answered.given).sum()))

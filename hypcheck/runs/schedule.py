@@ -1,9 +1,9 @@
 """The steps of a conformance run in order: chunks, retests, searches, the invalid rows; their tasks and merged results.
 
-An executor performs the tasks. Each task starts with the full limits, and its result says what is left of them. The
-sum over tasks is checked when results are merged, in the order of the steps: the step that exceeds the limits is the
-last that counts, and the cases of later steps are not asked. Therefore the state after each step does not depend on the
-executor or on the number of workers.
+An executor performs the tasks. Each task starts with the full limits, and its result has the rest that is left. When
+results are merged, in the order of the steps, the sum over all tasks is checked: the step that exceeds the limits is
+the last that counts, and the cases of later steps are not tested. Therefore the state after each step does not depend
+on the executor or on the number of workers.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ Step = CaseChunk | RetestStep | SearchStep | results.InvalidRows
 class ImplementationOpener:
     """How an implementation is opened: its SPEC, its limits, and values that replace what it declares.
 
-    `declared` is what it must declare, if it was opened before in another process.
+    `declared` is the description that it must declare, if it was opened before in another process.
     """
 
     spec: str
@@ -44,7 +44,7 @@ class ImplementationOpener:
     def open(self) -> Implementation:
         """The running implementation. Raises InputError and StartError as open_implementation does.
 
-        It also raises StartError if the implementation declares another description than before.
+        It also raises StartError if the description differs from the earlier one.
         """
         implementation = open_implementation(
             self.spec, self.limits, precision=self.precision, question=self.question, domain=self.domain
@@ -57,7 +57,7 @@ class ImplementationOpener:
 
 @dataclass(frozen=True)
 class TaskResult:
-    """The result of a task, and what is left of the allowance with which it began."""
+    """The result of a task, and the rest of the allowance with which it began."""
 
     result: results.CasesResult
     left: Allowance
@@ -93,7 +93,7 @@ _TICK = 1.0
 
 @dataclass(frozen=True)
 class RunState:
-    """A run so far: what is left of the limits, how many steps are done, and their merged result.
+    """The state of a run: the rest of the limits, the number of finished steps, and their merged result.
 
     From a state and the same steps, the run continues as if it had never paused.
     """
@@ -121,8 +121,8 @@ class RunState:
 class WorkerLost(Exception):  # noqa: N818 - it is an event that does not fail the run
     """A worker ended while it performed a task; every executor raises this.
 
-    `workers` names the kind of workers, and `last` says how the last one ended. The task has cost `deaths` workers; 0
-    if the worker ended before it was ready, which is the fault of no task.
+    `workers` names the kind of workers, and `last` says how the last one ended. `deaths` workers have ended during the
+    task; 0 if the worker ended before it was ready, because then no task caused it.
     """
 
     def __init__(self, workers: str, last: str = "", deaths: int = 1) -> None:
@@ -133,7 +133,7 @@ class WorkerLost(Exception):  # noqa: N818 - it is an event that does not fail t
 
 
 class WorkersLostError(HypcheckError):
-    """Several workers in a row ended before they were ready, or run other files of hypcheck."""
+    """Several workers in a row ended before they were ready, or had different files of hypcheck."""
 
     exit_code = Exit.INTERNAL
 
@@ -161,7 +161,7 @@ class TaskExecution:
 def steps_of_chunks(
     chunks: Iterable[CaseChunk], last: Iterable[SearchStep | results.InvalidRows] = (), pace: Pace = PACE
 ) -> Iterator[Step]:
-    """The steps that ask these chunks, with their retests, and then those that come last."""
+    """The steps that test these chunks, with their retests, and then the steps `last`."""
     rows, rounds, parts = 0, 0, set[int]()
     for chunk in chunks:
         yield chunk
@@ -175,12 +175,12 @@ def steps_of_chunks(
 
 
 def _retest_steps(number: int, parts: set[int], pace: Pace) -> Iterator[RetestStep]:
-    """Part 0, the longest in the first round, comes last, so that the others run at the same time."""
+    """A round's retests. Part 0, the longest in the first round, comes last, so that the other parts run meanwhile."""
     return (RetestStep(number, part, pace=pace) for part in (1, 2, 0) if part in parts)
 
 
 def perform_steps(some: Iterable[Step], execution: TaskExecution, state: RunState) -> Iterator[tuple[Step, RunState]]:
-    """Perform the steps that the state has not done; each with the state after it.
+    """Perform the steps that the state lacks; yield each with the state after it.
 
     Raises WorkersLostError if workers end before they are ready, and whatever a task raises.
     """
@@ -204,9 +204,9 @@ def perform_steps(some: Iterable[Step], execution: TaskExecution, state: RunStat
 class _QueuedStep:
     """A step whose result is not merged yet.
 
-    `ready` says that it can be submitted: a retest can once its cases are known. `future` is None until it is.
-    `deaths` are the workers that died of it, which makes it a suspect; `alone` says that it was submitted as the only
-    step.
+    `ready` says that the step can be submitted; a retest can be when its cases are known. `future` is None until the
+    step is submitted. `deaths` is the number of workers that died while they performed it; a step with deaths is a
+    suspect. `alone` says that it was submitted as the only step.
     """
 
     step: Step
@@ -254,12 +254,12 @@ class _TaskQueue:
         while len(self._entries) < steps and (step := next(self._coming, None)) is not None:
             self._entries.append(_QueuedStep(step, not isinstance(step, RetestStep)))
         for entry in takewhile(lambda queued: isinstance(queued.step, RetestStep), self._entries):
-            if isinstance(entry.step, RetestStep) and not entry.ready:  # all of its cases are pending only now
+            if isinstance(entry.step, RetestStep) and not entry.ready:  # only now are all its cases known
                 entry.step, entry.ready = entry.step.of(state.total.pending), True
         return bool(self._entries)
 
     def due(self, state: RunState) -> list[_QueuedStep]:
-        """The first entries whose tasks can be submitted now; a suspect only if no other task runs."""
+        """The first entries whose tasks can be submitted now; a suspect is submitted only if no other task runs."""
         suspects = [entry for entry in self._entries if entry.deaths]
         most = 1 if suspects or self._one_by_one(state) else self._execution.workers * TASKS_PER_WORKER
         ready = [entry for entry in suspects[:1] or self._entries if entry.future is None and entry.ready]

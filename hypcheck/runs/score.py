@@ -1,7 +1,8 @@
-"""The score of rows that an implementation was asked: the status of each row, and the size of each wrong answer.
+"""The score of tested rows: the status of each row, and the size of each wrong answer.
 
 Conformance runs, the self-check, hunts, replays and bench use the same score. They choose different rows and keep
-different parts: conformance and the self-check a tally of all cases, a hunt the worst answers, bench the distances.
+different parts of the score: conformance and the self-check keep a tally of all cases, a hunt the worst answers, bench
+the distances.
 """
 
 from __future__ import annotations
@@ -61,7 +62,7 @@ class Score:
 
     `answers` (n,) are CANNOT_SAY for rows without a valid answer. `status` (n,) holds STATUS_CODES; it is WRONG for
     each wrong answer, which `judged` may find within the tolerance. `reasons` has a sentence for each row without a
-    valid answer. `times` (n,) are those of hits, if it gives any.
+    valid answer. `times` (n,) are the times of hits, if the implementation gives any.
     """
 
     criterion: Criterion
@@ -114,7 +115,7 @@ class Score:
         )
 
     def without(self, lost: Mapping[int, tuple[Status, str]]) -> Score:
-        """The score without the answers at these indices, each with its new status and the reason."""
+        """The score with the answers at these indices removed; `lost` gives each its new status and the reason."""
         answers, status = self.answers.copy(), self.status.copy()
         for place, (ended, _) in lost.items():
             answers[place], status[place] = CANNOT_SAY, STATUS_CODES[ended]
@@ -133,7 +134,7 @@ class Score:
         """The tally of these rows, which are the cases `indices` (n,) of a source.
 
         `exponents` are floor(log2) of the distances of the first rows to the nearest other position. `left_out` counts
-        rows that were not asked, by reason. `wrong` are the judged cases if some of them are excused.
+        rows that were not tested, by reason. `wrong` are the judged cases if some of them are excused.
         """
         cases = list(self.judged()) if wrong is None else wrong
         status = self.status.copy()

@@ -1,7 +1,8 @@
 """The self-check: derive, prove, cross-check, judge, draw, time; each result goes into the record at once.
 
-Derivation, oracles, formulas and methods are tasks of one list, which several processes work on. Then, with nothing
-else running, it times the fast path beside the plain formula, general-purpose roots and FCL, on the cooling tower.
+Derivation, oracles, formulas and methods are tasks of one list, which several processes perform. After them, when no
+task runs, the fast path is timed and compared with the plain formula, general-purpose roots and FCL, on the cooling
+tower.
 """
 
 from __future__ import annotations
@@ -48,7 +49,7 @@ def timing_entry(method: Method, rows: Rows) -> TimingEntry:
 
 
 def timed_rows(seed: int) -> Rows:
-    """Uniform positions in the box around the cooling tower; all rows have its sizes."""
+    """Rows with uniform positions in the box around the cooling tower; all have the tower's sizes."""
     return FAMILIES[WORKLOAD].rows(seed, TIMED_ROWS)
 
 
@@ -102,7 +103,7 @@ def _fast(rows: Rows) -> Answers:
 
 
 def _plain(rows: Rows) -> Answers:
-    """Procedure 1 and the repaired interior condition, as the paper's Table 2 reads in numpy."""
+    """Procedure 1 and the repaired interior condition: the paper's Table 2 in numpy."""
     alpha, gamma, b, d = rows[0, :4].tolist()
     x, y, z = rows[:, 4], rows[:, 5], rows[:, 6]
     A, B = (alpha / b) ** 2, (gamma / d) ** 2
@@ -130,7 +131,7 @@ MESH = "mesh"
 
 
 def _done(task: Callable[[], object]) -> Any:  # noqa: ANN401 - of each task another type
-    """The result of a task, a unit of work that a process does without anything else from the run."""
+    """The result of a task; a task is a unit of work that needs no other data of the run."""
     return task()
 
 
@@ -163,7 +164,7 @@ def frozen_lines(family: str, plan: SelfCheckPlan, shares: Mapping[str, int]) ->
 
 
 def upright_lines(family: str, start: int, stop: int, plan: SelfCheckPlan, shares: Mapping[str, int]) -> FamilyLines:
-    """The lines about a family's cases from `start` to `stop` − 1; formulas and methods are asked the first ones."""
+    """The lines about a family's cases from `start` to `stop` − 1; formulas and methods answer only the first cases."""
     batch = batch_of(FAMILIES[family], plan.seed, start, stop)
     opinions = oracles.oracle_lines(batch, shares)
     if start:
@@ -181,7 +182,7 @@ def upright_lines(family: str, start: int, stop: int, plan: SelfCheckPlan, share
 
 
 def family_tasks(plan: SelfCheckPlan) -> list[Callable[[], FamilyLines]]:
-    """The tasks of all families; those of frozen vectors, whose rows take longest, come first.
+    """The tasks of all families. Tasks of frozen vectors come first, because their rows take longest.
 
     Raises InputError naming a family that does not exist.
     """
@@ -249,7 +250,7 @@ class _SelfCheck:
         return replace(self.plan, oracles=tuple(name for name, reason in reasons.items() if reason is None))
 
     def _perform(self, tasks: Sequence[Callable[[], Any]], advance: Advance) -> None:
-        """Do the tasks, in processes where the plan has several workers; record their results in that order."""
+        """Perform the tasks, in several processes if the plan has workers; record their results in the tasks' order."""
         recorded: list[FindingLine] = []
         opinions: list[OracleLine] = []
         with closing(in_order(_done, tasks, self.plan.workers, 0, ahead=len(tasks))) as results:

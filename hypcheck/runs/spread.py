@@ -1,7 +1,8 @@
-"""How evenly a run asked: how narrow a fault near contact could have escaped it, and which coincidences met.
+"""How evenly a run tested: the width of a fault near contact that it can miss, and the tested coincidences.
 
-A fault in a slice of one coordinate, such as |z|/γ between 0.50 and 0.51, shows in a row near contact within the slice
-alone. So a run tells how wide a slice can be without three such rows, and a slice of two coordinates without one.
+A fault in a slice of one coordinate, such as |z|/γ between 0.50 and 0.51, is visible only in a row near contact within
+the slice. So a run reports the greatest width of a slice with fewer than three such rows, and of a slice of two
+coordinates without any.
 """
 
 from __future__ import annotations
@@ -30,9 +31,9 @@ DISTANCE = "distance to contact"
 
 
 def _distance_octaves(rows: Rows) -> Floats:
-    """The octave of each spheroid's distance from contact, as a share of its size, (n,); NaN outside of those asked.
+    """The octave of each spheroid's distance from contact, as a share of its size, (n,); NaN outside the range.
 
-    Contact begins or ends where the size changes by that share, which is found by halving.
+    At a change of size by this share contact begins or ends; bisection finds the share.
     """
     low, high = np.full(len(rows), STRATA_NEAREST - 1.0), np.full(len(rows), STRATA_FARTHEST + 1.0)
     touching = np.asarray(classify(rows)) == Position.CONTACT
@@ -88,9 +89,9 @@ _FINEST = 256
 
 
 def slices_of(plan: ConformancePlan, used: Description, rules: JudgingRules) -> dict[str, SlicesPart]:
-    """How evenly each family of lattices was asked near contact, and each search at all distances.
+    """The evenness of each family of lattices near contact, and of each search at all distances.
 
-    Rows that a search asks in any case count with the family. Nothing of which no row was asked.
+    Rows that a search tests in any case count with the family. Families without a tested row are left out.
     """
     slices = {}
     steps = {_FAMILIES[step.family]: step for step in searches(plan, used)}
@@ -116,7 +117,7 @@ def _asked(rules: JudgingRules, family: str, rows: Rows) -> Rows:
 
 
 def evenness(rows: Rows, names: tuple[str, ...]) -> SlicesPart:
-    """How evenly those rows that are near contact lie in the ranges of these coordinates, `distance` among them."""
+    """The evenness of the rows near contact in the ranges of these coordinates, which include `distance`."""
     places = np.stack([COORDINATES[name](rows) for name in names])
     places = places[:, np.isfinite(places[names.index(DISTANCE)])]
     one = max(_widest(np.sort(some[(some >= 0) & (some <= 1)])) for some in places)
@@ -124,7 +125,7 @@ def evenness(rows: Rows, names: tuple[str, ...]) -> SlicesPart:
 
 
 def _evenness_of_far(step: SearchStep, numbers: Indices) -> SlicesPart:
-    """How evenly a search asked at all distances: of the two sides of contact, the one that was asked less evenly."""
+    """The evenness of a search over all distances, on that side of contact which was tested less evenly."""
     line, rung = np.divmod(numbers, RUNGS)
     octaves = octaves_of(step.family, step.seed, line, rung)
     sides = [octaves[(rung < RUNGS // 2) == clear] for clear in (True, False)]
@@ -145,9 +146,9 @@ def _widest(sorted_places: NDArray[np.float64]) -> float:
 
 
 def _side(places: NDArray[np.float64]) -> float:
-    """Twice the side of the smallest cells that hold a row each, of any two coordinates.
+    """Twice the side of the smallest square cells, in a plane of two coordinates, that all hold a row.
 
-    A slice of that width holds a cell, wherever it lies.
+    A slice of this width contains a cell at any place.
     """
     parts = _FINEST
     while parts > 1 and not all(_is_full(a, b, parts) for a, b in combinations(places, 2)):
@@ -171,7 +172,7 @@ def _rows_of(plan: ConformancePlan, family: Family) -> Iterator[Rows]:
 
 
 def crossed_of(plan: ConformancePlan, used: Description) -> dict[str, tuple[int, int]]:
-    """How many triples of coincidences were asked of each family that crosses them, and how many go together."""
+    """For each family that crosses coincidences, the numbers of tested triples and of triples that are compatible."""
     return {
         family.name: crossed.asked(family.name, max(frozen_count(family.name), plan.count * family.times), 3)
         for family in chosen_families(plan, used)

@@ -1,8 +1,8 @@
-"""The files that a SPEC starts besides those that it names, as far as they are known before anything is run.
+"""The files that a SPEC starts besides the files that it names, as far as they are known before anything is run.
 
-These are the files in the words of a command (of `sh -c './prog --fast'` too), the modules beside a Python file that it
-imports, and the libraries that a program or a library in ELF needs and that are found by its own search path. Nothing
-is imported or run to find them. What cannot be known is said: `not_hashed` of the record's header.
+These are the files in the words of a command (also of `sh -c './prog --fast'`), the modules beside a Python file that
+it imports, and the libraries that an ELF program or library needs and finds by its own search path. Nothing is imported
+or run to find them. The key `not_hashed` of the record's header names what cannot be known.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ _DYNAMIC = frozenset(
 
 @dataclass
 class StartedFiles:
-    """Files in the order in which they were found, and sentences without a full stop about what was not found."""
+    """The files in the order in which they were found, and sentences without a full stop about missing files."""
 
     paths: dict[str, None] = field(default_factory=dict)
     missing: dict[str, None] = field(default_factory=dict)
@@ -92,7 +92,7 @@ def _add_function(spec: Spec, files: StartedFiles) -> None:
 
 
 def _add_command(spec: Spec, files: StartedFiles) -> None:
-    """Add the files in the words; what a program from the PATH reads besides is not known, unless it is Python."""
+    """Add the files in the words. Other files that a program from the PATH reads are not known, except for Python."""
     program = spec.words[0]
     known = program if os.sep in program else shutil.which(program)
     python = os.path.basename(program).startswith("python")
@@ -115,7 +115,7 @@ def _add_command(spec: Spec, files: StartedFiles) -> None:
 
 
 def _tokens(word: str, *, first_is_program: bool) -> Iterator[str]:
-    """What may be a file in a word: the word, its words as a shell reads them, values behind =, parts of a path."""
+    """The parts of a word that may be a file: the word, its words in shell syntax, values after =, parts of a path."""
     if os.path.exists(word):
         yield word
         return
@@ -173,7 +173,7 @@ def _modules(name: str, folders: Sequence[str]) -> Iterator[str]:
 
 
 def _existing(stem: str) -> Iterator[str]:
-    """The files of the module of that path, but for hypcheck's own, whose hashes the record has."""
+    """The files of the module with that path, without hypcheck's own files, whose hashes the record has."""
     for path in (f"{stem}.py", os.path.join(stem, "__init__.py"), *_extensions(stem)):
         if os.path.isfile(path) and _PACKAGE not in Path(path).resolve().parents:
             yield path
@@ -198,7 +198,7 @@ _NEEDED, _STRINGS, _RPATH, _RUNPATH = 1, 5, 15, 29
 
 
 def _needed(path: str) -> list[str]:
-    """The libraries that a file in ELF needs, in the folders that it or LD_LIBRARY_PATH names; none of the system's."""
+    """The libraries that an ELF file needs, from the folders that it or LD_LIBRARY_PATH names; no system libraries."""
     size = os.path.getsize(path)
     with open(path, "rb") as file:
         head = file.read(64)

@@ -1,7 +1,7 @@
 """Tallies of cases: counts by status, histograms over sizes and places, and the worst cases.
 
-A tally is a struct of the record, so a run that is interrupted writes it as it is. Tallies of parts add up to that of
-the whole in any order: counts are sums, and the cases that are kept with their rows depend on their places in the
+A tally is a struct of the record, so an interrupted run writes it without conversion. Tallies of parts add up to that
+of the whole in any order: counts are sums, and the cases that are kept with their rows depend on their places in the
 family, not on the order in which they were judged. A tally of all cases of a family becomes a line of the record.
 """
 
@@ -45,7 +45,7 @@ def by_size(rows: Rows, amiss: Mask) -> Histogram:
 
 
 def by_place(rows: Rows, amiss: Mask) -> Histogram:
-    """Bins (⌊8 r/α⌋, ⌊8 |z|/γ⌋), both clipped to 0 … FAR; of sweeps, where they begin."""
+    """Bins (⌊8 r/α⌋, ⌊8 |z|/γ⌋), both clipped to 0 … FAR; for sweeps, bins of their starts."""
     with np.errstate(all="ignore"):
         across, along = _eighths(_radius(rows), rows[:, 0]), _eighths(np.abs(rows[:, 6]), rows[:, 1])
     return _counted(across, along, amiss)
@@ -61,7 +61,7 @@ def added(parts: Iterable[Histogram]) -> Histogram:
 
 
 def _radius(rows: Rows) -> NDArray[np.float64]:
-    """√(x² + y²), by the slower hypot if a square leaves the range of float64."""
+    """√(x² + y²); if a square overflows or underflows float64, by the slower hypot."""
     x, y = rows[:, 4], rows[:, 5]
     square = x * x + y * y
     if len(rows) and _LEAST < square.min() and square.max() < _GREATEST:
@@ -91,7 +91,7 @@ def _counted(first: Integers, second: Integers, amiss: Mask) -> Histogram:
 
 def _summed(first: Integers, second: Integers, counts: Integers) -> Integers:
     """A row [first, second, …] for each distinct pair of numbers, ascending, with the sums of the pair's counts."""
-    keys = (first << 32) + second  # two numbers in one: sorting pairs is fifty times slower
+    keys = (first << 32) + second  # both numbers as one: sorting pairs is fifty times slower
     order = np.argsort(keys, kind="stable")
     keys = keys[order]
     starts = np.flatnonzero(np.append(True, keys[1:] != keys[:-1]))
@@ -114,7 +114,7 @@ StatusCodes = NDArray[np.int8]
 
 
 def worst_case(case: WrongCase, place: Place, name: str, criterion: Criterion) -> WorstCase:
-    """The case at that place with that id, its error measured."""
+    """The case at that place with that id, with its measured error."""
     return diagnosis.kept_case(case, place, name, criterion.layout, judge.measured(case, criterion.question))
 
 
@@ -170,7 +170,7 @@ def group_line(
     spec: str | UnsetType = UNSET,
     failing: list[str] | UnsetType = UNSET,
 ) -> GroupLine:
-    """The record's line; for an implementation under test with its SPEC and the statuses that fail the run."""
+    """The record's line about a family; for an implementation under test with SPEC and the statuses that fail it."""
     return GroupLine(
         method=method,
         spec=spec,
@@ -197,7 +197,7 @@ def group_line(
 
 
 def _unanswered_lines(tallied: Tally) -> list[lines.FaultPart]:
-    """The unanswered cases of the record's line: the first of each status, then the first up to UNANSWERED_KEPT."""
+    """The unanswered cases of the record's line: the first of each status, then further ones up to UNANSWERED_KEPT."""
     first = {fault.status: fault for fault in reversed(tallied.faults)}.values()
     others = [fault for fault in tallied.faults if fault not in first]
     chosen = [*first, *others[: max(0, UNANSWERED_KEPT - len(first))]]
@@ -235,7 +235,7 @@ _ANSWERS = ("-1", "0", "1", "2", "none")
 
 
 def answer_counts(truth: Positions, answers: NDArray[np.int8], answered: Mask) -> dict[str, dict[str, int]]:
-    """The number of rows by what is true (n,) and by what was answered (n,); "none" where `answered` (n,) is false."""
+    """The number of rows by truth (n,) and by answer (n,); the answer is "none" where `answered` (n,) is false."""
     columns = np.where(answered, answers + 1, len(_ANSWERS) - 1)
     counts = np.bincount((truth.astype(np.int64) + 1) * len(_ANSWERS) + columns, minlength=3 * len(_ANSWERS))
     table = counts.reshape(3, len(_ANSWERS)).tolist()

@@ -1,13 +1,13 @@
-"""Timing: calibrated loops in interleaved rounds, medians of ratios with bootstrap intervals, and targets for them.
+"""Timing: calibrated loops in interleaved rounds, and medians of ratios with bootstrap intervals.
 
 In each round every entry runs once, and each round starts with another entry, so that a slow moment of the machine
-affects all of them. The sum of the answers is checked after each sample: an entry with other answers than before is
-refused, and timed no more.
+affects all of them. The sum of the answers is checked after each sample: an entry whose answers changed is refused, and
+not timed again.
 
-Samples come in rounds of several fresh processes. The rounds of one process share its accidents (addresses, a core).
-Therefore the bootstrap draws processes first, then rounds inside each drawn process: an interval from rounds alone
-would count twenty measurements of one accident as twenty accidents. The draws have a fixed seed, so the same samples
-always give the same interval.
+Samples come in rounds of several fresh processes. The rounds of one process share random conditions (addresses, a
+core). Therefore the bootstrap draws processes first, then rounds inside each drawn process: an interval from rounds
+only would count twenty measurements under one condition as twenty conditions. The draws have a fixed seed, so the same
+samples always give the same interval.
 
 One thread is timed by its processor time, so that a busy machine does not matter; two threads by the wall clock.
 """
@@ -44,14 +44,15 @@ of several short takes. Long work is taken less often."""
 
 
 class TimingRefusedError(Exception):
-    """A method that does not do its work while it is timed; the text is a sentence about it. It is timed no more."""
+    """A method does not do its work while it is timed; the text is a sentence about it. It is not timed again."""
 
 
 @dataclass(frozen=True, slots=True)
 class TimingEntry:
     """Work to be timed: `run` answers `rows` rows each time, and the sum of its answers must be `checksum`.
 
-    Without a checksum, that of the first sample counts. `loops` and `takes` are calibrated unless they are given.
+    If there is no checksum, the first sample's checksum is used. `loops` and `takes` are calibrated unless they are
+    given.
     """
 
     name: str
@@ -66,7 +67,7 @@ class TimingEntry:
 class Samples:
     """The samples of one entry: nanoseconds a row in each round; `refused` is the reason if it was refused.
 
-    A sample is the fastest of `takes` takes, each of `loops` times the work.
+    A sample is the fastest of `takes` takes; a take repeats the work `loops` times.
     """
 
     name: str
@@ -84,7 +85,7 @@ class Samples:
 
 
 def clocked(work: Callable[[], NDArray[np.signedinteger]], clock: Callable[[], int] = time.perf_counter_ns) -> Clocked:
-    """Work in this process, by a clock of nanoseconds; the sum is that of the last answers."""
+    """Work in this process, timed by a clock in nanoseconds; the sum is the sum of the last answers."""
 
     def run(repeat: int) -> tuple[int, int]:
         started = clock()
@@ -100,7 +101,7 @@ def clocked_calls(
     centres: Sequence[Sequence[float]],
     clock: Callable[[], int] = time.perf_counter_ns,
 ) -> Clocked:
-    """A call for each centre in this process, by a clock of nanoseconds; the sum is that of the last answers."""
+    """A call for each centre in this process, timed by a clock in nanoseconds; the sum is of the last answers."""
 
     def run(repeat: int) -> tuple[int, int]:
         total = 0
@@ -117,10 +118,10 @@ def clocked_calls(
 def clocked_in_c(
     call: Callable[[int], object], answers: NDArray[np.int8], clock: Callable[[], int] = time.perf_counter_ns
 ) -> Clocked:
-    """Work that `call` itself repeats as often as asked; the sum is that of `answers`, which it writes."""
+    """Work that `call` repeats the requested number of times; the sum is the sum of `answers`, which it writes."""
 
     def run(repeat: int) -> tuple[int, int]:
-        answers.fill(0)  # so that answers of an earlier call cannot count for these
+        answers.fill(0)  # so that answers of an earlier call cannot be counted
         started = clock()
         call(repeat)
         return clock() - started, int(answers.sum(dtype=np.int64))
@@ -135,7 +136,7 @@ def measure(
     first: int = 0,
     advance: Callable[[int], object] = lambda _: None,
 ) -> list[Samples]:
-    """The samples of all entries, in rounds that run each entry once; `advance` takes note of each round.
+    """The samples of all entries, in rounds that run each entry once; `advance` is called after each round.
 
     `first` is the entry that starts the first round.
     """
@@ -160,10 +161,10 @@ def _calibrated(entry: TimingEntry, shortest_s: float) -> Samples:
             loops, shortest = 1, shortest_s / TAKES * 1e9
             while (
                 took < shortest / 8 and loops < MOST_LOOPS
-            ):  # a shorter time is too inaccurate for the number of loops
+            ):  # a shorter time is too inaccurate to compute the number of loops
                 loops = min(MOST_LOOPS, 2 * loops if took <= 0 else max(2 * loops, round(loops * shortest / 4 / took)))
                 took, checksum = entry.run(loops)
-            took = min(took, entry.run(loops)[0])  # after an interruption the takes would be too short
+            took = min(took, entry.run(loops)[0])  # an interruption would have made the takes too short
             samples.loops = min(MOST_LOOPS, max(1, math.ceil(loops * shortest / max(took, 1))))
             lasts = max(1, took * samples.loops / loops)
             samples.takes = max(1, min(TAKES, int(_LONGEST * TAKES * shortest / lasts)))
@@ -194,7 +195,7 @@ def _require_sum(samples: Samples, checksum: int) -> None:
 
 @contextmanager
 def _refused(samples: Samples) -> Iterator[None]:
-    """Store in the samples why the block refuses an entry, if it does."""
+    """If the block raises TimingRefusedError, store the reason in the samples."""
     try:
         yield
     except TimingRefusedError as refused:
@@ -236,7 +237,7 @@ class Estimate:
 
     @property
     def half_width(self) -> float:
-        """The distance of the interval's farther end from 1, as a factor less 1: 0.02 for 0.98 … 1.01."""
+        """The distance of the interval's farther end from 1, as a factor minus 1: 0.02 for 0.98 … 1.01."""
         return max(self.high, 1 / self.low if self.low > 0 else np.inf) - 1
 
 
@@ -274,7 +275,7 @@ def resampled_medians(samples: SampleTable, seed: int = _SEED) -> NDArray[np.flo
 
 @lru_cache(maxsize=16)
 def _draws(lengths: tuple[int, ...], seed: int) -> tuple[NDArray[np.int64], NDArray[np.bool_] | None]:
-    """For each resample the places of its draws among all samples, and which of these do not exist.
+    """For each resample the places of its draws among all samples, and a mask of places that do not exist.
 
     An interrupted process has fewer rounds. Samples of one run have the same numbers, and the same draws.
     """
@@ -289,7 +290,7 @@ def _draws(lengths: tuple[int, ...], seed: int) -> tuple[NDArray[np.int64], NDAr
 
 
 def thread_clocked(work: Callable[[], NDArray[np.signedinteger]]) -> Clocked:
-    """Work of this thread by its processor time: time of other programs does not count."""
+    """Work of this thread, timed by its processor time: the time of other programs does not count."""
     return clocked(work, thread_time_ns)
 
 

@@ -1,15 +1,16 @@
-"""Rows near contact: evenly spread ones, and lines across the border of contact for a directed search.
+"""Rows near contact: evenly spread rows, and lines across the border of contact for a directed search.
 
-**Evenly.** No slice of a size, a height or a direction is left without a question: a fault in a narrow range, such as
-|z|/γ between 0.50 and 0.51, shows only in a row within the range and near contact. Random draws leave gaps and heaps.
-Here each block of rows is a lattice of 1024 points with a random shift, so that each coordinate has a row in every
-1024th part of its range, and any two together are spread as evenly. The seed is the start of the lattice. The height is
-that of the centre, not of the point of contact: a bisection finds the point for the height.
+**Evenly.** Every narrow slice of a size, a height or a direction has a row: a fault in a narrow range, such as |z|/γ
+between 0.50 and 0.51, is visible only in a row within the range and near contact. Random draws leave gaps and clusters.
+Here each block of rows is a lattice of 1024 points with a random shift: each coordinate has a row in every 1024th part
+of its range, and any two coordinates together are spread as evenly. The seed is the start of the lattice. The height is
+the height of the centre, not of the point of contact: a bisection finds the point that belongs to it.
 
 **Lines**: one pair, and its spheroid in many sizes. A line begins with a spheroid that touches, and its size is
-multiplied: a larger one is in contact, a smaller one is clear. A search asks where on the line an implementation's
-answer changes (runs/border_search.py). The rungs of a line are numbered, so that a row has a case id like any other:
-row i of the family is rung i mod RUNGS of line i div RUNGS. The pairs are those of a lattice of other random shifts.
+multiplied by factors: a larger spheroid is in contact, a smaller one is clear. A search finds where on the line an
+implementation's answer changes (runs/border_search.py). The rungs of a line are numbered, so that a row has a case id
+like any other: row i of the family is rung i mod RUNGS of line i div RUNGS. The pairs come from a lattice with other
+random shifts.
 """
 
 from __future__ import annotations
@@ -50,7 +51,7 @@ _HALVINGS = 54
 
 
 def lattice(draw: Draw, n: int) -> NDArray[np.float64]:
-    """Shifted points in [0, 1)^10, (10, n): the first 2^k of them are spread evenly too."""
+    """The points of a shifted lattice in [0, 1)^10, (10, n); the first 2^k of them are spread evenly too."""
     places = np.arange(n, dtype=np.int64)
     turned = np.zeros(n, dtype=np.int64)
     for bit in range(BITS):
@@ -61,14 +62,14 @@ def lattice(draw: Draw, n: int) -> NDArray[np.float64]:
 
 
 def octaves(share: Floats, low: int, high: int) -> Floats:
-    """From 2^low to 2^high, evenly in octaves, and evenly within each."""
+    """Numbers from 2^low to 2^high for shares in [0, 1): evenly over octaves, and evenly within each octave."""
     octave = share * (high - low)
     whole = np.floor(octave)
     return ldexp(1 + (octave - whole), low + whole)
 
 
 def _around(share: Floats) -> tuple[Floats, Floats]:
-    """Directions all around, as good as evenly."""
+    """Directions all around, nearly evenly."""
     quarter = np.floor(share * 4)
     cosine, sine = circle_at(_EIGHTH * (2 * (share * 4 - quarter) - 1))
     return (
@@ -78,7 +79,7 @@ def _around(share: Floats) -> tuple[Floats, Floats]:
 
 
 def _near(points: NDArray[np.float64]) -> Floats:
-    """How far off contact the rows of a lattice are, in radii: negative is in contact."""
+    """The distances of a lattice's rows from contact, in radii; negative numbers are in contact."""
     side, distance = points[5:7]
     outwards = np.where(np.floor(side * 4) % 2 == 0, 1.0, -1.0)
     return np.asarray(outwards * octaves(distance, STRATA_NEAREST, STRATA_FARTHEST))
@@ -97,7 +98,7 @@ def _made(points: NDArray[np.float64], axis: Vectors, off: Floats) -> Rows:
 
 
 def _centred(*lengths: Floats) -> Sizes:
-    """The sizes in units such that the greatest is about as far above 1 as the least is below: none is extreme."""
+    """The sizes in units such that the greatest is about as far above 1 as the least is below it: none is extreme."""
     octaves = np.stack([exponent(length) for length in lengths])
     shift = -((octaves.max(axis=0) + octaves.min(axis=0)) // 2)
     return Sizes(*(ldexp(length, shift) for length in lengths))
@@ -135,19 +136,19 @@ def upright(draw: Draw, n: int) -> Rows:
 
 
 def upright_at(points: NDArray[np.float64], off: Floats) -> Rows:
-    """The rows of these points of a lattice, (10, n), so many radii off contact."""
+    """The rows of these points of a lattice, (10, n), `off` radii from contact."""
     zero = np.zeros(len(off))
     return np.ascontiguousarray(_made(points, (zero, zero, np.ones(len(off))), off)[:, :7])
 
 
 def tilted(draw: Draw, n: int) -> Rows:
-    """The same with axes everywhere."""
+    """The same for tilted spheroids, with axes in all directions."""
     points = lattice(draw, n)
     return tilted_at(points, _near(points))
 
 
 def tilted_at(points: NDArray[np.float64], off: Floats) -> Rows:
-    """The rows with axes of these points of a lattice, so many radii off contact."""
+    """The rows with axes of these points of a lattice, `off` radii from contact."""
     up = points[8]
     across = np.sqrt(1 - up * up)
     cosine, sine = _around(points[9])
@@ -170,7 +171,7 @@ LINES = 1 << BITS
 
 @dataclass(frozen=True)
 class LineFamily(Family):
-    """The rungs of all lines of a seed, line after line."""
+    """A family whose rows are the rungs of all lines of a seed, line after line."""
 
     def rungs(self, seed: int, lattice: int, lines: Integers, rungs: Integers) -> Rows:
         """The rows of these lines of a lattice, (n,), at these rungs, (n,)."""
@@ -199,7 +200,7 @@ SEARCHED = {
 
 @lru_cache(8)
 def _lines(name: str, version: int, seed: int, number: int, tilted: bool) -> tuple[Rows, Floats]:
-    """The lines of a lattice: rows that are just clear, and the share of a rung by which its rungs lie farther out."""
+    """The lines of a lattice: rows that are just clear, and the share of a rung by which their rungs are shifted."""
     points = lattice(Draw(name, version, seed, number), LINES)
     rows = (tilted_at if tilted else upright_at)(points, np.zeros(LINES))
     return _resized(rows, _touch(rows) - 1), points[6]
@@ -207,7 +208,7 @@ def _lines(name: str, version: int, seed: int, number: int, tilted: bool) -> tup
 
 def _touch(rows: Rows) -> Floats:
     """The largest factor of each spheroid's size at which it is clear, (n,)."""
-    # To halve bit patterns halves the logarithm at first, and the factor itself at the end.
+    # Bisection of bit patterns bisects the logarithm at first, and the factor itself at the end.
     below, above = (np.full(len(rows), factor).view(np.int64) for factor in (_LEAST, _MOST))
     while (above - below).max(initial=0) > 1:
         middle = below + (above - below) // 2
@@ -217,14 +218,14 @@ def _touch(rows: Rows) -> Floats:
 
 
 def _resized(rows: Rows, change: Floats) -> Rows:
-    """The rows with a spheroid that is larger by this share of itself."""
+    """The rows with spheroids enlarged by this share of their sizes."""
     resized = rows.copy()
     resized[:, 2:4] += rows[:, 2:4] * change[:, None]
     return resized
 
 
 def _changes(rungs: Integers, jitter: Floats) -> Floats:
-    """By what share of itself the size at these rungs differs from that which touches."""
+    """The relative difference between the size at these rungs and the size that touches."""
     change = octaves(_share(rungs, jitter), NEAREST_OCTAVE, FARTHEST_OCTAVE)
     return np.asarray(np.where(rungs < RUNGS_ON_A_SIDE, -change, change))
 
@@ -234,7 +235,7 @@ def _share(rungs: Integers, jitter: Floats) -> Floats:
 
 
 def octaves_of(name: str, seed: int, lines: Integers, rungs: Integers) -> Floats:
-    """How far off contact these rungs of these lines of a searched family are, (n,).
+    """The distances of these rungs of these lines of a searched family from contact, (n,).
 
     As a share of the octaves from NEAREST_OCTAVE to FARTHEST_OCTAVE.
     """

@@ -1,9 +1,10 @@
-"""The rows on which rounding does most harm to a formula that is right in exact arithmetic, found by search.
+"""The rows on which rounding errors are worst for a formula that is right in exact arithmetic, found by search.
 
 Each search starts in one family, the stratum, at the rows that the formula gets most wrong, and changes their lengths
-at random: by factors near 1, by ulps, by powers of two, to fewer bits. What has a larger backward error is kept. Only
-rows count on which an implementation is judged that declares no domain of its own, on which the formula is right in
-rationals, and on which no intermediate overflows or underflows: what is found is the work of cancellation alone.
+at random: by factors near 1, by ulps, by powers of two, to fewer bits. Changed rows with a larger backward error are
+kept. A row must meet three conditions: an implementation without a declared domain is judged on it, the formula is
+right on it in rationals, and no intermediate overflows or underflows. So cancellation is the only cause of the errors
+that the search finds.
 
 The search is the same to the byte on every machine, like the families: integers, ldexp, + − × ÷ √, exact decisions.
 """
@@ -46,9 +47,10 @@ EXAMINED = 16
 
 @dataclass(frozen=True, slots=True)
 class CancellationSearch:
-    """A search for rows on which a formula errs in a format, in contact or not, and where the search begins.
+    """A search for rows, in contact or not, on which a formula errs in a format; its first rows are from `stratum`.
 
-    `contact` rows in contact are called clear, which is the dangerous mistake; others are called in contact, mostly.
+    With `contact` the search looks for rows in contact that the formula calls clear, the dangerous mistake; without it
+    mostly for clear rows that it calls contact.
     """
 
     formula: str
@@ -67,7 +69,7 @@ class Found:
 
 
 def searches() -> tuple[CancellationSearch, ...]:
-    """Every search that the file is made of, in order."""
+    """Every search that contributes to the file, in order."""
     return tuple(
         CancellationSearch(formula, precision, contact, stratum, beginning)
         for formula, precision in DEFEATED
@@ -78,13 +80,13 @@ def searches() -> tuple[CancellationSearch, ...]:
 
 
 def worst_rows() -> Rows:
-    """What all the searches find, float64 (n, 7)."""
+    """The rows that all the searches find, float64 (n, 7)."""
     candidates = (worst_row(search) for search in searches())
     return rows_of([candidate.row for candidate in candidates if candidate is not None])
 
 
 def worst_row(search: CancellationSearch) -> Found | None:
-    """The worst row that a search finds; None where it is off by no more than TOLERANCE_U units."""
+    """The worst row that a search finds; None if its error is at most TOLERANCE_U units."""
     draw = Draw(NAME, VERSION, SEED, *astuple(search))
     best = _worst(FAMILIES[search.stratum].block(SEED, search.beginning), search, [])
     for _ in range(ROUNDS if best else 0):
@@ -95,7 +97,7 @@ def worst_row(search: CancellationSearch) -> Found | None:
 
 
 def _worst(rows: Rows, search: CancellationSearch, before: Sequence[Found]) -> list[Found]:
-    """The BEAM worst of the rows and of those found before, no row twice."""
+    """The BEAM worst rows among these and the earlier ones, each once."""
     overflow, underflow = leaves_range(search.formula, search.precision, rows)
     rows = rows[in_range(rows, search.precision) & within(rows) & ~(overflow | underflow)]
     positions = float_filter.positions(rows)
@@ -131,7 +133,7 @@ def _changed(draw: Draw, rows: Rows) -> Rows:
     """Each row with a random one of its lengths changed, or with up to all of them, in one of four ways."""
     n, width = rows.shape
     kind = draw.integers(n, 0, 3)[:, None]
-    share = draw.integers(n, 0, 2)[:, None]  # of the lengths: about all, a half, a quarter
+    share = draw.integers(n, 0, 2)[:, None]  # the share of lengths to change: about all, a half, a quarter
     touched = draw.integers(n * width, 0, 3).reshape(n, width) >> (2 - share) == 0
     touched[np.arange(n), draw.integers(n, 0, width - 1)] = True
     near = draw.signs(n * width).reshape(n, width) * ldexp(1, -draw.integers(n, 1, 52))[:, None]

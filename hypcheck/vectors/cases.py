@@ -1,7 +1,7 @@
-"""Vector files: what the cases with answers hold, and how whole files are read strictly and written.
+"""Vector files: the content of cases with answers; whole files are read strictly, and written.
 
-Cases are about positions, of upright spheroids or of tilted ones, or about sweeps. What else stands in a file is in
-format.py, and rows that must be refused are in invalid_rows.py.
+Cases are about positions, of upright spheroids or of tilted ones, or about sweeps. format.py has the other parts of a
+file, and invalid_rows.py has the rows that must be refused.
 """
 
 from __future__ import annotations
@@ -47,13 +47,13 @@ Bounds = tuple[float, float]
 
 @dataclass(frozen=True, slots=True)
 class StoredCertificate:
-    """A certificate as files hold it: one of a multiplier λ, a double root m, and points.
+    """A certificate in the form of the files: it has a multiplier λ, a double root m, or points.
 
-    Points are offsets (s, t, w) from the spheroid's centre, so that short numbers do. In rows of seven numbers a
-    point is (x + b s, y + b t, z + d w), and belongs to the spheroid if s² + t² + w² ≤ 1; in all others it is
-    (x, y, z) + b (s, t, w), on a sweep with the centre at the `time` of the proof. `pieces` are those of a hyperboloid
-    that ends; without any of these a contact rests on the exact rule in the height. `steps` are the pieces (λ, end) of
-    a sweep, see truth/certificate.py.
+    Points are offsets (s, t, w) from the spheroid's centre, so that short numbers suffice. In rows of seven numbers a
+    point is (x + b s, y + b t, z + d w), and belongs to the spheroid if s² + t² + w² ≤ 1; in all other rows it is (x,
+    y, z) + b (s, t, w), on a sweep with the centre at the `time` of the proof. `pieces` prove a clear pair beside a
+    hyperboloid that ends; a contact without any of these parts is proved only by the exact rule in the height. `steps`
+    are the pieces (λ, end) of a sweep, see truth/certificate.py.
     """
 
     multiplier: Fraction | None = None
@@ -66,11 +66,11 @@ class StoredCertificate:
 
 @dataclass(frozen=True, slots=True)
 class Vector:
-    """A case about a position: a valid row (−0.0 included, as it was given), its labels, and what proves them.
+    """A case about a position: a valid row (a given −0.0 is kept), its labels, and their proof.
 
-    `kind` is None of a tilted spheroid. `clearance` is in spheroid radii, to within an ulp, inf beyond float64. `flips`
-    has the distance to each other position: of upright spheroids as truth/backward_error.py measures it, both ends of
-    the bracket alike, of tilted ones a bracket of it. Where the hyperboloid ends, all three are missing. `flags` are
+    `kind` is None for a tilted spheroid. `clearance` is in spheroid radii, to within an ulp, inf beyond float64.
+    `flips` has the distance to each other position as a bracket; for upright spheroids both ends are the distance that
+    truth/backward_error.py measures. If the hyperboloid ends, `kind`, `clearance` and `flips` are missing. `flags` are
     names out of flags.FLAGS or flags.TILTED_FLAGS.
     """
 
@@ -91,26 +91,26 @@ class Vector:
 
     @property
     def certificate(self) -> Certificate:
-        """What proves the position, its points in the caller's coordinates."""
+        """The certificate of the position, with points in the caller's coordinates."""
         points = tuple(point_at(self.row, offset) for offset in self.witness.offsets)
         witness = self.witness
         return Certificate(self.position, witness.multiplier, points, witness.double_root, witness.pieces)
 
 
 def units_of(row: Row) -> tuple[Fraction, Fraction, Fraction]:
-    """What the three parts of an offset are multiples of: b, b, d in a row of seven numbers, else b."""
+    """The units of the three parts of an offset: b, b, d in a row of seven numbers, else b."""
     b, d = Fraction(row[2]), Fraction(row[3])
     return b, b, b if PAIRS.has_axis(row) else d
 
 
 def point_at(row: Row, offset: Offset) -> Offset:
-    """The point that is this offset away from the centre."""
+    """The point with this offset from the centre."""
     x, y, z = (Fraction(start) + unit * part for start, unit, part in zip(row[4:7], units_of(row), offset, strict=True))
     return x, y, z
 
 
 def offset_to(row: Row, point: Offset) -> Offset:
-    """How far a point is from the centre."""
+    """The offset of a point from the centre."""
     s, t, w = (
         (part - Fraction(start)) / unit for start, unit, part in zip(row[4:7], units_of(row), point, strict=True)
     )
@@ -119,10 +119,10 @@ def offset_to(row: Row, point: Offset) -> Offset:
 
 @dataclass(frozen=True, slots=True)
 class SweepVector:
-    """A case about a sweep: a valid row of ten, thirteen or sixteen numbers, its answer, and what proves it.
+    """A case about a sweep: a valid row of ten, thirteen or sixteen numbers, its answer, and the proof.
 
-    `first` are bounds of the first contact: two neighbouring float64 numbers, or 0 twice; None where it is clear.
-    Beside a hyperboloid that ends they need not be neighbours, and nothing but the exact decision proves the answer.
+    `first` are bounds of the time of first contact: two neighbouring float64 numbers, or 0 twice; None if the sweep is
+    clear. If the hyperboloid ends, they need not be neighbours, and only the exact decision proves the answer.
     """
 
     id: str
@@ -143,7 +143,7 @@ class SweepVector:
 
     @property
     def certificate(self) -> PassageCertificate:
-        """What proves the answer, its points in the caller's coordinates."""
+        """The certificate of the answer, with points in the caller's coordinates."""
         witness, b = self.witness, Fraction(self.row[2])
         if witness.time is None:
             return PassageCertificate(witness.steps)
@@ -174,7 +174,7 @@ def case_fields(content: Content) -> tuple[str, ...]:
 def read_cases(path: str, content: Content | None = None) -> CaseFile[Any]:
     """The vector file at `path`, with that content, if one is given.
 
-    Raises InputError where it is not wholly as the schema demands.
+    Raises InputError if it does not conform to the schema.
     """
     return cases_of(read_document(path), path, content)
 

@@ -1,15 +1,15 @@
 """The check of vector files: each is read strictly, its metadata is compared, and every label is proved.
 
-Each label is proved, or computed anew by an oracle that did not make it. Position and tangency follow from
-the certificate alone (truth/certificate.py, with shows_crossing: rational arithmetic).
-The roots give the kind of an upright pair, the nearest point the clearance. Labels are made by the exact decision,
-which shares nothing with these. Distances to other answers rest on exact decisions and are computed anew; of tilted
-spheroids each end of their bracket is proved anew. So are the flags (flags.py). Of a sweep, answer and first contact
-follow from the certificate alone (truth/certificate.py).
+Each label is proved, or computed again by an oracle that did not make it. Position and tangency follow only from the
+certificate (truth/certificate.py, with shows_crossing: rational arithmetic). The roots give the kind of an upright
+pair, the nearest point the clearance. Labels are made by the exact decision, which shares no code with these checks.
+Distances to other answers rest on exact decisions and are computed again; for tilted spheroids each end of the bracket
+is proved again. The flags are computed again, too (flags.py). For a sweep, answer and first contact follow only from
+the certificate (truth/certificate.py).
 
-A label is checked by this program's meaning of its flag and read by the meaning that its file states, so the two must
-agree. A family of this program is described in the words of its generator's version. For an earlier version, or for a
-family of someone else, nothing is known here, and the description is not compared.
+This program checks a flag by its own definition, but readers use the definition in the file, so both must agree. The
+description of a family of this program must be that of its generator's version. If the version is older, or the family
+is not of this program, the right description is not known here, and the description is not compared.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ from hypcheck.vectors.labels import flips, shows_crossing
 
 @dataclass(frozen=True, slots=True)
 class LabelFault:
-    """A label that is wrong: the line of its case (0 where it was not read from a file), its id, and what is wrong."""
+    """A wrong label: the line of its case (0 if it was not read from a file), its id, and the error."""
 
     line: int
     case: str
@@ -57,7 +57,7 @@ class LabelFault:
 
 
 def faults_of(file: CaseFile[Any]) -> list[LabelFault]:
-    """Every wrong label of a file of cases, in order; of rows that must be refused, whether they must, and what for."""
+    """Every wrong label of a file of cases, in order; for rows to refuse, each wrong claim about the faulty columns."""
     sentences_of_cases: Iterable[Iterator[str]]
     if file.content.refused:
         sentences_of_cases = (_wrong_columns(case, file.content.columns) for case in file.cases)
@@ -89,7 +89,7 @@ def _of_positions(file: CaseFile[Any]) -> Iterator[Iterator[str]]:
 
 
 def _unproved(case: Vector, pair: Pair, _truth: Decision) -> Iterator[str]:
-    """What the certificate does not prove of position and tangency."""
+    """A sentence for each of position and tangency that the certificate does not prove."""
     contact = case.position is Position.CONTACT
     claim = f"{case.position.label}, tangent" if case.tangent else case.position.label
     if not check_certificate(pair, case.certificate):
@@ -101,7 +101,7 @@ def _unproved(case: Vector, pair: Pair, _truth: Decision) -> Iterator[str]:
 
 
 def _unproved_by_rule(case: Vector, pair: Pair, truth: Decision) -> Iterator[str]:
-    """The same where the hyperboloid ends: a touch rests on the exact rule; the least value must not contradict it."""
+    """As _unproved if the hyperboloid ends: a touch rests on the exact rule; the least value must not contradict it."""
     other = least.position(pair)
     claim = f"{case.position.label}, tangent" if case.tangent else case.position.label
     by_rule = case.witness == StoredCertificate() and case.position is Position.CONTACT
@@ -116,7 +116,7 @@ def _unproved_by_rule(case: Vector, pair: Pair, truth: Decision) -> Iterator[str
 def _wrong_measures(
     case: Vector, content: Content, pair: Pair, truth: Decision, proved: set[Position], flags: Sequence[str]
 ) -> Iterator[str]:
-    """What is wrong of the kind, the clearance, the flips and the flags, of those that the case has."""
+    """A sentence for each wrong one of the kind, the clearance, the flips and the flags that the case has."""
     if not content.tilted and (kind := classify_by_roots(pair).kind) is not case.kind:
         was, now = (each.value if each else None for each in (case.kind, kind))
         yield f"kind is {was}; the roots say {now}"
@@ -144,7 +144,7 @@ def _wrong_brackets(case: Vector, pair: Pair, truth: Decision, proved: set[Posit
 
 
 def _proved_lower_ends(cases: Sequence[Vector]) -> list[set[Position]]:
-    """For each case the other positions whose lower end float64 proves, all cases at once: most, in little time."""
+    """For each case the other positions whose lower bound float64 proves. All cases together take little time."""
     proved: list[set[Position]] = [set() for _ in cases]
     brackets = [
         (index, other, ends.lower)
@@ -188,7 +188,7 @@ _SLACK = 2.0**-30
 
 
 def _ended_sweep_sentences(case: SweepVector) -> Iterator[str]:
-    """Of a sweep beside a hyperboloid that ends: the exact decision anew, which the least value must not contradict."""
+    """For a sweep if the hyperboloid ends: compare with a new exact decision and with the least value."""
     truth = scaled_passage(case.row)
     first = (truth.first_lower, truth.first_upper) if truth.hit else None
     if first != case.first:
@@ -234,7 +234,7 @@ def wrong_meanings(flags: Mapping[str, FlagFacts], known: Mapping[str, FlagFacts
 
 
 def _differences(there: Metadata | FlagFacts, known: Metadata | FlagFacts) -> Iterator[tuple[str, str, str]]:
-    """Names of fields that differ, with what is said there, cut where it is long, and what is right, whole."""
+    """The names of differing fields, each with the file's text, cut if it is long, and the right text in full."""
     for field in fields(known):
         stated, right = getattr(there, field.name), getattr(known, field.name)
         if stated != right:
@@ -243,7 +243,7 @@ def _differences(there: Metadata | FlagFacts, known: Metadata | FlagFacts) -> It
 
 @dataclass(frozen=True, slots=True)
 class FileReport:
-    """What became of a file: how many cases it has, what is wrong at its head, and every wrong label."""
+    """The result of checking a file: the number of cases, the errors in its head, and every wrong label."""
 
     path: str
     count: int
@@ -253,21 +253,21 @@ class FileReport:
 
 @dataclass(frozen=True, slots=True)
 class MetadataFault:
-    """What a file says wrongly before its cases, and on which line."""
+    """An error in the head of a file, and its line."""
 
     line: int
     sentence: str
 
 
 def shipped_files() -> list[str]:
-    """The paths of the frozen files, all of which must be there."""
+    """The paths of the frozen files; every file must exist."""
     return [str(frozen.path_of(name)) for name in frozen.ALL_NAMES]
 
 
 def examine(paths: Iterable[str]) -> Iterator[FileReport]:
     """A report on each file in turn.
 
-    Raises InputError where one is not wholly as its schema demands, NothingJudgedError where it has no cases.
+    Raises InputError if a file does not conform to its schema, NothingJudgedError if it has no cases.
     """
     for path in paths:
         document = read_document(path)

@@ -1,8 +1,8 @@
-"""What an argument must tell apart: exact tangencies, other double roots, the ring, and the borders of its cases.
+"""Cases that an algorithm must distinguish: exact tangencies, other double roots, the ring, and borders of regimes.
 
-Beside a tangency there is a hair's breadth, and a ladder of ulps: every power of two from 1 to 2⁴⁰, on both sides, one
-after the other. On the ring Δ = 0 though nothing touches; where c² = a the sphere has the groove's own curvature. The
-borders are those of regimes, planes and lines of symmetry, and vanishing coefficients.
+Next to tangencies there are rows at tiny distances, and ladders of ulps: every power of two from 1 to 2⁴⁰, on both
+sides, one after the other. On the ring Δ = 0, but nothing touches; if c² = a, the sphere has the same curvature as the
+groove. The borders are those of regimes, planes and lines of symmetry, and vanishing coefficients.
 """
 
 from __future__ import annotations
@@ -41,14 +41,14 @@ from hypcheck.vectors.random_pairs import (
 
 
 def exact_maker(construction: Callable[[Draw, int], tuple[Rows, Mask]]) -> Maker:
-    """The generator of a construction of rows and which of them are usable."""
+    """The generator for a construction that returns rows and a mask of the usable ones."""
     return lambda draw, n: in_metres(draw, gather(draw, n, construction))
 
 
 def reach(rows: Rows) -> Integers:
-    """The exponent of the longest of α/b, |x|/b, |y|/b and |z|/d: what a relative change is multiplied with in radii.
+    """The exponent of the longest of α/b, |x|/b, |y|/b and |z|/d: the factor from a relative change to radii.
 
-    γ is left out: it moves the surface by no more than r and α together.
+    γ is left out, because it moves the surface by no more than r and α together.
     """
     alpha, _, b, d, x, y, z = np.abs(rows).T
     return np.maximum(exponent(np.maximum(np.maximum(alpha, x), y) / b), exponent(z / d))
@@ -57,7 +57,7 @@ def reach(rows: Rows) -> Integers:
 def _touching(
     construction: Callable[[Draw, int], DoubleRoots], *, outer: bool, tangent: bool = True, farthest: float = np.inf
 ) -> Maker:
-    """The generator of those double roots that are wanted, their lengths with a `reach` of `farthest` at most."""
+    """The generator of double roots that are tangencies or not, outer or not, with a `reach` of at most `farthest`."""
 
     def attempt(draw: Draw, n: int) -> tuple[Rows, Mask]:
         tangencies = construction(draw, n)
@@ -91,7 +91,7 @@ degenerate_crossing = in_turn(
 def ulps_away(draw: Draw, rows: Rows) -> Rows:
     """The rows with one length each, any but a zero, moved by 1, 2, 4 … or 2^ULPS ulp to either side.
 
-    Fewer where so many would be more than about 2⁻⁸ radii, so that no row is carried right through the surface.
+    The steps are fewer if they would exceed about 2⁻⁸ radii, so that no row is moved through the whole surface.
     """
     n = len(rows)
     most = np.minimum(ULPS, 52 - 8 - 1 - reach(rows))
@@ -99,7 +99,7 @@ def ulps_away(draw: Draw, rows: Rows) -> Rows:
 
 
 def near_tangent(*, outer: bool) -> Maker:
-    """Tangencies of one side, half of them moved by ulps, half along the normal by 2⁻⁵⁰ to 2⁻⁹ radii, out or in."""
+    """Tangencies from one side: half are moved by ulps, half along the normal by 2⁻⁵⁰ to 2⁻⁹ radii, out or in."""
 
     def beside(construction: Callable[[Draw, int], DoubleRoots]) -> Maker:
         def attempt(draw: Draw, n: int) -> tuple[Rows, Mask]:
@@ -120,7 +120,7 @@ def _small(draw: Draw, n: int) -> Floats:
 
 
 def _along_the_normal(rows: Rows, sine: Floats, step: Floats, *, outer: bool) -> Rows:
-    """The centre moved by `step` radii away from the point it touches; its radius and height are ≥ 0."""
+    """The rows with the centre moved by `step` radii away from the touched point; its radius and height are ≥ 0."""
     _, _, b, d, x, y, z = rows.T
     cosine = np.sqrt(1 - sine * sine)
     away = step if outer else -step
@@ -139,7 +139,7 @@ def degenerate_neighbourhood(draw: Draw, n: int) -> Rows:
 
 
 def centres_on_surface(draw: Draw, n: int) -> tuple[Rows, Mask]:
-    """The centre on the surface: r/α and z/γ are hypotenuse/leg and other leg/leg of one triple."""
+    """Centres on the surface: r/α and z/γ are hypotenuse/leg and other leg/leg of one Pythagorean triple."""
     leg, other, hypotenuse = triples(draw, n, 12)
     x, y, turn = turned(draw, n)
     unit, tall = big_integers_of_any_length(draw, n, 12), big_integers_of_any_length(draw, n, 12)
@@ -169,7 +169,7 @@ _starts = in_turn(
 
 
 def ladder(draw: Draw, n: int) -> Rows:
-    """RUNGS rows of each tangency in turn, one length of it moved, any but a zero."""
+    """For each tangency RUNGS consecutive rows, each with one nonzero length moved."""
     count = -(-n // RUNGS)
     start = _starts(draw, count)
     chosen = draw.integers(count, 0, start.shape[1] - 1)
@@ -204,7 +204,8 @@ def ring_neighbourhood(draw: Draw, n: int) -> Rows:
 def osculation(draw: Draw, n: int) -> Rows:
     """c² = a (1 ± 2⁻⁵⁰ … 2⁻³) and centres near r = a + 1 in or near the plane of the waist.
 
-    Half stand in the plane or above it at random, half one radius (1 ± a hair) off a point of the groove's bottom.
+    Half of the centres are in or above the plane at random; half are one radius, changed a little, from the groove's
+    bottom.
     """
     a = draw.log_uniform(n, -3, 12)
     c = np.sqrt(a * (1 + draw.signs(n) * draw.log_uniform(n, -50, -3)))
@@ -217,7 +218,7 @@ def osculation(draw: Draw, n: int) -> Rows:
 
 
 def near_axis(draw: Draw, n: int) -> Rows:
-    """a = 1 ± 2⁻⁵⁰ … 2⁻³, r and z as small as a − 1 and √|a − 1| are, or 0: the ball all but fills the throat."""
+    """a = 1 ± 2⁻⁵⁰ … 2⁻³, r and z as small as a − 1 and √|a − 1|, or 0: the ball nearly fills the throat."""
     gap = draw.log_uniform(n, -50, -3)
     a = 1 + np.where(turns(n, True, False), gap, -gap)
     c = draw.log_uniform(n, -2, 7)
@@ -227,7 +228,7 @@ def near_axis(draw: Draw, n: int) -> Rows:
 
 
 def axis(draw: Draw, n: int) -> Rows:
-    """x = y = 0, at the origin, at heights near the one where the ball begins to fit, and anywhere."""
+    """x = y = 0: at the origin, at heights near the height from which the ball fits, and at any height."""
     a, c = all_regimes(draw, n)
     fits = np.sqrt(np.maximum((a * a + c * c) * (1 - a * a), 0)) / a
     hair = 1 + draw.signs(n) * draw.log_uniform(n, -50, -1)
@@ -260,7 +261,7 @@ def regime_borders(draw: Draw, n: int) -> Rows:
         d=np.where(aim, draw.log_uniform(n, *UNITS), bottom * units[1]),
     )
     rows = around(draw, size)
-    # Six in a row: α and γ each exact, one ulp up, one ulp down; γ makes no difference to a = 1.
+    # Six in a row: α and γ each exact, one ulp up, one ulp down; γ does not matter for a = 1.
     ulps = turns(n, 0, 0, 1, 1, -1, -1)
     column = np.where(aim | (draw.signs(n) < 0), 0, 1)
     index = np.arange(n)
@@ -274,7 +275,7 @@ def out_of_regime(draw: Draw, n: int) -> Rows:
 
 
 def _throat(draw: Draw, n: int) -> Rows:
-    """a < 1: up to 1.2 times as far out, and twice as high, as a sphere is stuck."""
+    """a < 1: centres up to 1.2 times as far out, and twice as high, as those of a sphere stuck in the throat."""
     a, c = draw.log_uniform(n, -5, 0) * 0.999, draw.log_uniform(n, -4, 3)
     stuck = np.sqrt((a * a + c * c) * (1 - a * a)) / a
     radius = np.abs(1 - a) * draw.between(n, 0, 1.2)
@@ -298,7 +299,7 @@ def _neither_condition(draw: Draw, n: int) -> Rows:
 
 
 def second_coefficient_zero(draw: Draw, n: int) -> tuple[Rows, Mask]:
-    """c2 = 0: (a − x)(a + x) = c² + y² + z² − 1, split as τ and the rest over τ."""
+    """c2 = 0: (a − x)(a + x) = c² + y² + z² − 1; the two factors are a random τ and the right side over τ."""
     unit, t = big_integers(draw, n, 1, 40), big_integers(draw, n, 1, 40)
     c, y, z = big_integers(draw, n, 1, 200), big_integers(draw, n, 0, 60), big_integers(draw, n, 0, 200)
     y, z = np.where(turns(n, True, False), 0, y), np.where(turns(n, True, True, False), z, 0)
@@ -310,7 +311,7 @@ def second_coefficient_zero(draw: Draw, n: int) -> tuple[Rows, Mask]:
 
 
 def first_coefficient_zero(draw: Draw, n: int) -> tuple[Rows, Mask]:
-    """c1 = 0: x² + y² = a² e² + 1 with c² e² = c² + z² − 1; both equations split like the one above."""
+    """c1 = 0: x² + y² = a² e² + 1 with c² e² = c² + z² − 1; both are split into two factors as for c2 = 0."""
     c, unit, t = big_integers(draw, n, 1, 60), big_integers(draw, n, 1, 60), big_integers(draw, n, 1, 60)
     f = unit * unit - c * c - t * t  # c e = f/(2 unit t)
     y, u, s = big_integers(draw, n, 0, 60), big_integers(draw, n, 1, 60), big_integers(draw, n, 1, 60)
@@ -327,7 +328,7 @@ def first_coefficient_zero(draw: Draw, n: int) -> tuple[Rows, Mask]:
 
 
 def first_coefficient_zero_for_any_waist(draw: Draw, n: int) -> tuple[Rows, Mask]:
-    """c1 = 0 whatever a is: x² + y² = 1 and c² + z² = 1, e = 0 above."""
+    """c1 = 0 for every a: x² + y² = 1 and c² + z² = 1, the case e = 0 of first_coefficient_zero."""
     alpha, b = big_integers_of_any_length(draw, n, 20), big_integers_of_any_length(draw, n, 10)
     alpha = np.where(turns(n, True, True, False), alpha + b, alpha)
     x, y, turn = turned(draw, n)

@@ -1,11 +1,11 @@
-"""Coincidences of a row, crossed: each together with each two others, on each side and in contact.
+"""Crossed coincidences: each coincidence of a row occurs with each two others, on each side and in contact.
 
-A program that treats a special case by itself can be wrong where two special cases meet: x = y = 0 beside a horizontal
-axis, say. crossed.toml has designs, made by `python -m tests.tools.covering`: combinations of one value of each factor
-such that any three values that go together do so in a row. The generators take the combinations in turn.
+A program that treats special cases separately can be wrong if two occur together, such as x = y = 0 and a horizontal
+axis. crossed.toml has designs, made by `python -m tests.tools.covering`: combinations of one value of each factor, such
+that any three compatible values occur together in a row. The generators take the combinations in turn.
 
-Rows are of small whole numbers, times a power of two, so that what coincides does so exactly. Of several candidates
-for a combination the first is taken that is on the side that the combination says.
+Rows are small whole numbers times a power of two, so that coincidences are exact. Of several candidates for a
+combination the first one on the combination's side is taken.
 """
 
 from __future__ import annotations
@@ -96,7 +96,7 @@ def design(name: str) -> NDArray[np.int64]:
 
 
 def asked(name: str, count: int, strength: int) -> tuple[int, int]:
-    """How many combinations of `strength` values the first `count` rows have, and how many go together at all."""
+    """The number of combinations of `strength` values in the first `count` rows, and of all compatible ones."""
     factors, rows = FACTORS[name], design(name)[:count].tolist()
     met = {
         tuple((place, row[place]) for place in places)
@@ -108,7 +108,7 @@ def asked(name: str, count: int, strength: int) -> tuple[int, int]:
 
 @cache
 def possible(name: str, strength: int) -> frozenset[tuple[tuple[int, int], ...]]:
-    """All combinations of `strength` values of a family's factors that go together, as (factor, value) places."""
+    """All compatible combinations of `strength` values of a family's factors, as (factor, value) places."""
     factors = FACTORS[name]
     chosen: list[tuple[tuple[int, int], ...]] = [()]
     for number, factor in enumerate(factors):
@@ -135,7 +135,7 @@ def crossed(name: str) -> Maker:
 
 
 def _candidates(draw: Draw, n: int, values: Mapping[tuple[str, ...], NDArray[Any]]) -> tuple[Rows, Mask]:
-    """A row for each combination of values, and which are on the side that it says."""
+    """A row for each combination of values, and a mask of the rows on the combination's side."""
     size = _sizes(draw, n, values)
     centre = _centre(draw, size, values)
     free = [draw.integers(n, 1, 5) * draw.signs(n) for _ in range(3)]
@@ -218,7 +218,7 @@ def _motion(motion: NDArray[Any], centre: list[Floats], free: list[Floats]) -> l
 
 
 def _axis(kind: NDArray[Any], centre: list[Floats], free: list[Floats], motion: list[Floats] | None) -> list[Floats]:
-    """A vector along the spheroid's axis; where what it is to be parallel to has no direction, it is along x."""
+    """A vector along the spheroid's axis; along x if the vector to which it should be parallel is 0."""
     x, y, z = centre
     i, j, k = free
     zero, one = np.zeros(len(x)), np.ones(len(x))
@@ -251,6 +251,6 @@ def _axis(kind: NDArray[Any], centre: list[Floats], free: list[Floats], motion: 
 
 
 def _selected(kind: NDArray[Any], known: Mapping[str, Any], otherwise: tuple[Floats, Floats, Floats]) -> list[Floats]:
-    """The vectors of each kind; others where the kind is none of these."""
+    """The vector of each row's kind among `known`; `otherwise` for other kinds."""
     which = [kind == name for name in known]
     return [np.select(which, [vector[part] for vector in known.values()], otherwise[part]) for part in range(3)]

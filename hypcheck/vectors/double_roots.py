@@ -6,17 +6,18 @@ g(c²) = −c² z² (a² + c²) (docs/mathematics.md, "Where the roots are") giv
 
     r² = (a² + m)² (m² + c²) / (m² (a² + c²)),   z² = (c² − m)² (a² − m²) / (m² (a² + c²)).
 
-With sin² = (a² − m²)/(a² + c²), z = sin · (c² − m)/m; (cos, −sin) is the normal of the surface at the root's point,
-and a² cos² − c² sin² = m². It is a tangency when −a² ≤ m ≤ c², the ring apart; beyond that the sphere crosses the
-surface elsewhere, and g has the double root all the same.
+With sin² = (a² − m²)/(a² + c²), z = sin · (c² − m)/m; (cos, −sin) is the normal of the surface at the root's point, and
+a² cos² − c² sin² = m². It is a tangency if −a² ≤ m ≤ c², except on the ring; for other m the sphere crosses the surface
+elsewhere, but g still has the double root.
 
 m² + c² and a² + c² are sums of two squares, so r² is one: it has rational x and y for any rational a, c and m, whether
-r is rational or not. Only (a² − m²)(a² + c²) must be a square, and for any a and c it is one for infinitely many m.
+r is rational or not. The only condition is that (a² − m²)(a² + c²) is a square; for any a and c it is a square for
+infinitely many m.
 
 Arrays of Python integers (dtype object) have no overflow, so a formula is written once, for a whole block. The radial
-lengths (α, b, x, y) and the axial ones (γ, d, z) have each a unit of their own (pair.Lengths), so a rational
-construction becomes a row of integers by clearing denominators, and any power of two may be the unit. Where the
-integers need more than the 53 bits of float64, the construction is drawn anew.
+lengths (α, b, x, y) and the axial lengths (γ, d, z) each have their own unit (pair.Lengths), so a rational construction
+becomes a row of integers by clearing denominators, and any power of two may be the unit. If the integers need more than
+the 53 bits of float64, the construction is drawn again.
 """
 
 from __future__ import annotations
@@ -49,7 +50,7 @@ def big_integers(draw: Draw, n: int, low: int, high: int) -> BigIntegers:
 
 
 def big_integers_of_any_length(draw: Draw, n: int, bits: int) -> BigIntegers:
-    """Python integers ≥ 1 of at most `bits` bits, each length as likely as the other."""
+    """Python integers ≥ 1 of at most `bits` bits; every number of bits is equally likely."""
     return np.floor(draw.log_uniform(n, 0, bits)).astype(np.int64).astype(object)
 
 
@@ -88,7 +89,7 @@ def to_rows(radial: Sequence[BigIntegers], axial: Sequence[BigIntegers]) -> tupl
 
 
 def gather(draw: Draw, n: int, attempt: Callable[[Draw, int], tuple[Rows, Mask]]) -> Rows:
-    """n rows out of as many attempts as it takes; each attempt says which of its rows are wanted."""
+    """n rows from as many attempts as needed; each attempt returns rows and a mask of the wanted ones."""
     parts: list[Rows] = []
     missing = n
     for _ in range(ATTEMPTS):
@@ -101,7 +102,7 @@ def gather(draw: Draw, n: int, attempt: Callable[[Draw, int], tuple[Rows, Mask]]
 
 
 def gathered(attempt: Callable[[Draw, int], tuple[Rows, Mask]]) -> Maker:
-    """The generator of the wanted rows of a construction, as `gather` finds them."""
+    """The generator that gathers the wanted rows of a construction (`gather`)."""
     return lambda draw, n: gather(draw, n, attempt)
 
 
@@ -123,7 +124,7 @@ def in_metres(draw: Draw, rows: Rows) -> Rows:
 
 
 def one_moved(draw: Draw, rows: Rows, steps: Integers) -> Rows:
-    """The rows with one number each, any but a zero, moved by so many ulps, (n,)."""
+    """The rows, each with one nonzero number moved by `steps` ulps, (n,)."""
     n = len(rows)
     chosen, index = draw.integers(n, 0, rows.shape[1] - 1), np.arange(n)
     chosen = np.where(rows[index, chosen] == 0, chosen % 4, chosen)
@@ -152,7 +153,7 @@ def by_ratios(draw: Draw, n: int, most: int = 12) -> DoubleRoots:
     x + i y = (a² + m)(m + i c)(a + i c)/(m e).
     """
     a_top, a_bottom, c_top, c_bottom, t_top, t_bottom = (big_integers(draw, n, 1, most) for _ in range(6))
-    # With a = p/unit, c = q/unit and τ = t/unit everything stands over powers of `unit`.
+    # With a = p/unit, c = q/unit and τ = t/unit, all denominators are powers of `unit`.
     unit, p, q = a_bottom * c_bottom, a_top * c_bottom, c_top * a_bottom
     e = p * p + q * q
     t_top = t_top * np.maximum(roots(e) // 4, 1)  # τ about √e, where m changes its sign
@@ -179,10 +180,10 @@ def by_ratios(draw: Draw, n: int, most: int = 12) -> DoubleRoots:
 
 
 def by_angle(draw: Draw, n: int, bits: int = 7) -> DoubleRoots:
-    """A rational normal as well, so that the centre's distance from the axis is rational and it can lie on one.
+    """As by_ratios, with a rational normal too, so that the centre's distance from the axis is rational.
 
-    m = ±i/j, a cos + c sin = v/w and a cos − c sin = m² w/v (or with ± c), all of them rational: any such four numbers
-    make a pair. The point of the surface is (a² cos, c² sin)/|m|, and the centre one normal away from it.
+    m = ±i/j, a cos + c sin = v/w and a cos − c sin = m² w/v (or with ± c), all of them rational: any four such numbers
+    give a pair. The point of the surface is (a² cos, c² sin)/|m|, and the centre one normal away from it.
     """
     f, h, hypotenuse = triples(draw, n, 4)  # cos and sin over the hypotenuse
     i, j = big_integers(draw, n, 1, 9), big_integers(draw, n, 1, 9)
@@ -229,7 +230,7 @@ def cusps(draw: Draw, n: int) -> tuple[Rows, Mask]:
 def throat_circles(draw: Draw, n: int) -> tuple[Rows, Mask]:
     """On the axis, touching along a circle (m = −a²): z² = (a² + c²)(1 − a²)/a², both factors made squares.
 
-    A quarter has a = 1 and sits in the waist.
+    A quarter of the rows has a = 1 and the centre in the waist.
     """
     leg, other, hypotenuse = triples(draw, n, 8)
     near, far, beyond = triples(draw, n, 8)
@@ -293,7 +294,7 @@ def waist_roots(draw: Draw, n: int, *, ring: bool) -> tuple[Rows, Mask]:
 
 
 def waist_roots_on_an_axis(draw: Draw, n: int, *, ring: bool) -> tuple[Rows, Mask]:
-    """The same with a rational radius: c² + 1 and (a² + c²)/c² are squares, so the centre is (r, 0, 0)."""
+    """As waist_roots, with a rational radius: c² + 1 and (a² + c²)/c² are squares, so the centre is (r, 0, 0)."""
     leg, other, hypotenuse = triples(draw, n, 8)  # c = leg/other
     near, far, beyond = triples(draw, n, 8)  # a/c = far/near
     zero = np.zeros(n, dtype=object)

@@ -1,9 +1,9 @@
-"""Random numbers that are the same to the byte on every machine, for ever.
+"""Random numbers that are the same to the byte on every machine and in every release.
 
-Raw 64-bit words of Philox (numpy promises its stream; what numpy.random makes of it may change between releases) are
-turned into numbers here, by integers, ldexp and + − × ÷ √ alone: IEEE 754 rounds these in one way only, whereas the
-exp, log, power, sin and cos of numpy differ between instruction sets. "Log-uniform" is therefore a random exponent
-and a random mantissa, and a point of the circle a rational one.
+Raw 64-bit words of Philox (numpy guarantees its stream; the numbers that numpy.random makes from it may change between
+releases) are turned into numbers here, only by integers, ldexp and + − × ÷ √: IEEE 754 rounds these in one way only,
+whereas the exp, log, power, sin and cos of numpy differ between instruction sets. "Log-uniform" is therefore a random
+exponent and a random mantissa, and a point of the circle a rational one.
 """
 
 from __future__ import annotations
@@ -26,21 +26,22 @@ _HIGHEST = np.uint64(1 << 63)
 
 
 class _Key(ISeedSequence):
-    """What Philox takes as its key without asking the system for entropy first, which takes longer than all else."""
+    """A key for Philox that does not ask the system for entropy, which would take longer than all other steps."""
 
     def __init__(self, name: str) -> None:
         self._words = np.frombuffer(hashlib.sha256(name.encode()).digest()[:16], dtype="<u8").astype(np.uint64)
 
     def generate_state(self, n_words: int, dtype: object = np.uint64) -> NDArray[np.uint64]:  # noqa: ARG002
-        """The key: two words of 64 bits, and Philox asks for no others."""
+        """The key: two words of 64 bits, the only words that Philox requests."""
         return self._words
 
 
 class Draw:
-    """The stream of one block; each method takes as many words as it returns numbers, unless it says otherwise.
+    """The stream of one block. A method takes one word for each number that it returns, unless its docstring differs.
 
-    Of several blocks (of_blocks) each gives an equal share of whatever is taken, one behind the other, so that a
-    generator that works place by place makes their rows at one go, the same as it would make of each alone.
+    If there are several blocks (of_blocks), each gives an equal share of the words, one block after the other. So a
+    generator that works place by place makes the rows of all blocks in one call, with the same result as separate
+    calls.
     """
 
     __slots__ = ("_streams",)
@@ -50,7 +51,7 @@ class Draw:
 
     @classmethod
     def of_blocks(cls, names: Sequence[Sequence[object]]) -> Draw:
-        """The streams of these names side by side; every n asked of them must be a multiple of their number."""
+        """The streams of these names side by side; every requested n must be a multiple of their number."""
         draw = cls.__new__(cls)
         draw._streams = [_stream(name) for name in names]
         return draw
@@ -72,7 +73,7 @@ class Draw:
     def integers(self, n: int, low: int, high: int) -> Integers:
         """Integers from low to high, both included; 0 ≤ high − low < 2⁴⁰, so no value is favoured by more than 2⁻²⁴."""
         words, span = self.words(n), np.uint64(high - low + 1)
-        words -= words // span * span  # numpy's % by a number takes ten times as long
+        words -= words // span * span  # numpy's % with a scalar takes ten times as long
         return low + words.astype(np.int64)
 
     def unit(self, n: int) -> Floats:
@@ -117,7 +118,7 @@ def _stream(name: Sequence[object]) -> np.random.Philox:
 
 
 def _chosen(which: NDArray[np.bool_], first: Floats, second: Floats) -> Floats:
-    """np.where, without its branches, which no processor predicts where `which` is random."""
+    """np.where without its branches, which processors cannot predict if `which` is random."""
     one, other = first.view(np.uint64), second.view(np.uint64)
     all_or_none = np.uint64(0) - which.astype(np.uint64)
     return np.asarray(other ^ ((one ^ other) & all_or_none)).view(np.float64)
@@ -157,7 +158,7 @@ def to_bits(values: Floats, bits: int) -> Floats:
 
 
 def in_turn(*makers: Maker) -> Maker:
-    """The generator that takes a row of each maker in turn."""
+    """The generator that takes rows from the makers in turn."""
 
     def make(draw: Draw, n: int) -> Rows:
         parts = [maker(draw, len(range(turn, n, len(makers)))) for turn, maker in enumerate(makers)]

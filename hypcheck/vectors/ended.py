@@ -1,7 +1,7 @@
 """Hyperboloids that end: rows of thirteen numbers, with the traps of rims, openings, discs and thin slabs.
 
-Every other row is about a solid body. Most are made for the upper end, and half of them are mirrored at z = 0. A rim at
-height w has the radius r = α √(1 + w²/γ²); a spheroid whose centre is X + Σ N/√(NᵀΣN), Σ its matrix of squared
+Every other row has a solid body. Most rows are made for the upper end, and half of these are mirrored at z = 0. A rim
+at height w has the radius r = α √(1 + w²/γ²); a spheroid whose centre is X + Σ N/√(NᵀΣN), Σ its matrix of squared
 semi-axes, touches the plane through X across N, and so the rim if X lies on it and N points away from the wall there.
 Exact touches have w/γ, the direction of N and the azimuth from Pythagorean triples.
 """
@@ -24,7 +24,7 @@ _ALONG = np.array([(3, 4, 5), (4, 3, 5), (5, 12, 13), (12, 5, 13), (0, 1, 1), (-
 
 
 def _rows(draw: Draw, rows: Rows, low: Floats, high: Floats, *, solid: Integers | None = None) -> Rows:
-    """Rows with these ends, an axis where they have none, every other one solid and half of them mirrored."""
+    """The rows with these ends, and with an axis if they have none; every other row is solid, and half are mirrored."""
     n = len(rows)
     axis = rows[:, 7:10] if PAIRS.has_axis(rows) else np.tile(np.asarray(UPRIGHT), (n, 1))
     heights = np.stack([low, high, turns(n, 0, 1) if solid is None else solid], axis=1)
@@ -38,7 +38,7 @@ def _rows(draw: Draw, rows: Rows, low: Floats, high: Floats, *, solid: Integers 
 
 
 def _lower(draw: Draw, high: Floats, unit: Floats) -> Floats:
-    """A lower end some units below, or none."""
+    """A lower end some units below the upper one, or no lower end."""
     n = len(high)
     return np.asarray(np.where(turns(n, True, False, False), -np.inf, high - unit * draw.log_uniform(n, -3, 6)))
 
@@ -49,7 +49,7 @@ def _ordinary(draw: Draw, n: int) -> tuple[Sizes, Floats]:
 
 
 def _hair(draw: Draw, n: int) -> Floats:
-    """1, and a little more or less."""
+    """Factors of 1, or a little more or less."""
     return np.asarray(1 + draw.signs(n) * draw.log_uniform(n, -50, -3))
 
 
@@ -88,7 +88,7 @@ def _upward(_: Draw, n: int) -> Vectors:
 
 
 def rim(axes: Axes = _upward) -> Maker:
-    """From 2⁻⁵⁰ to 2⁻³ radii off contact with a rim, from above, from beside and from within."""
+    """Rows 2⁻⁵⁰ to 2⁻³ radii from contact with a rim: above, beside and within it."""
 
     def make(draw: Draw, n: int) -> Rows:
         size, height = _ordinary(draw, n)
@@ -129,7 +129,7 @@ def rim_neighbourhood(draw: Draw, n: int) -> Rows:
 
 
 def opening(draw: Draw, n: int) -> Rows:
-    """Narrower than the mouth, on its way out of it: the side changes, with contact or without."""
+    """Spheroids narrower than the opening, at several heights in it: the side changes, with contact or without."""
     size = sizes(draw, draw.log_uniform(n, 0, 4), draw.log_uniform(n, -2, 5))
     height = draw.log_uniform(n, -4, 1)
     radius = size.alpha * np.sqrt(1 + height * height)
@@ -142,7 +142,7 @@ def opening(draw: Draw, n: int) -> Rows:
 
 
 def thin(beside: Maker = random_pairs.uniform) -> Maker:
-    """Near contact with the surface, of which a thin slab is left somewhere within reach."""
+    """Rows near contact with the surface, of which only a thin slab within the spheroid's reach is left."""
 
     def make(draw: Draw, n: int) -> Rows:
         rows, shift = beside(draw, n), draw.between(n, -1.2, 1.2)
@@ -155,7 +155,7 @@ def thin(beside: Maker = random_pairs.uniform) -> Maker:
 
 
 def swallowed(draw: Draw, n: int) -> Rows:
-    """A ring that lies wholly or all but wholly within the spheroid."""
+    """A thin wall that lies completely or almost completely within the spheroid."""
     size = sizes(draw, draw.log_uniform(n, -6, 0), draw.log_uniform(n, -6, 2))
     cosine, sine = draw.circle(n)
     across, z = size.b * draw.between(n, 0, 1.2), size.d * draw.between(n, -1, 1)
@@ -165,7 +165,7 @@ def swallowed(draw: Draw, n: int) -> Rows:
 
 
 def disc(axes: Axes = _upward) -> Maker:
-    """Above an end, the lowest point all but at it or exactly at it, over the opening or the flat end."""
+    """Spheroids above an end, with the lowest point nearly or exactly at it, over the opening or the flat end."""
 
     def make(draw: Draw, n: int) -> Rows:
         size, height = _ordinary(draw, n)
@@ -181,9 +181,9 @@ def disc(axes: Axes = _upward) -> Maker:
 
 
 def groove(draw: Draw, n: int) -> Rows:
-    """All but resting on both flanks of the groove, of which the ends leave one, both or none.
+    """Spheres that nearly rest on both flanks of the groove, of which the ends leave one, both or none.
 
-    The normal of the point at height ζ of the hyperboloid a, c meets the plane of the waist c² times its length away.
+    The normal at height ζ of the hyperboloid a, c meets the plane of the waist at c² times the normal's length.
     """
     a, c, zeta = draw.log_uniform(n, 0, 4), draw.log_uniform(n, -3, 0), draw.log_uniform(n, -4, 1)
     flank = a * np.sqrt(1 + (zeta / c) * (zeta / c))
@@ -199,14 +199,14 @@ def groove(draw: Draw, n: int) -> Rows:
 
 
 def waist(draw: Draw, n: int) -> Rows:
-    """An end at the waist itself, or a hair from it."""
+    """An end exactly at the waist, or very near to it."""
     size, _ = _ordinary(draw, n)
     height = np.where(turns(n, True, False), 0.0, draw.signs(n) * draw.log_uniform(n, -40, -8))
     return _at_rim(draw, size, height, _upward(draw, n))
 
 
 def far(draw: Draw, n: int) -> Rows:
-    """Near contact, the ends far away or infinite: as without them."""
+    """Rows near contact, with ends so far away or infinite that they do not matter."""
     size, _ = _ordinary(draw, n)
     rows = random_pairs.beside(draw, size, random_pairs.heights(draw, size.c), draw.signs(n) * _hair(draw, n))
     unit = rows[:, 1] + np.maximum(rows[:, 2], rows[:, 3])

@@ -1,7 +1,7 @@
 """Sweeps beside hyperboloids that end: rows of sixteen numbers, with the traps of a rim, an opening or a flat end.
 
-Each goes through the centre of a row of ended.py, ends at it, or begins there. Rows about touches are whole numbers
-times one power of two, and so are the ends of their sweeps.
+Each sweep goes through the centre of a row of ended.py, ends at it, or begins there. Rows about touches are whole
+numbers times one power of two, and so are the ends of their sweeps.
 """
 
 from __future__ import annotations
@@ -16,18 +16,18 @@ CENTRE = slice(4, 7)
 
 
 def _sweeps(rows: Rows, start: Rows, end: Rows) -> Rows:
-    """The rows with these ends of sweeps in the place of their centres."""
+    """The rows with the start and end of sweeps in place of their centres."""
     return np.asarray(np.concatenate([rows[:, :4], start, end, rows[:, 7:]], axis=1) + 0.0)
 
 
 def _through(draw: Draw, rows: Rows, step: Rows) -> Rows:
-    """Sweeps through the centres of rows, which lie anywhere on them."""
+    """Sweeps through the centres of rows; a centre can be anywhere on its sweep."""
     share = draw.between(len(rows), 0, 1)[:, None]
     return _sweeps(rows, rows[:, CENTRE] - share * step, rows[:, CENTRE] + (1 - share) * step)
 
 
 def _any_step(draw: Draw, rows: Rows) -> Rows:
-    """Steps in every direction, from 2⁻³ to 2⁴ times as long as the spheroid is large."""
+    """Steps in every direction, 2⁻³ to 2⁴ times as long as the spheroid's size."""
     n, length = len(rows), draw.log_uniform(len(rows), -3, 4)
     parts = [rows[:, column] * length * draw.between(n, -1, 1) for column in (2, 2, 3)]
     return np.stack(parts, axis=1)
@@ -65,9 +65,9 @@ def over(rows_of: Maker) -> Maker:
 
 
 def landing(rows_of: Maker) -> Maker:
-    """Straight down, or up from below, to a place that is all but in contact with a rim, or with a flat end or opening.
+    """Straight down, or up from below, to a place that is nearly in contact with a rim, a flat end or an opening.
 
-    From outside the end towards which the spheroid lies; every third goes on beyond its centre.
+    A sweep begins outside the end that is nearer to the spheroid; every third sweep goes on beyond the row's centre.
     """
 
     def make(draw: Draw, n: int) -> Rows:
@@ -83,7 +83,7 @@ def landing(rows_of: Maker) -> Maker:
 
 
 def opening(draw: Draw, n: int) -> Rows:
-    """Out through a mouth or in, without contact where the body is open."""
+    """Out through an opening or in, without contact if the body is open."""
     rows = ended.opening(draw, n)
     step = _any_step(draw, rows) * draw.log_uniform(n, -8, 0)[:, None]
     step[:, 2] = rows[:, 3] * draw.signs(n) * draw.log_uniform(n, -1, 3)

@@ -1,7 +1,8 @@
 """Families of extreme sizes: long ratios, the ends of the ordinary ranges, and the ends of the float formats.
 
 - Long ratios: α/b, γ/d or both from 2¹⁰ to 2⁴⁰, about 1e3 to 1e12.
-- Sizes and ratios up to the ends of the ordinary ranges: every implementation without declared ranges is asked these.
+- Sizes and ratios up to the ends of the ordinary ranges: every implementation without declared ranges is tested with
+  these.
 - The ends of the float formats: an intermediate of the paper's Table 2 overflows or underflows.
 
 For the last, with a = α/b and c = γ/d about 2^k (one of them, or both) the intermediates grow like these powers of 2^k:
@@ -9,8 +10,8 @@ For the last, with a = α/b and c = γ/d about 2^k (one of them, or both) the in
     one ratio    A, B, c0, c1, c2: 2 · c1 c2, c2², c0²: 4 · c2³, c1³, c2 c1 c0: 6 · c2³ c0, (c2 c1)²: 8
     both         A, B, c2: 2 · c0, c1: 4 · c2³: 6 · c0²: 8 · c2 c1 c0, c2³ c0: 10 · (c2 c1)², c1³: 12
 
-and b², x0², y0² like the square of the common unit whatever the ratios are. So the rows take k = limit/power for every
-power and both limits of the format, a few exponents to each side.
+and b², x0², y0² like the square of the common unit whatever the ratios are. So the rows have k near limit/power, within
+a few exponents, for every power and both limits of the format.
 """
 
 from __future__ import annotations
@@ -35,7 +36,7 @@ PLAIN = (-2, 6)
 
 
 def stiff(*, radial: bool, axial: bool) -> Maker:
-    """Log-uniform ratios, half of the centres within 2.5 radii of the surface, half one radius and a hair off it."""
+    """Log-uniform ratios; half of the centres within 2.5 radii of the surface, half nearly one radius from it."""
 
     def make(draw: Draw, n: int) -> Rows:
         a = draw.log_uniform(n, *(STIFF_RATIOS if radial else PLAIN))
@@ -49,7 +50,7 @@ def stiff(*, radial: bool, axial: bool) -> Maker:
 
 
 def _split(draw: Draw, ratio: Floats) -> tuple[Floats, Floats]:
-    """Two lengths of this ratio, as far from 1 metre one as the other."""
+    """Two lengths with this ratio, equally far from 1 metre on a logarithmic scale."""
     short = ldexp(draw.log_uniform(len(ratio), -1, 1), -(exponent(ratio) // 2))
     return ratio * short, short
 
@@ -62,7 +63,7 @@ TENS = np.asarray([1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1e0, 1e1, 1e2, 1e3, 1e4, 
 
 
 def _in_the_domain(draw: Draw, n: int) -> tuple[Rows, Mask]:
-    """Half of the second ratios have nothing to do with the first; the others are like it, within 2⁴ of it."""
+    """Ratios in pairs: half of the second ratios are independent of the first, the others are within 2⁴ of it."""
     octave = draw.integers(n, -DOMAIN_RATIOS, DOMAIN_RATIOS - 1)
     other = np.where(
         turns(n, True, False), draw.integers(n, -DOMAIN_RATIOS, DOMAIN_RATIOS - 1), octave + draw.integers(n, -4, 3)
@@ -80,7 +81,7 @@ whole_domain = gathered(_in_the_domain)
 
 
 def _lengths(draw: Draw, octave: Integers) -> tuple[Floats, Floats]:
-    """Two lengths with a ratio of about 2^octave, in any unit that leaves room for both, or two powers of ten."""
+    """Two lengths with a ratio of about 2^octave, in a random unit in which both are floats, or two powers of ten."""
     n = len(octave)
     room = 2 * LENGTHS - np.abs(octave)
     unit = np.floor(draw.unit(n) * room).astype(np.int64) - LENGTHS + np.maximum(-octave, 0)
@@ -91,9 +92,10 @@ def _lengths(draw: Draw, octave: Integers) -> tuple[Floats, Floats]:
 
 
 def _heights(draw: Draw, size: Sizes) -> Floats:
-    """A quarter about the waist, a quarter within 2γ, and half aloft.
+    """Heights: a quarter near the waist, a quarter within 2γ, half high above it.
 
-    That is where a surface narrower at its waist than the spheroid is about as wide as it, or anywhere up to 2⁸ γ.
+    High means: where a surface narrower at its waist than the spheroid is about as wide as the spheroid, or anywhere up
+    to 2⁸ γ.
     """
     n = len(size.b)
     share = draw.unit(n)
@@ -120,7 +122,7 @@ def long_ratios(form: FloatFormat) -> Maker:
         octave = _limits(draw, n, form) // np.repeat(turns(-(-n // 2), *POWERS), 2)[:n]
         ratio = ldexp(draw.mantissas(n), octave)
         plain = draw.log_uniform(n, -2, 3)
-        group = turns(n, 0, 1, 2, 2, 2)  # five in turn beside twice six above, so that all combinations come
+        group = turns(n, 0, 1, 2, 2, 2)  # five in turn with twice six above, so that all combinations occur
         a, c = np.where(group == 1, plain, ratio), np.where(group == 0, plain, ratio * draw.between(n, 0.5, 2))
         b, d = ldexp(draw.mantissas(n), -(exponent(a) // 2)), ldexp(draw.mantissas(n), -(exponent(c) // 2))
         size = Sizes(a * b, c * d, b, d)
@@ -133,7 +135,7 @@ def long_ratios(form: FloatFormat) -> Maker:
 
 
 def long_units(form: FloatFormat) -> Maker:
-    """Ordinary ratios in units so large or small that a length, or its square, comes to the limits of the format."""
+    """Ordinary ratios in units so large or small that a length, or its square, is near the limits of the format."""
 
     def make(draw: Draw, n: int) -> Rows:
         rows = around(draw, sizes(draw, *all_regimes(draw, n), units=(-1, 1)))
@@ -148,7 +150,7 @@ def long_units(form: FloatFormat) -> Maker:
 
 
 def short_coordinates(form: FloatFormat) -> Maker:
-    """Ordinary sizes, and x, y or z so small that P, Q or the coordinate's square comes to the lower limit."""
+    """Ordinary sizes, and x, y or z so small that P, Q or the coordinate's square is near the lower limit."""
 
     def make(draw: Draw, n: int) -> Rows:
         rows = around(draw, sizes(draw, *all_regimes(draw, n), units=(-1, 1)))
@@ -173,7 +175,7 @@ def fitted(rows: Rows, form: FloatFormat) -> Rows:
 
 
 def _shifted(lengths: Rows, shift: Integers, form: FloatFormat) -> Rows:
-    """One group of lengths times 2^shift, or as near to that as keeps it within the format; sizes come first."""
+    """One group of lengths times 2^shift, or times the nearest power that keeps it in the format; sizes first."""
     most = form.overflow - 2 - exponent(np.abs(lengths).max(axis=1))
     least = form.least - exponent(lengths[:, :2].min(axis=1))
     return ldexp(lengths, np.minimum(np.maximum(shift, least), most)[:, None])
@@ -207,10 +209,10 @@ def magnitudes(draw: Draw, n: int) -> Rows:
 
 
 def almost_zero(draw: Draw, n: int) -> Rows:
-    """Exact tangencies in the waist or on the axis with one coordinate 2⁻²⁰⁰ … 2⁻¹⁰⁰⁰ in place of 0."""
+    """Exact tangencies in the waist or on the axis with one coordinate 2⁻²⁰⁰ … 2⁻¹⁰⁰⁰ instead of 0."""
     rows = _touching_on_zero(draw, n)
     zero = rows[:, 4:] == 0
-    # The first zero at or after a random one of x, y, z: there is always one.
+    # The first zero at or after a random place of x, y, z; there is always a zero.
     place = draw.integers(n, 0, 2)
     index = np.arange(n)
     for _ in range(2):
@@ -228,6 +230,6 @@ _touching_on_zero = in_turn(
 
 
 def at_the_ends_of(name: str) -> Maker:
-    """Every intermediate of Table 2 at the ends of a float format, all numbers being 0 or normal in it."""
+    """Rows that bring each intermediate of Table 2 to the limits of a float format; all numbers are 0 or normal."""
     form = FLOAT_FORMATS[name]
     return in_turn(long_ratios(form), long_units(form), short_coordinates(form))

@@ -169,10 +169,10 @@ def select(
 ) -> tuple[Family, ...]:
     """The families of these names and globs in the order of the tables; without patterns all but the extreme ones.
 
-    Only those of rows with this layout, or of all layouts where it is None. With `tilted` those of tilted spheroids are
-    among them, with `ended` those of hyperboloids that end. A glob reaches every family whose name it matches, the
-    extreme ones too: "*" is all; "extreme" is all of the extreme ones. Raises InputError for a pattern that names
-    nothing, with the names nearest to it, or nothing but tilted spheroids where these are not wanted.
+    Only families whose rows have this layout are selected, or any layout if it is None. Families of tilted spheroids
+    need `tilted`, families of hyperboloids that end need `ended`. A glob selects every family whose name it matches,
+    extreme ones too: "*" selects all families, "extreme" all extreme ones. Raises InputError for a pattern that matches
+    no family, with the most similar names, or that matches only tilted spheroids without `tilted`.
     """
     known = {
         name: family
@@ -207,7 +207,7 @@ def _named(pattern: str, known: Mapping[str, Family]) -> set[str]:
 
 
 def family_of(name: str) -> Family:
-    """The family of exactly this name, also one for given sizes (razor@2.0,…) or of a search.
+    """The family with exactly this name; it may also be one for fixed sizes (razor@2.0,…) or of a search.
 
     Raises InputError where there is none.
     """
@@ -218,17 +218,17 @@ def family_of(name: str) -> Family:
 
 
 def is_extreme(name: str) -> bool:
-    """Whether a family of this name, or a case of this id, is of the extreme ones: their names all begin alike."""
+    """Whether this is the name of an extreme family or the id of a case of one, by the beginning of the name."""
     return name.startswith(f"{EXTREME}-")
 
 
 def case_id(family: Family, seed: int, index: int) -> str:
-    """The name of a generated case, the same for ever: family/generator-version/seed/index."""
+    """The permanent name of a generated case: family/generator-version/seed/index."""
     return f"{family.name}/{family.version}/{seed}/{index}"
 
 
 def parse_case_id(text: str) -> CaseId:
-    """What a case id names. Raises InputError where it names nothing, or rows of another generator version."""
+    """The parts of a case id. Raises InputError if it names no case, or a case of another generator version."""
     match = _CASE_ID.fullmatch(text)
     if match is None:
         raise InputError(f"{text!r} is not a case id; it must be family/version/seed/index, as in tower-body/1/0/17")

@@ -1,6 +1,6 @@
-"""A family of cases: its generator of rows, and what the files of its cases say of it.
+"""A family of cases: its generator of rows, and the description of it in its vector files.
 
-The rows of a generator depend on nothing but (name, version, seed, index).
+The rows of a generator depend only on (name, version, seed, index).
 """
 
 from __future__ import annotations
@@ -28,11 +28,11 @@ TOGETHER = 16
 
 @dataclass(frozen=True, kw_only=True)
 class Metadata:
-    """What a file says of its family: the name, the version of its generator, and the command that made the file.
+    """The metadata of a file: the family's name, the version of its generator, and the command that made the file.
 
-    `title`, `source` (where the idea comes from, or how the rows are made) and `purpose` (what a wrong program does
-    here) are for people, as are `game` and `drone`: what a wrong answer here means to either. `regimes`: which
-    hyperboloids it visits, by a = α/b and c = γ/d. `extreme`: as in Family.
+    `title`, `source` (the origin of the idea, or how the rows are made) and `purpose` (what a wrong program does here)
+    are for people; so are `game` and `drone`, the consequence of a wrong answer for a game or a drone. `regimes`: the
+    hyperboloids that occur, by a = α/b and c = γ/d. `extreme`: as in Family.
     """
 
     name: str
@@ -53,7 +53,7 @@ def descriptions() -> dict[str, dict[str, str]]:
 
 
 def described(name: str, made_by: str, *, version: int = 1, extreme: bool = False) -> Metadata:
-    """What a file of that name says, with the texts of descriptions.toml; one for given sizes has those of its trap."""
+    """The metadata of a file of that name, with the texts of descriptions.toml; for fixed sizes the trap's texts."""
     texts = {"regimes": "all four", **descriptions()[name.partition(MARK)[0]]}
     return Metadata(name=name, version=version, extreme=extreme, made_by=made_by, **texts)
 
@@ -63,16 +63,16 @@ Row = tuple[float, ...]
 
 @dataclass(frozen=True)
 class Family:
-    """One trap, and a generator of rows that lead into it; descriptions.toml says what it is for.
+    """A generator of rows for one trap, a kind of case on which programs fail; descriptions.toml has its purpose.
 
     `name`: kebab-case; `version`: of the generator, raised by every change of its output, since both are part of the
-    case ids. `frozen`: so many rows are frozen, more where the traps are, few where proofs are long. `extreme`: lengths
-    near the end of a float format, so the family is taken only when it is asked for. `by_place`: the generator works
-    place by place, so that it can make several blocks at one go. `movement`: so many consecutive rows follow one object
-    from moment to moment; 1 where none do. `layout` says what rows are about, a position or a sweep. `tilted`: they
-    have three numbers more, the axis of the spheroid behind the others. `ended`: the hyperboloid ends, and rows have
-    heights behind an axis, which is vertical unless `tilted`. `times`: so many rows are asked for each that a run asks
-    of other families.
+    case ids. `frozen`: the number of frozen rows; it is larger for rows with traps, smaller if proofs are long.
+    `extreme`: lengths are near the limits of a float format, so the family is used only on request. `by_place`: the
+    generator works place by place, so that it can make several blocks at one go. `movement`: the number of consecutive
+    rows that follow one object from moment to moment; 1 if none do. `layout` is the layout of rows, of a position or a
+    sweep. `tilted`: rows have three numbers more, the axis of the spheroid, after the others. `ended`: the hyperboloid
+    ends, and rows have heights after an axis, which is vertical unless `tilted`. `times`: a run tests this many rows
+    for each row that it tests of other families.
     """
 
     name: str
@@ -88,7 +88,7 @@ class Family:
     times: int = 1
 
     def described(self, made_by: str) -> Metadata:
-        """What a file of the family says of it, if that command made it."""
+        """The metadata of a file of the family that the command `made_by` makes."""
         return described(self.name, made_by, version=self.version, extreme=self.extreme)
 
     @property
@@ -101,7 +101,7 @@ class Family:
         return self._blocks(seed, number, number + 1)
 
     def columns_between(self, seed: int, start: int, stop: int) -> NDArray[np.float64]:
-        """Rows start to stop − 1 of the seed by columns, (len(columns), stop − start); those before are not made."""
+        """Rows start to stop − 1 of the seed by columns, (len(columns), stop − start); earlier rows are not made."""
         columns = np.empty((len(self.columns), stop - start))
         together = TOGETHER if self.by_place else 1
         for first in range(start // BLOCK, -(-stop // BLOCK), together):
@@ -123,7 +123,7 @@ class Family:
     def rows(self, seed: int, count: int) -> Rows:
         """The first `count` rows of the seed: float64 (count, len(columns)), all valid.
 
-        A shorter call gives the beginning of a longer one. Raises InputError for a negative seed or count.
+        A call for fewer rows returns the first rows of a call for more. Raises InputError for a negative seed or count.
         """
         if seed < 0 or count < 0:
             raise InputError(f"seed is {seed} and count is {count}; neither may be negative")

@@ -1,7 +1,7 @@
-"""The families for given sizes: the traps that one spheroid beside one hyperboloid has, at every scale of nearness.
+"""The families for fixed sizes: the traps of one spheroid beside one hyperboloid, at every scale of distance.
 
-A kernel that was made for a scene knows its own sizes alone, so other families ask it next to nothing. The names of
-these families carry the sizes and the spans of the centre, as in `razor@2.0,17.8,0.25,0.15,z=-17.8:17.8`.
+A kernel that was made for a scene supports only the scene's sizes, so other families have almost no row for it. The
+names of these families contain the sizes and the spans of the centre, as in `razor@2.0,17.8,0.25,0.15,z=-17.8:17.8`.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ Trap = Callable[[FixedSizes, Draw, int], Rows]
 
 
 def families_for(settings: tuple[FixedSizes, ...]) -> tuple[Family, ...]:
-    """The families of every setting; of each all traps that it has."""
+    """The families of all traps of every setting."""
     return tuple(_family(trap, setting) for setting in settings for trap in _traps(setting))
 
 
@@ -48,7 +48,7 @@ def _traps(setting: FixedSizes) -> dict[str, Trap]:
 
 
 def family_at(name: str) -> Family:
-    """The family that such a name names; raises InputError saying what is wrong with it."""
+    """The family with this name; raises InputError with the error in the name."""
     trap, _, text = name.partition(MARK)
     known = (*TRAPS, *TILTED_TRAPS)
     if trap not in known:
@@ -67,13 +67,13 @@ def _family(trap: str, setting: FixedSizes) -> Family:
 
 
 def _made(trap: Trap, setting: FixedSizes, draw: Draw, n: int) -> Rows:
-    """The trap's rows; where sizes are so far apart that its formulas leave float64, `_rows` puts finite centres."""
+    """The trap's rows; where its formulas overflow because sizes differ too much, `_rows` puts finite centres."""
     with np.errstate(all="ignore"):
         return trap(setting, draw, n)
 
 
 def _require_room(setting: FixedSizes) -> None:
-    """Raise InputError where centres about the hyperboloid, or in the spans, are beyond float64."""
+    """Raise InputError if centres around the hyperboloid, or in the spans, are beyond float64."""
     alpha, gamma, b, d = setting.sizes
     widths = [2 * OPEN * (alpha + b), 2 * OPEN * (gamma + d), *(span[1] - span[0] for span in setting.spans if span)]
     if not all(map(math.isfinite, widths)):
@@ -171,9 +171,9 @@ def _beside(setting: FixedSizes, draw: Draw, n: int) -> Rows:
 
 
 def _ring(setting: FixedSizes, draw: Draw, n: int) -> Rows:
-    """On and about r² = (c² + 1)(a² + c²)/c², where the discriminant vanishes far from the surface if c² > a."""
+    """Centres on and near r² = (c² + 1)(a² + c²)/c², where the discriminant vanishes far from the surface if c² > a."""
     alpha, gamma, b, d = setting.sizes
-    a, c = np.float64(alpha) / b, np.float64(gamma) / d  # numpy's, which divide by a c of 0
+    a, c = np.float64(alpha) / b, np.float64(gamma) / d  # numpy floats, which can be divided by c = 0
     radius: Floats = np.full(n, b * np.sqrt((c * c + 1) * (a * a / (c * c) + 1)))
     radius = radius * (1 + turns(n, 0.0, 1.0) * draw.signs(n) * draw.log_uniform(n, -53, -2))
     height = turns(n, 0.0, 0.0, 1.0) * draw.signs(n) * d * draw.log_uniform(n, -50, 0)
@@ -181,7 +181,7 @@ def _ring(setting: FixedSizes, draw: Draw, n: int) -> Rows:
 
 
 def _zeros(setting: FixedSizes, draw: Draw, n: int) -> Rows:
-    """Where c1 = 0 or c2 = 0, or nearly: a strict inequality of the paper fails there."""
+    """Centres where c1 = 0 or c2 = 0, or nearly: a strict inequality of the paper fails there."""
     alpha, gamma, b, d = setting.sizes
     a, c = np.float64(alpha) / b, np.float64(gamma) / d
     A, B = a * a, c * c
@@ -193,7 +193,7 @@ def _zeros(setting: FixedSizes, draw: Draw, n: int) -> Rows:
 
 
 def _axes(setting: FixedSizes, draw: Draw, n: int) -> Rows:
-    """On the axis or a hair beside it, at any height; and far out, at any azimuth."""
+    """Centres on the axis or very near to it, at any height; and far out, at any azimuth."""
     alpha, gamma = setting.sizes[:2]
     hair = alpha * draw.log_uniform(n, -60, 1) * turns(n, 0.0, 1.0)
     far = alpha * draw.log_uniform(n, 0, 12)
@@ -204,7 +204,7 @@ def _axes(setting: FixedSizes, draw: Draw, n: int) -> Rows:
 
 
 def _razor(setting: FixedSizes, draw: Draw, n: int) -> Rows:
-    """The last floats before contact and the first in it, on both sides, at sixteen heights a block and y = 0."""
+    """Centres at the last floats before contact and the first in it, on both sides, at 16 heights a block, y = 0."""
     heights = np.clip(_heights(setting, draw, 16), *_span_or(setting.z, np.inf))
     sides = (Position.EXTERIOR, Position.INTERIOR)
     edges = [(_edge(setting.sizes, z, side), z) for z in heights.tolist() for side in sides]
@@ -215,7 +215,7 @@ def _razor(setting: FixedSizes, draw: Draw, n: int) -> Rows:
 
 
 def _edge(sizes: tuple[float, float, float, float], z: float, side: Position) -> float:
-    """The float x ≥ 0 nearest to where (x, 0, z) stops being on that side: 0 if it never is, FARTHEST if always."""
+    """The float x ≥ 0 nearest to where (x, 0, z) leaves that side: 0 if it is never there, FARTHEST if always."""
 
     def outward(x: float) -> bool:
         position = exact.position(Pair(*sizes, x, 0.0, z).lengths)
@@ -225,7 +225,7 @@ def _edge(sizes: tuple[float, float, float, float], z: float, side: Position) ->
         return 0.0
     if not outward(sys.float_info.max):
         return FARTHEST
-    # Halving how many floats lie between them takes 63 steps at any scale; halving their distance up to two thousand.
+    # Bisection by the number of floats between takes 63 steps at any scale; by distance up to two thousand.
     first, last = 0, _ordinal(sys.float_info.max)
     while last - first > 1:
         middle = (first + last) // 2
@@ -234,7 +234,7 @@ def _edge(sizes: tuple[float, float, float, float], z: float, side: Position) ->
 
 
 def _ordinal(x: float) -> int:
-    """How many floats lie between 0 and x ≥ 0."""
+    """The number of floats between 0 and x ≥ 0."""
     return int.from_bytes(struct.pack(">d", x), "big")
 
 
@@ -254,7 +254,7 @@ TRAPS: dict[str, Trap] = {
 
 
 def _axes_of(setting: FixedSizes, draw: Draw, n: int) -> tilted.Vectors:
-    """The axis of the setting; a free one in every direction, a third of them in a plane of the coordinates."""
+    """The axis of the setting; if it is free, axes in all directions, a third of them in a coordinate plane."""
     if setting.axis is None or setting.axis == "free":
         x, y, z = tilted.anywhere(draw, n)
         return x * turns(n, 1.0, 0.0, 1.0, 1.0, 1.0, 1.0), y, z * turns(n, 1.0, 1.0, 1.0, 0.0, 1.0, 1.0)
@@ -289,7 +289,7 @@ def _tilted_beside(setting: FixedSizes, draw: Draw, n: int) -> Rows:
 
 
 def _tilted_razor(setting: FixedSizes, draw: Draw, n: int) -> Rows:
-    """The last floats before contact and the first in it, at sixteen places a block, a few ulps to each side of x."""
+    """Centres at the last floats before contact and the first in it, at 16 places a block, x a few ulps apart."""
     touching = _held(setting, _tilted_rows(setting, draw, 16, np.zeros(16)))
     spread = draw.signs(16) * max(setting.sizes[2:]) * 4.0
     edges = np.array([_tilted_edge(row, offset) for row, offset in zip(touching, spread.tolist(), strict=True)])
@@ -299,7 +299,7 @@ def _tilted_razor(setting: FixedSizes, draw: Draw, n: int) -> Rows:
 
 
 def _tilted_edge(row: Rows, offset: float) -> Rows:
-    """The row of a centre on the surface, moved outward or inward across z until it is clear; far, if it never is."""
+    """The row of a centre on the surface, moved outward or inward at its height until clear; far away if never."""
     start, far = float(row[4]), float(row[4]) + offset
     result = row.copy()
 
@@ -317,7 +317,7 @@ def _tilted_edge(row: Rows, offset: float) -> Rows:
 
 
 def _tilted_zeros(setting: FixedSizes, draw: Draw, n: int) -> Rows:
-    """Coordinates that are 0: on the axis, in the plane of the waist, in a plane of symmetry; and far out."""
+    """Centres with coordinates 0: on the axis, in the plane of the waist, in a plane of symmetry; and far out."""
     rows = _tilted_box(setting, draw, n)
     far = ldexp(1, draw.integers(n, 0, 12))
     rows[:, 4] *= turns(n, 1.0, 0.0, 0.0, 1.0, 1.0)

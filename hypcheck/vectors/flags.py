@@ -1,7 +1,7 @@
 """The flags of a case: what each means, the defect it finds, and how it is computed.
 
-Everything here is decided exactly (in integers, in rationals, or by comparing floats), but for the float formats: there
-every operation of a formula's program is rounded once, in the order in which it is written.
+Everything here is decided exactly (in integers, in rationals, or by comparing floats). Only in float formats every
+operation of a formula's program is rounded once, in the order of the program.
 """
 
 from __future__ import annotations
@@ -28,16 +28,16 @@ from hypcheck.vectors.family import Row, rows_of
 
 
 def exactly_right(formula: str, row: Row, truth: Position) -> bool:
-    """Whether the formula, evaluated in rationals, answers its question about the row rightly."""
+    """Whether the formula, evaluated in rationals, gives the right answer to its question about the row."""
     given = answers(FORMULAS[formula], EXACT, dict(zip(COLUMNS, row, strict=True)))
     return int(given) == _right_answer(formula, truth)
 
 
 def wrong_answers(formula: str, precision: str, rows: Rows, truths: Sequence[Position]) -> dict[int, Position]:
-    """The rows in the format's range that the formula answers wrongly in it, each with the nearest excuse.
+    """The rows in the format's range that the formula answers wrongly in it, each with its nearest excuse.
 
-    That is the position of which the answer would be right: the answer itself, or, where the formula says "no" to a
-    clear position, contact, which lies on the way to the other one.
+    An excuse is a position for which the answer would be right: the answer itself; if the formula answers "no" for a
+    clear position, contact, which is nearer than the other clear position.
     """
     given: NDArray[np.int8] = answers(
         FORMULAS[formula], float_arithmetic(precision), dict(zip(COLUMNS, rows.T, strict=True))
@@ -56,10 +56,10 @@ def in_range(rows: Rows, precision: str) -> Mask:
 
 
 def leaves_range(formula: str, precision: str, rows: Rows) -> tuple[Mask, Mask]:
-    """Which rows meet an infinity, and which a product or quotient of numbers ≠ 0 below the normal numbers.
+    """Masks of the rows with an infinity, and with a product or quotient of numbers ≠ 0 below the normal numbers.
 
-    A NaN by itself is the root of a negative number and no overflow; differences of infinities come after these. Sums
-    and differences do not underflow: where they are subnormal, they are exact.
+    A NaN without an infinity is the root of a negative number and no overflow; a difference of infinities follows an
+    infinity. Sums and differences do not underflow: if they are subnormal, they are exact.
     """
     program = FORMULAS[formula].program
     values = evaluate(program, float_arithmetic(precision), dict(zip(COLUMNS, rows.T, strict=True)))
@@ -92,7 +92,7 @@ def _excuse(formula: str, answer: int) -> Position:
 
 @dataclass(frozen=True, slots=True)
 class FlagFacts:
-    """What a flag says of a case, and the kind of defect that cases with it find."""
+    """The meaning of a flag, and the kind of defect that cases with it find."""
 
     meaning: str
     bug_type: str
@@ -203,7 +203,7 @@ TILTED_FLAGS: dict[str, FlagFacts] = {
 def flags_of(
     known: Mapping[str, FlagFacts], rows: Sequence[Row], decisions: Sequence[Decision]
 ) -> list[tuple[str, ...]]:
-    """The flags, out of those of a file's content, of each row, valid ones, whose exact decisions are given."""
+    """The flags of each valid row, among the `known` flags of a file's content; the exact decisions are given."""
     if not known:
         return [()] * len(rows)
     flags = _tilted_flags if known is TILTED_FLAGS else _upright_flags
@@ -244,7 +244,7 @@ def _of_pair(pair: Pair, decision: Decision) -> set[str]:
 
 
 def _of_numbers(rows: Rows) -> dict[str, Mask]:
-    """The flags that the seven numbers show by themselves."""
+    """The flags that follow directly from the seven numbers."""
     masks = {
         "extreme": ~within(rows),
         "negative-zero": np.asarray(((rows == 0) & np.signbit(rows)).any(axis=1)),
@@ -259,7 +259,7 @@ def _of_numbers(rows: Rows) -> dict[str, Mask]:
 
 
 def _of_table_2(rows: Rows) -> dict[str, Mask]:
-    """Where an intermediate of Table 2 leaves the range of a format that holds the row itself."""
+    """The flags for an intermediate of Table 2 outside the range of a format that holds the row."""
     masks = {}
     for name in FORMATS:
         overflow, underflow = leaves_range("table-2", name, rows)
@@ -269,7 +269,7 @@ def _of_table_2(rows: Rows) -> dict[str, Mask]:
 
 
 def _of_formulas(rows: Rows, decisions: Sequence[Decision]) -> dict[str, Mask]:
-    """Where a formula is wrong in exact arithmetic, and where it is right in that and wrong in floats."""
+    """The flags for a formula that is wrong in exact arithmetic, or right in exact arithmetic and wrong in floats."""
     listed: list[Row] = rows.tolist()
     truths = [decision.position for decision in decisions]
     masks = {
@@ -298,7 +298,7 @@ _SHORTEST, _LONGEST = 2.0**-511, 2.0**511
 
 
 def _tilted_flags(rows: Sequence[Row], decisions: Sequence[Decision]) -> list[tuple[str, ...]]:
-    """What is special about each row, each decided exactly."""
+    """The flags of each row with a tilted spheroid, each decided exactly."""
     return [_of_tilted_pair(Pair.from_row(row), decision) for row, decision in zip(rows, decisions, strict=True)]
 
 
@@ -328,7 +328,7 @@ def _of_tilted_pair(pair: Pair, decision: Decision) -> tuple[str, ...]:
 
 
 def sweep_flags(row: Row, first: tuple[float, float] | None, proof: PassageCertificate) -> tuple[str, ...]:
-    """What is special about a case; positions at its ends are decided exactly."""
+    """The flags of a sweep; the positions at its ends are decided exactly."""
     start, end, axis = row[4:7], row[7:10], row[len(SWEEP_COLUMNS) :]
     ends = [_position(row, Fraction(time)) for time in (0, 1)]
     conditions = {

@@ -1,7 +1,7 @@
 """The document of a vector file: read strictly, and written as the same bytes for the same content.
 
-Everything that the schema does not allow is refused, naming file, line and case. One case stands on one line. What a
-case holds is in cases.py and, of rows that must be refused, in invalid_rows.py.
+Everything that the schema does not allow is refused, naming file, line and case. One case is one line. cases.py defines
+the content of a case, and invalid_rows.py the content of a row that must be refused.
 """
 
 from __future__ import annotations
@@ -42,10 +42,10 @@ ENDED_SWEEP_SCHEMA = "1.4.0"
 
 @dataclass(frozen=True, slots=True)
 class Content:
-    """What a file holds, by the name that it has there, and the version of its schema.
+    """The kind of content of a file: its name in the file, and the version of its schema.
 
-    `layout` says what rows are about, a position or a sweep. `tilted`: they have the spheroid's axis behind. `ended`:
-    they have an axis and the heights where the hyperboloid ends. `refused`: they are no valid query, without answers.
+    `layout` is the layout of rows, of a position or a sweep. `tilted`: rows end with the spheroid's axis. `ended`: rows
+    have an axis and the heights of the hyperboloid's ends. `refused`: rows are not valid, and have no answers.
     """
 
     name: str
@@ -57,7 +57,7 @@ class Content:
 
     @property
     def about_sweeps(self) -> bool:
-        """Whether the rows are asked about the motion between two positions."""
+        """Whether the rows are sweeps."""
         return self.layout.has_end
 
     @property
@@ -67,7 +67,7 @@ class Content:
 
     @property
     def flags(self) -> Mapping[str, FlagFacts]:
-        """The flags that a case may have; none where it has no answer."""
+        """The flags that a case may have; none if it has no answer."""
         known = SWEEP_FLAGS if self.about_sweeps else TILTED_FLAGS if self.tilted else FLAGS
         return {} if self.refused or self.ended else known
 
@@ -95,7 +95,7 @@ CONTENTS = {
 def content_with(
     layout: Layout = PAIRS, *, tilted: bool = False, refused: bool = False, ended: bool = False
 ) -> Content:
-    """The content of files with such rows; where hyperboloids end, rows have an axis."""
+    """The content of files with such rows; if hyperboloids end, rows have an axis."""
     wanted = (layout, tilted or ended, refused, ended)
     (match,) = (
         content
@@ -106,7 +106,7 @@ def content_with(
 
 
 class AnyCase(Protocol):
-    """What the cases of all files have: `id`, its own for ever, the numbers that are asked about, the right answer."""
+    """The common attributes of all cases: the permanent `id`, the numbers of the row, the right answer."""
 
     @property
     def id(self) -> str: ...  # noqa: D102
@@ -123,9 +123,9 @@ Case = TypeVar("Case", bound=AnyCase)
 
 @dataclass(frozen=True)
 class CaseFile(Generic[Case]):
-    """A file of cases. `lines` are the lines on which they stood where it was read (0 where it was not), for messages.
+    """A file of cases. `lines` are the line numbers of its cases, for messages; 0 if the file was not read.
 
-    `flags` says what the flags mean that its cases have.
+    `flags` has the meanings of the flags of its cases.
     """
 
     head: Metadata
@@ -150,7 +150,7 @@ class CaseFile(Generic[Case]):
         return np.asarray([case.answer for case in self.cases], dtype=np.int8)
 
     def numbered_cases(self) -> Iterable[tuple[int, Case]]:
-        """Each case after its line."""
+        """Pairs of a line number and its case."""
         return zip(self.lines or (0,) * len(self.cases), self.cases, strict=True)
 
 
@@ -160,7 +160,7 @@ _NAME = re.compile(r"[a-z0-9]+(-[a-z0-9]+)*(@[a-z0-9.,:=+-]+)?", re.ASCII)
 
 
 def content_of(document: JsonDocument, path: str) -> Content:
-    """What the document says that it holds, after its schema version. Raises InputError."""
+    """The content that the document declares, for its schema version. Raises InputError."""
     for name in ("schema", "content"):
         if name not in document.members:
             raise InputError(f"{path}: the document lacks {name}")
@@ -200,7 +200,7 @@ ReadCase = Callable[[JsonPlace, dict[str, Any], Content, Mapping[str, FlagFacts]
 
 
 def file_of(document: JsonDocument, path: str, names: tuple[str, ...], read: ReadCase[Case]) -> CaseFile[Case]:
-    """The file that a document is, its cases having these fields. Raises InputError."""
+    """The file of a document whose cases have these fields. Raises InputError."""
     content = content_of(document, path)
     head, flags = read_metadata(document, path)
     seen: dict[str, int] = {}
@@ -218,7 +218,7 @@ def file_of(document: JsonDocument, path: str, names: tuple[str, ...], read: Rea
 
 
 def listed(place: JsonPlace, what: str, value: Any, length: int | None = None) -> list[Any]:  # noqa: ANN401 - JSON
-    """A list, of that length where one is given. Raises InputError."""
+    """A list, of the given length if there is one. Raises InputError."""
     if not isinstance(value, list) or (length is not None and len(value) != length):
         wanted = "a list" if length is None else f"a list of {length}"
         raise InputError(f"{place}: {what} is {shown_json(value)}; it must be {wanted}")
@@ -227,7 +227,7 @@ def listed(place: JsonPlace, what: str, value: Any, length: int | None = None) -
 
 def number_of(place: JsonPlace, what: str, value: Any) -> float:  # noqa: ANN401 - JSON
     """A finite number that is written as the shortest decimal of its float64. Raises InputError."""
-    if isinstance(value, Literal) and value.text == repr(value):  # as we write it
+    if isinstance(value, Literal) and value.text == repr(value):  # the text that hypcheck writes
         return float(value)
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise InputError(f"{place}: {what} is {shown_json(value)}; it must be a number")

@@ -1,8 +1,8 @@
-"""The frozen files made anew: old cases stay as they are, with the ids they have; new rows are added after them.
+"""Make the frozen files again: old cases do not change and keep their ids; new rows are added after them.
 
-A family's file has the first rows of seed SEED, as many as the table of families says, each once. Where a new version
-of a generator makes other rows, these are added too: no copy of a case ever loses its meaning. Vector files of
-generated rows are made in the same way.
+A family's file has the first rows of seed SEED, as many as the table of families says, each once. If a new version of a
+generator makes other rows, these are added too, so that old ids stay valid. Vector files of generated rows are made in
+the same way.
 """
 
 from __future__ import annotations
@@ -37,10 +37,10 @@ Progress = Callable[[str], object]
 
 
 def freeze(names: Iterable[str], folder: Path, done: Progress = lambda _: None) -> None:
-    """Write the files of these names to a folder, keeping the cases that are there; `done` is called with each name.
+    """Write the files of these names to a folder, keeping its existing cases; `done` is called with each name.
 
-    Raises InputError where a name is unknown, the folder is none or a file there is not as it must be, and
-    DisagreementError, writing nothing, where a label does not stand its own check.
+    Raises InputError if a name is unknown, the folder does not exist or a file in it is not valid. Raises
+    DisagreementError, and writes no file, if a label fails its check.
     """
     wanted = list(dict.fromkeys(names))
     for name in wanted:
@@ -48,7 +48,7 @@ def freeze(names: Iterable[str], folder: Path, done: Progress = lambda _: None) 
             raise InputError(f"there are no frozen vectors {name!r}; there are {', '.join(ALL_NAMES)}")
     if not folder.is_dir():
         raise InputError(f"{folder} is not a folder; create it, or name another folder with --into")
-    earlier = {name: _earlier(name, folder / f"{name}.json") for name in wanted}  # all of them, before one is replaced
+    earlier = {name: _earlier(name, folder / f"{name}.json") for name in wanted}  # all, before one is replaced
     for name, before in earlier.items():
         text = _text(name, before)
         with replace_output(str(folder / f"{name}.json")) as writer:
@@ -57,7 +57,7 @@ def freeze(names: Iterable[str], folder: Path, done: Progress = lambda _: None) 
 
 
 def _earlier(name: str, path: Path) -> CaseFile[Any] | None:
-    """The file of that name that is there. Raises InputError if it is not as it must be."""
+    """The existing file of that name. Raises InputError if it is not valid."""
     before = read_cases(str(path), _content_of(name)) if path.exists() else None
     if before is not None and before.head.name != name:
         raise InputError(f"{path} is of the family {before.head.name!r}; it must be of {name!r}")
@@ -87,9 +87,9 @@ def content_of_family(family: Family) -> Content:
 
 
 def frozen(name: str, before: CaseFile[Any] | None = None) -> CaseFile[Any]:
-    """The file of that name; the cases of an earlier one keep their ids and places, and their labels if they are slow.
+    """The file of that name. Cases of an earlier file keep their ids and places, and labels that are slow to make.
 
-    Labels of positions of upright spheroids are made quickly: all of them are made anew.
+    Labels of positions of upright spheroids are fast: all of them are made again.
     """
     content = _content_of(name)
     old = before.cases if before else ()
@@ -110,12 +110,12 @@ def _named(cases: Iterable[AnyVector]) -> list[tuple[str, Row]]:
 
 
 def planned(name: str) -> Rows:
-    """The rows that a file must have, float64 (n, as many numbers as a row has), some of them perhaps twice."""
+    """The rows that a file must have, float64 (n, numbers of a row); some may occur twice."""
     return cancellation.worst_rows() if name == cancellation.NAME else ALL[name].rows(SEED, ALL[name].frozen)
 
 
 def extended(name: str, before: list[tuple[str, Row]], rows: Iterable[Row]) -> list[tuple[str, Row]]:
-    """Ids and rows, then those rows that are not among them, with the next ids. Rows are compared to the bit."""
+    """The ids and rows of a file, then new rows with the next ids. Rows are compared to the bit."""
     cases = list(before)
     known = {_bits(row) for _, row in before}
     number = _next_number(case for case, _ in before)
@@ -128,7 +128,7 @@ def extended(name: str, before: list[tuple[str, Row]], rows: Iterable[Row]) -> l
 
 
 def _next_number(ids: Iterable[str]) -> int:
-    """The number after the greatest of these ids; generated ones, which have slashes, do not count."""
+    """The number after the greatest number of these ids; ids of generated rows, with slashes, are ignored."""
     matches = (_NUMBER.fullmatch(name) for name in ids if "/" not in name)
     return 1 + max((int(match.group(1)) for match in matches if match), default=-1)
 
@@ -151,7 +151,7 @@ def generated_text(family: Family, seed: int, count: int) -> str:
 
 
 def frozen_invalid_rows(name: str, before: CaseFile[Any] | None = None) -> InvalidRowFile:
-    """The file of rows that must be refused; those of an earlier one keep their ids and places."""
+    """The file of rows that must be refused; rows of an earlier file keep their ids and places."""
     kept: tuple[InvalidRow, ...] = before.cases if before else ()
     known = {case.bits for case in kept}
     number = _next_number(case.id for case in kept)
@@ -185,12 +185,11 @@ def keep_rows(
     ended: bool = False,
     layout: Layout = PAIRS,
 ) -> int:
-    """Add those rows to a vector file that it lacks, labelled and proved, and return their number.
+    """Add the rows that a vector file lacks, labelled and proved, and return their number.
 
-    All rows have the numbers of the layout; with `tilted` those of an axis too, with `ended` those of an axis and of
-    heights, and the file is one of tilted spheroids, or of hyperboloids that end. A new file names `made_by` as the
-    command that made it. Cases of an existing file stay as they are. Raises InputError if the file is no such vector
-    file, or cannot be written.
+    All rows have the numbers of the layout; with `tilted` they also have an axis, with `ended` an axis and heights, and
+    so has the file. A new file names `made_by` as the command that made it. Cases of an existing file do not change.
+    Raises InputError if the file is not a vector file of this kind, or cannot be written.
     """
     content = content_with(layout, tilted=tilted, ended=ended)
     there = Path(path).exists()

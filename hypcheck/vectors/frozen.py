@@ -1,7 +1,7 @@
 """The frozen vectors that travel with the package: a file of certified cases for each family, and invalid rows.
 
-Files are read when they are asked for. Ids are for ever: a row keeps the id it was given, whatever becomes of the
-generator that made it. Loads numpy, neither sympy nor mpmath.
+Files are read on demand. Ids are permanent: a row keeps its id even if its generator changes. This module loads numpy,
+but neither sympy nor mpmath.
 """
 
 from __future__ import annotations
@@ -55,20 +55,20 @@ ALL_NAMES = (
 
 
 def head_of(name: str) -> Metadata:
-    """What the frozen file of that name says of its family."""
+    """The metadata of the frozen file of that name."""
     family, made_by = ALL.get(name), f"hypcheck cases freeze {name}"
     return family.described(made_by) if family else described(name, made_by)
 
 
 def folder() -> Path:
-    """Where the files are: in the installed package, or beside it in a source tree."""
+    """The folder of the files: in the installed package, or beside it in a source tree."""
     package = Path(__file__).resolve().parents[1]
     inside = package / "cases"
     return inside if inside.is_dir() else package.parent / "cases"
 
 
 def path_of(name: str) -> Path:
-    """The file of that name, which is packed in a wheel. Raises InputError where there is none of that name."""
+    """The path of the file of that name, which is packed in a wheel. Raises InputError if there is no such file."""
     if name not in ALL_NAMES:
         raise InputError(f"there are no frozen vectors {name!r}; {suggestion(name, ALL_NAMES)}")
     path = folder() / f"{name}.json"
@@ -82,9 +82,9 @@ _HEAD = 1 << 16
 
 @cache
 def count_of(name: str) -> int:
-    """How many frozen cases there are of that name, as the head of their file says; `load` refuses a wrong number.
+    """The number of frozen cases of that name, from the head of their file; `load` refuses a wrong number.
 
-    Raises InputError where there are none of that name, or their file cannot be read.
+    Raises InputError if there are no cases of that name, or their file cannot be read.
     """
     try:
         with open_input(str(path_of(name))) as file:
@@ -96,5 +96,5 @@ def count_of(name: str) -> int:
 
 @cache
 def load(name: str) -> CaseFile[Any]:
-    """The frozen cases of that name. Raises InputError where there are none, or their file is not as it must be."""
+    """The frozen cases of that name. Raises InputError if there are none, or their file is not valid."""
     return read_cases(str(path_of(name)))

@@ -1,4 +1,4 @@
-"""Rows that must be refused, for they are no valid query: how their files are made, read, written and checked."""
+"""Invalid rows, which implementations must refuse: how their files are made, read, written and checked."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ _NANS = {
 
 @dataclass(frozen=True, slots=True)
 class InvalidRow:
-    """A bad row: the 64 bits of its numbers, and the columns that are at fault, in their order."""
+    """An invalid row: the 64 bits of its numbers, and the faulty columns, in their order."""
 
     id: str
     bits: tuple[int, ...]
@@ -86,7 +86,7 @@ class InvalidRow:
 
     @property
     def row(self) -> Row:
-        """The numbers; a NaN may lose its payload on the way."""
+        """The numbers; a NaN may lose its payload."""
         return tuple(rows_from_bits([self.bits])[0].tolist())
 
     @property
@@ -110,7 +110,7 @@ def rows_from_bits(bits: Sequence[Sequence[int]]) -> Rows:
 
 
 def columns_at_fault(row: Row, names: tuple[str, ...]) -> tuple[str, ...]:
-    """The columns of these names whose values are not allowed; all three of an axis without a direction."""
+    """The columns of these names with values that are not allowed; all three columns of an axis without a direction."""
     values = dict(zip(names, row, strict=True))
     faults = [name for name, value in values.items() if name not in HEIGHTS and trouble_with(name, value) is not None]
     if AXIS[0] in values and not any(values[name] for name in AXIS):
@@ -124,7 +124,7 @@ def columns_at_fault(row: Row, names: tuple[str, ...]) -> tuple[str, ...]:
 
 
 def invalid_rows(name: str) -> InvalidRowFile:
-    """The file of that name, made anew."""
+    """The file of that name, newly made."""
     content = INVALID_CONTENTS[name]
     cases = []
     bad = _bad_ended_rows if content.ended else _bad_tilted_rows if content.tilted else _bad_rows
@@ -167,7 +167,7 @@ def _bad_rows(layout: Layout) -> Iterator[tuple[int, ...]]:
 
 
 def _bad_tilted_rows(layout: Layout) -> Iterator[tuple[int, ...]]:
-    """Axes of zeros, one bad number in each place of the axis, several, and bad numbers before a sound axis."""
+    """Axes of zeros, one bad number in each place of the axis, several of them, bad numbers before a valid axis."""
     sound = [(*_bits(row), *_bits(axis)) for row, axis in zip(_SOUND[layout], _AXES, strict=True)]
     width = len(layout.upright)
     axis_places = range(width, width + len(AXIS))
@@ -196,7 +196,7 @@ def _bad_tilted_rows(layout: Layout) -> Iterator[tuple[int, ...]]:
 
 
 def _bad_ended_rows(layout: Layout) -> Iterator[tuple[int, ...]]:
-    """Ends in the wrong order or equal, NaN for an end, numbers for `solid` that are neither, then others."""
+    """Ends in the wrong order or equal, NaN for an end, numbers for `solid` other than 0 and 1, then other faults."""
     sound = [
         (*_bits(row), *_bits(axis), *_bits(heights))
         for row, axis, heights in zip(_SOUND[layout], _AXES, _HEIGHTS, strict=True)
@@ -257,7 +257,7 @@ def invalid_row_text(case: InvalidRow) -> str:
 
 
 def invalid_rows_of(document: JsonDocument, path: str) -> InvalidRowFile:
-    """The file of bad rows that a document is. Raises InputError where it is none."""
+    """The file of invalid rows of a document. Raises InputError if it is not such a document."""
     file = file_of(document, path, _FIELDS, _invalid_row)
     return InvalidRowFile(file.head, file.content, file.cases, file.flags, file.lines)
 

@@ -1,7 +1,7 @@
 """The labels of a case: answer, measures, flags, and the shortest proof.
 
-They are made by the exact decisions (truth/exact.py), sweeps by steps or by roots
-(truth/swept.py). checking.py proves them in another way.
+Labels are made by the exact decisions (truth/exact.py), labels of sweeps by steps or by roots (truth/swept.py).
+checking.py proves them in another way.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ _MOST_BITS = 1 << 14
 
 
 def labelled(content: Content, cases: Iterable[tuple[str, Row]]) -> list[Any]:
-    """Cases of a file of that content with every label and flag, from ids and valid rows.
+    """Cases for a file of that content, with all labels and flags, from ids and valid rows.
 
     Raises ValueError as prove_passage does.
     """
@@ -96,9 +96,9 @@ def flips(content: Content, pair: Pair, truth: Decision) -> Mapping[Position, Br
 
 
 def stored_certificate(row: Row, certificate: Certificate) -> StoredCertificate:
-    """The certificate in a file's terms; of two points of a crossing the second is rounded as far as it can be.
+    """The certificate in the form of the files; the second point of a crossing is rounded as much as possible.
 
-    Where the hyperboloid ends, points stay as they are.
+    If the hyperboloid ends, points are not rounded.
     """
     offsets = tuple(offset_to(row, point) for point in certificate.points)
     if len(offsets) < 2 or PAIRS.has_heights(row):
@@ -115,12 +115,13 @@ def stored_certificate(row: Row, certificate: Certificate) -> StoredCertificate:
 
 
 def _slid(row: Row, offset: Offset) -> Iterator[Offset]:
-    """The offset, then others beside it in the plane through both axes, ever nearer to it and all in the spheroid.
+    """The offset, then offsets beside it in the plane through both axes, nearer and nearer to it, all in the spheroid.
 
-    A proof of contact may end at a point of the spheroid's own surface that lies on the hyperboloid. Where the two
-    cross there, the hyperboloid's other side lies that way: (−w s, −w t, s² + t²) is at right angles to (s, t, w) and
-    no longer than 1, so that a step η along it and a shrinking by 1 − η² lead into the spheroid, farther across than
-    in. At a tip of the spheroid, s = t = 0, it is 0, and the way to the hyperboloid's axis stands for it.
+    A proof of contact may end at a point of the spheroid's own surface that lies on the hyperboloid. If the two
+    surfaces cross there, the hyperboloid's other side is in the direction (−w s, −w t, s² + t²) or its opposite. This
+    vector is at right angles to (s, t, w) and no longer than 1, so that a step η along it and a shrinking by 1 − η²
+    lead into the spheroid, farther across than inward. At a tip of the spheroid, s = t = 0, the vector is 0, and the
+    direction to the hyperboloid's axis replaces it.
     """
     yield offset
     s, t, w = offset
@@ -140,7 +141,7 @@ def _slid(row: Row, offset: Offset) -> Iterator[Offset]:
 
 
 def _cut_off(offset: Offset) -> Iterator[Offset]:
-    """The offset with each part cut off after more and more bits, so that it stays in the spheroid; at last itself."""
+    """The offset with each part cut off after more and more bits, so that it stays in the spheroid; last unchanged."""
     for bits in _bits():
         s, t, w = (Fraction(int(part * (1 << bits)), 1 << bits) for part in offset)
         yield (s, t, w)
@@ -157,8 +158,8 @@ def _bits() -> Iterator[int]:
 def shows_crossing(row: Row, offsets: Sequence[Offset]) -> bool:
     """Whether these points of the closed spheroid prove a contact that is no tangency.
 
-    A spheroid that only touches has all its points on one side or on the surface, and none of its inner ones on the
-    surface: two points strictly on either side, or an inner one on the surface, prove that it does more.
+    A spheroid that only touches has all its points on one side or on the surface, and no inner point on the surface. So
+    two points strictly on different sides, or an inner point on the surface, prove a crossing.
     """
     alpha, gamma, b, d, _, _, _, *axis = map(Fraction, row)
     sides = set()

@@ -2,11 +2,11 @@
 
 Sizes come from the ratios a = α/b and c = γ/d, centres from their distance to the surface. Heights, radii and offsets
 are in spheroid radii, that is, in the space of Theorem 1 of the paper, where the spheroid is the unit ball and the
-hyperboloid has the semi-axes a, a, c. Nothing here is exact; it need not be.
+hyperboloid has the semi-axes a, a, c. Nothing here is exact, and nothing needs to be.
 
-The families: uniform, far, giant, tiny, mirrored, rows exact in the short float formats, and one pair again and again
-with one of its seven numbers changed, which finds values kept from the row before. Then the paper's scenes: the forest
-of section 3.1, the cooling tower of sections 3.2 and 4, its rotors and flights.
+The families: uniform, far, giant, tiny, mirrored, rows exact in the short float formats, and one pair repeated with one
+of its seven numbers changed, which reveals values that a program keeps from the previous row. Then the paper's scenes:
+the forest of section 3.1, the cooling tower of sections 3.2 and 4, its rotors and flights.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ def sizes(draw: Draw, a: Floats, c: Floats, units: tuple[int, int] = UNITS) -> S
 
 
 def stack(size: Sizes, x: ArrayLike, y: ArrayLike, z: ArrayLike) -> Rows:
-    """The rows of these columns, without negative zeros; each column lies in memory as a whole."""
+    """The rows of these columns, without negative zeros; each column is contiguous in memory."""
     columns = np.empty((7, len(size.b)))
     for index, column in enumerate((size.alpha, size.gamma, size.b, size.d, x, y, z)):
         np.add(column, 0.0, out=columns[index])
@@ -85,14 +85,14 @@ def beside_surface(a: Floats, c: Floats, height: Floats, offset: Floats) -> tupl
 
 
 def heights(draw: Draw, c: Floats) -> Floats:
-    """Half within two γ of the waist, half within eight radii of it."""
+    """Heights: half within two γ of the waist, half within eight radii of it."""
     n = len(c)
     share = draw.unit(n)
     return np.asarray(share * np.where(draw.words(n) >> np.uint64(63) == 0, 2 * c, 8.0))
 
 
 def offsets(draw: Draw, n: int) -> Floats:
-    """Uniform in ±2.5 radii, so that each position is met wherever the surface is flat enough to allow it."""
+    """Offsets uniform in ±2.5 radii, so that every position occurs where the surface is flat enough to allow it."""
     return draw.between(n, -2.5, 2.5)
 
 
@@ -114,14 +114,14 @@ def uniform(draw: Draw, n: int) -> Rows:
 
 
 def far_centers(draw: Draw, n: int) -> Rows:
-    """Centres 2⁴ to 2²⁷ radii up the surface, where it is all but a cone."""
+    """Centres 2⁴ to 2²⁷ radii up the surface, where it is nearly a cone."""
     a, c = all_regimes(draw, n)
     size = sizes(draw, a, c, units=(-10, -8))
     return beside(draw, size, draw.log_uniform(n, 4, 27) * np.minimum(1, c / a), offsets(draw, n))
 
 
 def giant_spheroids(draw: Draw, n: int) -> Rows:
-    """a and c in [2⁻¹⁶, 2⁻²): from the spheroid's size the hyperboloid is a double cone."""
+    """a and c in [2⁻¹⁶, 2⁻²): compared with the spheroid's size the hyperboloid is a double cone."""
     return around(draw, sizes(draw, draw.log_uniform(n, -16, -2), draw.log_uniform(n, -16, -2)))
 
 
@@ -144,7 +144,7 @@ def exact_in(bits: int, least: float) -> Maker:
 
 
 def small_integers(draw: Draw, n: int) -> Rows:
-    """Whole numbers as a person types them: tangencies and other exact coincidences abound.
+    """Small whole numbers, as a person types them: tangencies and other exact coincidences are frequent.
 
     Each pair is followed by three others of the same numbers: its centre turned, both groups of sizes swapped, and α
     and b doubled. Half of the zeros are negative.
@@ -166,7 +166,7 @@ def small_integers(draw: Draw, n: int) -> Rows:
 
 
 def _equal_sizes(draw: Draw, alpha: Floats, gamma: Floats, b: Floats, d: Floats) -> Sizes:
-    """Half of the sizes as they are; of the others two, two pairs or all four are equal, or all are 1."""
+    """Half of the sizes unchanged; in the others two, two pairs or all four are made equal, or all are 1."""
     kind = draw.integers(len(b), 0, 11)
     ball, crossed = (kind >= 6) & (kind <= 9), kind == 11
     one = np.where(kind == 9, 1.0, b)
@@ -176,7 +176,7 @@ def _equal_sizes(draw: Draw, alpha: Floats, gamma: Floats, b: Floats, d: Floats)
 
 
 def _equal_coordinates(draw: Draw, size: Sizes, x: Floats, y: Floats, z: Floats) -> tuple[Floats, Floats, Floats]:
-    """Half of the centres as they are; of the others two coordinates, or three, are equal, or z is γ or d."""
+    """Half of the centres unchanged; in the others two or three coordinates are made equal, or z is γ or d."""
     kind, sign = draw.integers(len(x), 0, 9), draw.signs(len(x))
     y = np.where((kind == 5) | (kind == 6), sign * x, y)
     z = np.where((kind == 6) | (kind == 7), x, z)
@@ -207,7 +207,7 @@ TURN = 2 * len(COLUMNS)
 
 
 def one_number_changed(draw: Draw, n: int) -> Rows:
-    """Pairs 2⁻¹⁴ to 2⁻⁶ radii from contact, and changes by 1/16 of the number to all of it, so that many cross it."""
+    """Pairs 2⁻¹⁴ to 2⁻⁶ radii from contact; a number changes by 1/16 of itself or more, so that many cross contact."""
     pairs = -(-n // TURN)
     size = sizes(draw, *all_regimes(draw, pairs))
     offset = draw.signs(pairs) * (1 + draw.signs(pairs) * draw.log_uniform(pairs, -14, -6))
@@ -240,7 +240,7 @@ def _walker(draw: Draw, n: int) -> tuple[Floats, Floats]:
 
 
 def _trunk(draw: Draw, b: Floats, d: Floats, alpha: Floats) -> Sizes:
-    """A trunk of waist α that flares slowly enough for (γ/d)² ≥ α/b, with room for every rounding."""
+    """A trunk of waist α that widens slowly enough for (γ/d)² ≥ α/b, with a margin for roundings."""
     least = d * np.sqrt(np.maximum(alpha / b, 1.0))
     return Sizes(alpha, least * draw.between(len(b), 1.02, 4), b, d)
 
@@ -253,7 +253,7 @@ def forest_type_1(draw: Draw, n: int) -> Rows:
 
 
 def forest_type_2(draw: Draw, n: int) -> Rows:
-    """Trunks narrower than the walker; a third of the rows is high up, where even such a trunk is wide enough."""
+    """Trunks narrower than the walker; a third of the rows is so high that even such a trunk is as wide as she is."""
     b, d = _walker(draw, n)
     size = _trunk(draw, b, d, b * draw.between(n, 0.2, 0.99))
     aloft = draw.places(n) % 3 == 0
@@ -296,7 +296,7 @@ def tower_rotors(draw: Draw, n: int) -> Rows:
 
 
 def flight(draw: Draw, n: int) -> Rows:
-    """Positions asked for along random flights of FLIGHT_STEPS moves (section 4), refused ones included.
+    """Positions that moves of random flights lead to (section 4, FLIGHT_STEPS moves each), refused moves included.
 
     A move of v·t (5–10 m/s, 0.1–0.3 s) goes straight, up or down, or aside by at most π/4; where it would leave the
     tower, the quadcopter stays and turns by π/2. Half of the flights keep near the wall.

@@ -32,11 +32,11 @@ _LABEL = 12
 
 
 def list_lines() -> Iterator[str]:
-    """Every set of vectors: its name, how many are frozen, and what it is."""
+    """A line for every set of vectors: its name, its number of frozen vectors, and its title."""
     width, together = max(map(len, ALL_NAMES)), 0
     for name in ALL_NAMES:
         path = str(frozen.path_of(name))
-        document = read_document(path)  # of the cases the number alone is asked for
+        document = read_document(path)  # only the number of cases is needed
         head, _ = read_metadata(document, path)
         together += len(document.cases)
         mark = " (extreme: taken when asked for)" if head.extreme else ""
@@ -45,7 +45,7 @@ def list_lines() -> Iterator[str]:
 
 
 def family_lines(name: str) -> Iterator[str]:
-    """What is known of a family, and its frozen cases counted."""
+    """The description of a family, and the numbers of its frozen cases."""
     file = frozen.load(name)
     refused = ", all to be refused" if file.content.refused else ""
     yield from _metadata_lines(file.head)
@@ -115,7 +115,7 @@ def _distance(distance: Bracket) -> str:
 
 
 def case_named(name: str) -> tuple[AnyVector | InvalidRow, Content]:
-    """The case of that id, frozen or generated, and the content of its file. Raises InputError where there is none."""
+    """The case with that id, frozen or generated, and the content of its file. Raises InputError if there is none."""
     if "/" in name:
         from hypcheck.vectors.freezing import generated_case  # noqa: PLC0415 - frozen cases need no oracles
 
@@ -131,7 +131,7 @@ def case_named(name: str) -> tuple[AnyVector | InvalidRow, Content]:
 
 
 def show(name: str, *, as_json: bool) -> Iterator[str]:
-    """The lines about a family or a case; a case as it stands in a file where JSON is asked for. Raises InputError."""
+    """The lines about a family or a case; with `as_json` a case as in a vector file. Raises InputError."""
     if name not in ALL_NAMES:
         case, content = case_named(name)
         yield from (case_text(case, content),) if as_json else case_lines(case, content)
@@ -206,7 +206,7 @@ def _titled(label: str, text: str) -> list[str]:
 
 
 def _family_of(name: str) -> str:
-    """What stands before the number of a frozen case's id; the whole of any other name."""
+    """The part of a frozen case's id before the number; any other name unchanged."""
     family, _, number = name.rpartition("-")
     return family if number.isdecimal() else name
 
@@ -214,7 +214,8 @@ def _family_of(name: str) -> str:
 def generate(name: str, seed: int, count: int, form: str, target: str) -> None:
     """Write the first `count` rows of a family's seed to `target` ("-" is standard output) in one of FORMATS.
 
-    The same bytes on every machine. Raises InputError where there is no such family, or `target` cannot be written.
+    The bytes are the same on every machine. Raises InputError if there is no such family, or `target` cannot be
+    written.
     """
     data = FORMATS[form](_family_to_generate(name), seed, count)
     with replace_output(target) as writer:
@@ -237,14 +238,14 @@ def as_json(family: Family, seed: int, count: int) -> bytes:
 def as_csv(family: Family, seed: int, count: int) -> bytes:
     """A table of ids and rows, as `hypcheck classify --input` takes it."""
     lines = [",".join(("id", *family.columns))]
-    quote = '"' if "," in family.name else ""  # the names of families for given sizes have commas
+    quote = '"' if "," in family.name else ""  # the names of families for fixed sizes have commas
     for index, row in enumerate(family.rows(seed, count).tolist()):
         lines.append(",".join((f"{quote}{case_id(family, seed, index)}{quote}", *map(repr, row))))
     return ("\n".join(lines) + "\n").encode()
 
 
 def as_npy(family: Family, seed: int, count: int) -> bytes:
-    """The rows alone, little-endian float64."""
+    """Only the rows, as little-endian float64."""
     file = io.BytesIO()
     np.lib.format.write_array(file, family.rows(seed, count).astype("<f8"), version=(1, 0))
     return file.getvalue()

@@ -1,8 +1,8 @@
-"""Sweeps: rows of ten numbers, or of thirteen with an axis, with the traps that a sweep has beside its ends.
+"""Sweeps: rows of ten numbers, or of thirteen with an axis, with traps between the ends of a sweep.
 
-First sweeps that touch: through a place where the surfaces touch, across a ring, and from or to a tangency. What is
-said to touch does so exactly: places come from the constructions of tangencies and rings, and both ends of a sweep are
-checked to be without rounding. Then sweeps of which nothing is exact.
+First sweeps that touch: through a place where the surfaces touch, across a ring, and from or to a tangency. These touch
+exactly: places come from the constructions of tangencies and rings, and both ends of a sweep are checked to have no
+rounding. The other sweeps are not exact.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ def between(rows: Rows, ends: Rows) -> Rows:
 
 
 def through(rows: Rows, steps: Rows, after: Floats) -> tuple[Rows, Mask]:
-    """Ways through the centres of rows, a step before and `after` steps behind, and which have exact ends."""
+    """Sweeps through the centres of rows, from a step before to `after` steps beyond, and which have exact ends."""
     centres, sweeps = rows[:, CENTRE], rows.copy()
     (start, lost), (end, missed) = two_sum(centres, -steps), two_sum(centres, steps * after[:, None])
     sweeps[:, CENTRE] = start
@@ -37,7 +37,7 @@ def through(rows: Rows, steps: Rows, after: Floats) -> tuple[Rows, Mask]:
 
 
 def _exterior_graze(draw: Draw, n: int) -> tuple[Rows, Mask]:
-    """Through an outer tangency along the surface's horizontal section, which bends away."""
+    """Through an outer tangency along the surface's horizontal section, which curves away from the sweep."""
     tangencies = double_roots.by_ratios(draw, n)
     rows = in_metres(draw, np.where(tangencies.usable[:, None], tangencies.rows, 1.0))
     share = ldexp(draw.signs(n), draw.integers(n, -6, 2))
@@ -47,7 +47,7 @@ def _exterior_graze(draw: Draw, n: int) -> tuple[Rows, Mask]:
 
 
 def _interior_graze(draw: Draw, n: int) -> tuple[Rows, Mask]:
-    """Up or down through an inner tangency at the waist, which is the narrowest place."""
+    """Up or down through an inner tangency at the waist, the narrowest place."""
     rows = gather(draw, n, double_roots.waist_points)
     rows = in_metres(draw, rows)
     radius = np.sqrt(rows[:, 4] * rows[:, 4] + rows[:, 5] * rows[:, 5])
@@ -62,7 +62,7 @@ grazing = in_turn(gathered(_exterior_graze), gathered(_interior_graze))
 
 
 def near_graze(draw: Draw, n: int) -> Rows:
-    """The same, the spheroid larger or smaller by 2⁻⁵⁰ to 2⁻³."""
+    """Grazing sweeps with the spheroid enlarged or reduced by 2⁻⁵⁰ to 2⁻³."""
     rows = grazing(draw, n)
     factor = 1 + ldexp(draw.signs(n), -3 - draw.places(n) % 48)
     rows[:, 2] *= factor
@@ -77,7 +77,7 @@ def _ring_place(draw: Draw, n: int) -> tuple[Rows, Mask]:
 
 
 def ring_attempt(draw: Draw, n: int) -> tuple[Rows, Mask]:
-    """Ways across rings, and which of them have exact ends; some begin in contact, where the ring is near."""
+    """Sweeps across rings, and which of them have exact ends; some begin in contact, as the ring is near."""
     rows, usable = _ring_place(draw, n)
     share = ldexp(np.ones(n), draw.integers(n, -30, -5))
     pick = draw.integers(n, 0, 3)
@@ -99,7 +99,7 @@ def ring_attempt(draw: Draw, n: int) -> tuple[Rows, Mask]:
 def ring(draw: Draw, n: int) -> Rows:
     """Across the ring, where the discriminant is 0 in free air, along, up and out.
 
-    A ring may be so near to the surface that a sweep across it begins in contact. Others take their places.
+    A ring may be so near to the surface that a sweep across it begins in contact. Other sweeps replace these.
     """
     sweeps = gather(draw, n, ring_attempt)
     near = np.flatnonzero(~more_than_a_radius_away(sweeps))
@@ -114,7 +114,7 @@ def _clear_ring_attempt(draw: Draw, n: int) -> tuple[Rows, Mask]:
 
 
 def more_than_a_radius_away(sweeps: Rows) -> Mask:
-    """Ways about a ring that are clear all along, as the waist shows.
+    """A mask of the sweeps across a ring that are certainly clear everywhere, by their distance from the waist.
 
     In radii, a centre in the plane of the waist between the waist and the ring is r − a away from the surface, and one
     that is z above it is farther than r − a − z. The margin is far more than what r is rounded by.
@@ -123,7 +123,7 @@ def more_than_a_radius_away(sweeps: Rows) -> Mask:
     x, y, end_x, end_y = sweeps[:, [4, 5, 7, 8]].T
     step_x, step_y = end_x - x, end_y - y
     passing = (x * step_x + y * step_y < 0) & (end_x * step_x + end_y * step_y > 0)
-    with np.errstate(invalid="ignore"):  # a sweep that leads nowhere does not pass
+    with np.errstate(invalid="ignore"):  # a sweep without motion does not cross the ring
         foot = np.abs(x * step_y - y * step_x) / np.sqrt(step_x * step_x + step_y * step_y)
     nearest = np.where(passing, foot, np.sqrt(np.minimum(x * x + y * y, end_x * end_x + end_y * end_y))) / b
     rise = np.abs(sweeps[:, [6, 9]]).max(axis=1) / d
@@ -131,7 +131,7 @@ def more_than_a_radius_away(sweeps: Rows) -> Mask:
 
 
 def at_an_end(draw: Draw, n: int) -> Rows:
-    """Contact at t = 1 alone, or at t = 0 alone: a tangency at an end, the other end away from the surface."""
+    """Contact only at t = 1, or only at t = 0: a tangency at an end, the other end away from the surface."""
     rows = tangent(draw, n)
     alpha, gamma, _, _, x, y, z = rows.T
     height = z / gamma
@@ -170,7 +170,7 @@ def _beside(draw: Draw, size: Sizes) -> Rows:
 
 
 def _ends(draw: Draw, size: Sizes, start: Rows) -> Rows:
-    """Half of them all around the surface, half within three radii of the start, in each direction."""
+    """Ends of sweeps: half all around the surface, half within three radii of the start in each direction."""
     far, near = _beside(draw, size)[:, CENTRE], start[:, CENTRE].copy()
     for place, reach in enumerate((size.b, size.b, size.d)):
         near[:, place] += 3 * reach * draw.between(len(near), -1, 1)
@@ -178,7 +178,7 @@ def _ends(draw: Draw, size: Sizes, start: Rows) -> Rows:
 
 
 def _about_the_waist(draw: Draw, n: int) -> tuple[Floats, Floats, Floats, Floats]:
-    """α, γ, b, d: the hyperboloid's from 1 to 32, the spheroid's up to twice as large and down to 1/256 of it."""
+    """α, γ, b, d: α and γ from 1 to 32, b and d up to twice as large and down to 1/256 of them."""
     alpha, gamma = draw.log_uniform(n, 0, 5), draw.log_uniform(n, 0, 5)
     return alpha, gamma, alpha * draw.log_uniform(n, -8, 1), gamma * draw.log_uniform(n, -8, 1)
 
@@ -213,7 +213,7 @@ def uniform(draw: Draw, n: int) -> Rows:
 
 
 def tower(draw: Draw, n: int) -> Rows:
-    """The paper's body in its tower, down through the waist and out: about as near to the wall as it may come."""
+    """The paper's body in its tower, down through the waist and out, about as near to the wall as possible."""
     size = Sizes(*(np.full(n, value) for value in TOWER + BODY))
     cosine, sine = draw.circle(n)
     radius = draw.between(n, 1.5, 1.9)
@@ -225,7 +225,7 @@ def tower(draw: Draw, n: int) -> Rows:
 
 
 def across(draw: Draw, n: int) -> Rows:
-    """Both ends outside, or inside above and below, and the surface between them: steps far too long."""
+    """Steps that are too long: both ends outside, or inside above and below the waist; the surface is between."""
     size = sizes(draw, *all_regimes(draw, n))
     cosine, sine = draw.circle(n)
     reach = size.alpha * draw.log_uniform(n, 0, 5) + size.b * draw.between(n, 1, 3)
@@ -254,7 +254,7 @@ def still(draw: Draw, n: int) -> Rows:
 
 
 def along_a_line(draw: Draw, n: int) -> Rows:
-    """Along a straight line of the hyperboloid, or beside one by up to 2.5 radii: the distance hardly changes."""
+    """Along a straight line of the hyperboloid, or up to 2.5 radii beside one: the distance hardly changes."""
     size = sizes(draw, *all_regimes(draw, n))
     cosine, sine = draw.circle(n)
     first, last = draw.between(n, -3, 0), draw.between(n, 0, 3)
@@ -288,7 +288,7 @@ def horizontal(draw: Draw, n: int) -> Rows:
 
 
 def very_long(draw: Draw, n: int) -> Rows:
-    """Past the surface, from 2¹⁰ to 2⁴⁰ times as far as the spheroid is large: contact lasts for an instant."""
+    """Past the surface, over 2¹⁰ to 2⁴⁰ times the spheroid's size: contact is very short."""
     size = sizes(draw, *all_regimes(draw, n))
     rows = _beside(draw, size)
     cosine, sine = draw.circle(n)
@@ -301,7 +301,7 @@ def very_long(draw: Draw, n: int) -> Rows:
 
 
 def very_short(draw: Draw, n: int) -> Rows:
-    """From a place within 2⁻²⁰ radii of contact, by 2⁻⁵⁰ to 2⁻¹⁰ of its distance: the ends all but coincide."""
+    """From a place within 2⁻²⁰ radii of contact, over 2⁻⁵⁰ to 2⁻¹⁰ of its distance: the ends nearly coincide."""
     size = sizes(draw, *all_regimes(draw, n))
     offset = draw.signs(n) + ldexp(draw.signs(n), draw.integers(n, -50, -20))
     rows = random_pairs.beside(draw, size, heights(draw, size.c), offset)

@@ -1,7 +1,7 @@
-"""Spheroids whose axis may point anywhere: rows of ten numbers, with the traps that a tilt adds.
+"""Spheroids whose axis has any direction: rows of ten numbers, with the traps that a tilt adds.
 
-First where the spheroid is put (beside a point of the surface, along M⁻¹ times the normal there), and rows that need
-no more than that. Then exact coincidences: tangencies and other double roots, twins and rings, and their neighbours.
+First the placing of the spheroid (beside a point of the surface, along M⁻¹ times the normal there), and rows that need
+only this. Then exact coincidences: tangencies and other double roots, twins and rings, and rows near to them.
 
 **Double roots.** Let n̂ = (n1, 0, n3)/N be a normal, the axis v̂ = (p n̂ + q ê)/S with ê ⟂ n̂ of length 1, and Σ = M⁻¹ =
 b² I + (d² − b²) v̂ v̂ᵀ. With b q = f c4 S and d p = f s4 S
@@ -9,7 +9,7 @@ b² I + (d² − b²) v̂ v̂ᵀ. With b q = f c4 S and d p = f s4 S
     n̂ᵀ Σ n̂ = (b q/S)² + (d p/S)² = (f h4)²,    Σ n̂ = f² (h4² n̂ + (s4² q/p − c4² p/q) ê).
 
 With α n1 = w h5 and γ |n3| = w s5 the surface has the normal n̂ at X = (w h5²/(n1 c5), 0, −w s5²/(n3 c5)). So with the
-centre X ± Σ n̂/(f h4) the surfaces touch in X, and det(S + λH) has the double root λ = ± w c5/(f h4 N). All is rational
+centre X ± Σ n̂/(f h4) the surfaces touch at X, and det(S + λH) has the double root λ = ± w c5/(f h4 N). All is rational
 where (n1, n3, N), (p, q, S), (c4, s4, h4), (c5, s5, h5) and the two numbers of ê are legs and hypotenuses. The pair is
 tangent if and only if M + λD is positive semidefinite there. At last a rational turn about the hyperboloid's axis.
 """
@@ -59,7 +59,7 @@ def beside(draw: Draw, size: Sizes, height: Floats, axis: Vectors, offset: Float
 
 
 def beside_at(size: Sizes, direction: tuple[Floats, Floats], height: Floats, axis: Vectors, offset: Floats) -> Rows:
-    """The same beside the surface's point in this direction (cosine, sine) from the axis."""
+    """As beside, for the surface's point in this direction (cosine, sine) from the axis."""
     cosine, sine = direction
     radius = np.sqrt(1 + height * height)
     point = (size.alpha * radius * cosine, size.alpha * radius * sine, size.gamma * height)
@@ -90,7 +90,7 @@ def _ordinary(draw: Draw, n: int) -> tuple[Sizes, Floats]:
 
 
 def _nearly(draw: Draw, n: int, low: int = -52, high: int = -4) -> Floats:
-    """±1, and a little more or less."""
+    """Offsets of ±1, or a little more or less."""
     return draw.signs(n) * (1 + draw.signs(n) * draw.log_uniform(n, low, high))
 
 
@@ -124,7 +124,7 @@ def horizontal(draw: Draw, n: int) -> Rows:
 
 
 def through_the_centre(draw: Draw, n: int) -> Rows:
-    """Near contact but for a last turn: the axis points to the hyperboloid's centre."""
+    """Rows near contact, then turned so that the axis points to the hyperboloid's centre."""
     rows = near_contact(draw, n)
     rows[:, 7:] = np.where((rows[:, 4:7] != 0).any(axis=1)[:, None], rows[:, 4:7], 1.0)
     return rows
@@ -143,7 +143,7 @@ def in_meridian_plane(draw: Draw, n: int) -> Rows:
 
 
 def at_the_waist(draw: Draw, n: int) -> Rows:
-    """Uniform, but the centre in the plane of the waist."""
+    """As uniform, with the centre in the plane of the waist."""
     rows = uniform(draw, n)
     rows[:, 6] = 0.0
     return rows
@@ -153,7 +153,7 @@ symmetric = in_turn(in_meridian_plane, horizontal, through_the_centre, at_the_wa
 
 
 def spheres(draw: Draw, n: int) -> Rows:
-    """b = d: the axis means nothing."""
+    """b = d: the axis does not matter."""
     size, height = _ordinary(draw, n)
     size = Sizes(size.alpha, size.c * size.b, size.b, size.b)
     return beside(draw, size, height, anywhere(draw, n), _nearly(draw, n))
@@ -168,7 +168,7 @@ def upright(draw: Draw, n: int) -> Rows:
 
 
 def slight(draw: Draw, n: int) -> Rows:
-    """Near contact, the axis off the vertical or off the horizontal by 2⁻¹⁰⁷⁴ to 2⁻¹."""
+    """Near contact, with an axis that differs from the vertical or the horizontal by 2⁻¹⁰⁷⁴ to 2⁻¹."""
     size, height = _ordinary(draw, n)
     cosine, sine = draw.circle(n)
     little = np.where(turns(n, True, True, True, False), draw.log_uniform(n, -60, 0), draw.log_uniform(n, -1074, -60))
@@ -201,7 +201,7 @@ def small_integers(draw: Draw, n: int) -> Rows:
 
 
 def whole_domain(draw: Draw, n: int) -> Rows:
-    """All that float64 holds: all lengths scaled by one power of two, to below the least normal number and beyond."""
+    """Rows over all of float64: all lengths are scaled by one power of two, also to below the least normal number."""
     size = sizes(draw, draw.log_uniform(n, -6, 6), draw.log_uniform(n, -6, 6), units=(-3, 3))
     rows = beside(draw, size, draw.between(n, -2, 2), anywhere(draw, n), _nearly(draw, n, high=0))
     unit = np.where(turns(n, True, False), draw.integers(n, -1064, -1000), draw.integers(n, 900, 1008))
@@ -251,7 +251,7 @@ TWO_POINTS = (
 
 
 def double_roots(draw: Draw, n: int) -> tuple[Rows, Mask, Mask]:
-    """Rows with a double root, which of them are surely tangent, and which surely are not."""
+    """Rows with a double root, and masks of the certainly tangent and the certainly not tangent ones."""
     n1, n3, N = triples(draw, n, 2)
     p, q, S = triples(draw, n, 2)
     c4, s4, h4 = triples(draw, n, 2)
@@ -281,7 +281,7 @@ def double_roots(draw: Draw, n: int) -> tuple[Rows, Mask, Mask]:
 
 
 def _definite(sizes: tuple[BigIntegers, ...], axis: tuple[BigIntegers, ...], at: Floats) -> tuple[Mask, Mask]:
-    """Where b² (M + λD) is surely positive definite, and where surely indefinite."""
+    """Masks of the rows where b² (M + λD) is certainly positive definite, and where it is certainly indefinite."""
     alpha, gamma, b, d = (column.astype(np.float64) for column in sizes)
     v = [column.astype(np.float64) for column in axis]
     length = np.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
@@ -308,7 +308,7 @@ def _turned(
     axis: tuple[BigIntegers, ...],
     upward: BigIntegers,
 ) -> tuple[Rows, Mask]:
-    """The rows, turned by a rational angle about the hyperboloid's axis, in lowest terms; and which are exact."""
+    """The rows, turned by a rational angle about the hyperboloid's axis, in lowest terms; and a mask of exact ones."""
     cosine, sine, radius = turned(draw, len(upward))
     lengths = [
         *(radius * number for number in sizes),
@@ -333,7 +333,7 @@ def _in_lowest_terms(numbers: list[BigIntegers]) -> list[BigIntegers]:
 
 
 def _anywhere(draw: Draw, rows: Rows) -> Rows:
-    """The same pairs in other coordinates: x and y of either sign or swapped, z of either, lengths about 1."""
+    """The same pairs in other coordinates: x and y with other signs or swapped, z with either sign, lengths about 1."""
     n = len(rows)
     rows = rows.copy()
     for column in (4, 5, 6):
@@ -356,7 +356,7 @@ crossing = gathered(lambda draw, n: double_roots(draw, n)[::2])
 
 
 def moved_by_ulps(draw: Draw, rows: Rows) -> Rows:
-    """The rows with one number each, any but a zero, moved by 1, 2, 4 … or 2^ULPS ulp to either side."""
+    """The rows, each with one nonzero number moved by 1, 2, 4 … or 2^ULPS ulp to either side."""
     n = len(rows)
     return one_moved(draw, rows, ldexp(draw.signs(n), draw.integers(n, 0, ULPS)).astype(np.int64))
 
@@ -367,7 +367,7 @@ def near_tangent(draw: Draw, n: int) -> Rows:
 
 
 def _of_table(table: tuple[tuple[float, ...], ...]) -> Maker:
-    """Rows of a table, turned by rational angles and scaled; three of four moved by ulps."""
+    """The generator of a table's rows, turned by rational angles and scaled; three of four are moved by ulps."""
 
     def attempt(draw: Draw, n: int) -> tuple[Rows, Mask]:
         chosen = np.asarray(table)[draw.integers(n, 0, len(table) - 1)] * 4
@@ -396,7 +396,7 @@ def _at_the_origin(draw: Draw, n: int) -> Rows:
 
 
 def _in_both_planes(draw: Draw, n: int) -> Rows:
-    """Centre and axis in the plane y = 0, the centre near the origin: nearest points lie in pairs on either side."""
+    """Centre and axis in the plane y = 0, the centre near the origin: nearest points are pairs, one on each side."""
     b, d = draw.log_uniform(n, -2, 2), draw.log_uniform(n, -2, 2)
     alpha, gamma = b * draw.between(n, 0.8, 1.3), d * draw.log_uniform(n, -1, 3)
     x, z = alpha * draw.between(n, -0.2, 0.2), gamma * draw.between(n, -0.4, 0.4)

@@ -28,7 +28,7 @@ def lines(chosen: Selection) -> Iterator[str]:
 
 
 def document(chosen: Selection) -> dict[str, Any]:
-    """The object; a part that was not asked for is missing."""
+    """The object; parts that were not requested are missing."""
     parts: dict[str, Any] = {}
     if "derivation" in chosen.parts:
         parts["derivation"] = list(map(_chain, chosen.sections))

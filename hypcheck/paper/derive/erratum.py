@@ -1,7 +1,7 @@
-"""An erratum to the paper, in LaTeX: misprints, and propositions and procedures put right, with short proofs.
+"""An erratum to the paper, in LaTeX: misprints, and corrected propositions and procedures, with short proofs.
 
-erratum.tex is the note; <<name>> in it stands for a value that is computed elsewhere: the simplest counterexamples from
-the ledger's search, the figures of Table 5. The proofs are those of docs/mathematics.md, shortened.
+erratum.tex is the note; a mark <<name>> in it is replaced by a computed value: the simplest counterexamples from the
+ledger's search, the figures of Table 5. The proofs are those of docs/mathematics.md, shortened.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ _PLACE = re.compile(r"<<([a-z0-9-]+)>>")
 
 
 def lines(_: Selection) -> Iterator[str]:
-    """The whole note, whatever was chosen: an erratum is one."""
+    """The whole note; the selection does not matter, because an erratum has no parts."""
     text = resources.files("hypcheck.paper.derive").joinpath("erratum.tex").read_text(encoding="utf-8")
     values = _values({entry.number: entry for entry in entries()})
     yield from filled(text, values).splitlines()
@@ -45,7 +45,7 @@ def filled(text: str, values: Mapping[str, str]) -> str:
 
 
 def _values(ledger: dict[str, LedgerEntry]) -> dict[str, str]:
-    """What the note leaves to the ledger, by the names in it."""
+    """The values from the ledger, by their names in the note."""
     return {
         "version": VERSION,
         **_counterexamples(ledger),
@@ -95,7 +95,7 @@ def _witnesses(entry: LedgerEntry) -> list[PointWitness]:
 
 
 def _named(name: str, facts: PointFacts, shown: PointFacts | None = None) -> dict[str, str]:
-    """A pair by its name, and the numbers of its cubic, or of another: each number is a formula of its own."""
+    """A pair by its name, and the numbers of its cubic, or of another cubic; each number is a separate formula."""
     point, cubic = facts.point, shown or facts
     numbers = ((r"\Delta", cubic.delta), ("c_2", cubic.c2), ("c_1", cubic.c1))
     first, second, third = (f"${letter}={number}$" for letter, number in numbers)
@@ -132,7 +132,7 @@ def _words_of(witness: LeaningWitness) -> dict[str, str]:
 
 
 def _steps() -> dict[str, str]:
-    """Printed figures at equal v·t: for t = 0.1, 0.2 and 0.3 the rows, for v = 5, …, 10 the columns."""
+    """Printed figures at equal v·t; the rows are for t = 0.1, 0.2 and 0.3, the columns for v = 5, …, 10."""
 
     def both(one: tuple[int, int], other: tuple[int, int]) -> str:
         (first, at), (second, there) = one, other
@@ -147,9 +147,9 @@ def _times_a_power(units: str) -> str:
 
 
 def compile_note(path: Path, seconds: float = 120) -> str:
-    """Make the PDF beside the LaTeX file; what was done, or why nothing was, in a sentence.
+    """Make the PDF beside the LaTeX file; returns a sentence about the result, or the reason why there is none.
 
-    LaTeX runs in a folder of its own, so nothing but the PDF is left.
+    LaTeX runs in a temporary folder, so only the PDF is left.
     """
     if shutil.which(COMPILER) is None:
         return f"not compiled: there is no {COMPILER} on this machine"

@@ -1,7 +1,7 @@
-"""The output of `hypcheck derive` in LaTeX: a document that every engine compiles, with packages that every one has.
+"""The output of `hypcheck derive` in LaTeX: a document that every LaTeX engine compiles, with common packages.
 
-Plain text with formulas, as the derivation and the ledger write it, becomes LaTeX: x_c² + y_c² is x_{c}^{2} +
-y_{c}^{2}. The result is ASCII, so that any encoding will do.
+Plain text with formulas, from the derivation and the ledger, becomes LaTeX: x_c² + y_c² is x_{c}^{2} + y_{c}^{2}. The
+result is ASCII, so that every encoding works.
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ _ARTICLE = re.compile(r"(?<![\d=<>≤≥+−/·])(?:(?<![=<>≤≥+−/·] )a|(?
 
 
 class UnknownCharacterError(ValueError):
-    """A character for which there is no LaTeX here."""
+    """A character without a LaTeX form in this module."""
 
 
 def formula(text: str) -> str:

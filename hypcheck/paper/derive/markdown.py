@@ -92,14 +92,14 @@ def _ledger(entries: tuple[LedgerEntry, ...]) -> Iterator[str]:
 
 
 def _faults() -> Iterator[str]:
-    """The faults, and the statements that each makes false."""
+    """The lines about faults, and the statements that each fault makes false."""
     yield from ("", f"{selection.faults_in_words()}:", "")
     rows = ((name, what, "; ".join(numbers)) for name, what, numbers in faults_with_entries())
     yield from _table(("fault", "what it is", "statements"), rows)
 
 
 def _sentences() -> Iterator[str]:
-    """Which rows judge each sentence."""
+    """The lines about sentences, and the rows that judge each of them."""
     yield from ("", "## Sentences: the paper's text in order, and what judges each", "")
     rows = (
         (sentence.section, sentence.words, "; ".join(sentence.rows) or f"*{sentence.reason}*")

@@ -1,6 +1,6 @@
-"""What `hypcheck derive` shows, and what its formats share: titles, details of an entry, costs in columns.
+"""The selection that `hypcheck derive` shows, and the common parts of its formats: titles, details, costs in columns.
 
-A selection is whole parts (PARTS), or one claim of the paper with all that its verdict rests on.
+A selection is whole parts (PARTS), or one claim of the paper with all evidence for its verdict.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ from hypcheck.paper.ledger.entry import FALSE, HOLDS, VERDICTS, LedgerEntry
 
 @dataclass(frozen=True)
 class Selection:
-    """What is to be shown: parts by name, or where `claim` is given the entries and chains of that claim, in full.
+    """The selected output: parts by name or, if `claim` is given, the entries and chains of this claim, in full.
 
-    A part is worked out when it is first looked at, so that what comes first can be read while the rest is derived.
+    A part is computed when it is first read, so that the first parts can be shown while later ones are derived.
     """
 
     parts: tuple[str, ...]
@@ -35,7 +35,7 @@ class Selection:
 
     @cached_property
     def chains(self) -> tuple[Chain, ...]:
-        """The propositions, or those that a claim rests on."""
+        """The chains of the propositions, or the chains that a claim rests on."""
         if self.claim is not None:
             named = {
                 name for entry in self.entries for evidence in entry.evidence for name in _with_needs(evidence.chain)
@@ -45,14 +45,14 @@ class Selection:
 
     @cached_property
     def entries(self) -> tuple[LedgerEntry, ...]:
-        """The ledger, or the entries of a claim. Raises InputError where there is no such claim."""
+        """The ledger, or the entries of a claim. Raises InputError if there is no such claim."""
         if self.claim is not None:
             return entries_of(self.claim)
         return entries() if "ledger" in self.parts else ()
 
     @cached_property
     def costs(self) -> tuple[Cost, ...]:
-        """The costs of every way to the answer."""
+        """The costs of every method."""
         return costs() if "costs" in self.parts else ()
 
     @property
@@ -78,7 +78,7 @@ def remark(holds: bool) -> str:
 
 
 def matrix_of(part: Part) -> tuple[str, list[list[str]]] | None:
-    """The name and the rows of the matrix that "H = [a, b; c, d]" says; None where a part is about no matrix."""
+    """The name and the rows of the matrix in "H = [a, b; c, d]"; None if a part is not about a matrix."""
     if not (isinstance(part, Identity) and part.text.endswith("]")):
         return None
     name, _, inside = part.text.partition(" = ")
@@ -86,13 +86,13 @@ def matrix_of(part: Part) -> tuple[str, list[list[str]]] | None:
 
 
 def tally(entries: Sequence[LedgerEntry]) -> str:
-    """How many statements there are, and of each verdict how many."""
+    """The number of statements, in total and by verdict."""
     counts = Counter(entry.verdict for entry in entries)
     return f"{len(entries)} statements: {', '.join(f'{counts[name]} {name}' for name in VERDICTS)}."
 
 
 def is_brief(entry: LedgerEntry) -> bool:
-    """Whether an entry needs one line: a formula that holds as it is printed."""
+    """Whether an entry needs only one line: a formula that holds as printed."""
     return entry.why == HOLDS and entry.confirmed
 
 
@@ -107,20 +107,20 @@ COSTS_EXPLAINED = (
 
 
 def faults_in_words() -> str:
-    """How many statements of the ledger are false, and of how many faults."""
+    """The number of false statements of the ledger, and of the faults behind them, in words."""
     false = sum(entry.verdict == FALSE for entry in entries())
     return f"{false} statements are false for {len(faults())} independent faults; a fault counts once"
 
 
 def verdict(entry: LedgerEntry) -> str:
-    """The verdict, and that it fails where the evidence does not bear it out."""
+    """The verdict, with a remark that it fails if the evidence does not support it."""
     return entry.verdict if entry.confirmed else f"{FAILS}: {entry.verdict}"
 
 
 def details(entry: LedgerEntry, *, in_full: bool = False) -> Iterator[tuple[str, str]]:
-    """Why, what was found, what is right instead, by which fault, where harmless, what follows, each with its title.
+    """The details with their titles: reason, finding, correction, fault, where it is harmless, consequences.
 
-    `in_full`: a formula as it is printed too, and not what was found, which follows with its proof.
+    `in_full`: with the printed formula, and without the finding, which follows with its proof.
     """
     if in_full and entry.printed:
         yield "printed", entry.printed

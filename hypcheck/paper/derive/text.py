@@ -105,7 +105,7 @@ def _ledger(entries: tuple[LedgerEntry, ...]) -> Iterator[str]:
 
 
 def _entry(entry: LedgerEntry, *, brief: bool) -> Iterator[str]:
-    """One line for a formula that holds as printed, a few for all else."""
+    """One line for a formula that holds as printed, a few lines for other entries."""
     head = padded(entry.number, _NUMBER) + padded(selection.verdict(entry), _VERDICT - _NUMBER)
     if brief:
         yield from paragraph(f"{entry.statement}; {entry.follows}", _VERDICT, head)
@@ -134,7 +134,7 @@ def _in_full(chosen: Selection) -> Iterator[str]:
 
 
 def _evidence(evidence: Evidence) -> Iterator[str]:
-    """A reason and whether it holds; witnesses as rows that can be asked about, each with its certificate."""
+    """A reason and whether it holds; witnesses as rows that can be classified, each with its certificate."""
     indent = 4 + _TITLE
     if not (evidence.witnesses or evidence.leaning):
         yield from formula(f"{evidence.kind}: {evidence.text}", indent, selection.remark(evidence.holds))
@@ -176,13 +176,13 @@ def _costs(costs: tuple[Cost, ...]) -> Iterator[str]:
 
 
 def _cells(cells: Sequence[str]) -> str:
-    """Numbers, or their titles, in columns; a gap parts those of a scene from those of a position."""
+    """Numbers, or their titles, in columns; a gap separates a scene's numbers from a position's."""
     scene, query = cells[: len(selection.SCENE_COLUMNS)], cells[len(selection.SCENE_COLUMNS) :]
     return f"{''.join(f'{cell:>6}' for cell in scene)}   {''.join(f'{cell:>6}' for cell in query[:-1])}{query[-1]:>8}"
 
 
 def columns(text: str) -> int:
-    """How many columns the text takes: marks that are set over a letter, as in H̄, take none."""
+    """The number of columns of a text; combining marks, as in H̄, take none."""
     return sum(not unicodedata.combining(character) for character in text)
 
 
@@ -192,7 +192,7 @@ def padded(text: str, width: int) -> str:
 
 
 def paragraph(text: str, indent: int = 0, first: str = "") -> Iterator[str]:
-    """The text in lines, no comparison parted from its sides; `first` stands in the indent of the first line."""
+    """The text in lines, without a break inside a comparison; `first` replaces the indent of the first line."""
     glued = re.sub(r"(?<=\S) ([=<>≤≥≠]) (?=\S)", "\u00a0\\1\u00a0", text)
     glued = re.sub(r"(?<=\d), (?=[\d−]\S*\)|\d+, )", ",\u00a0", glued)  # a point's coordinates stay together
     lines = textwrap.wrap(glued, WIDTH - indent, break_long_words=False, break_on_hyphens=False)
@@ -238,7 +238,7 @@ def _terms(text: str, depth: int) -> Iterator[str]:
 
 
 def matrix(name: str, rows: Sequence[Sequence[str]], indent: int, remark: str) -> Iterator[str]:
-    """A matrix, a row a line; the remark stands at the last."""
+    """A matrix, one line for each row; the remark is at the end of the last line."""
     widths = [max(map(columns, column)) for column in zip(*rows, strict=True)]
     last = len(rows) - 1
     for number, row in enumerate(rows):

@@ -1,4 +1,4 @@
-"""Share of wrong answers against distance: one curve a method, for a verification and for a benchmark.
+"""Share of wrong answers against distance: one curve per method, for a verification and for a benchmark.
 
 If none of n answers was wrong, the share is not zero but unknown: at most 3/n at a confidence of 95 % (the rule of
 three: (1 − 3/n)ⁿ ≈ e⁻³ ≈ 0.05). That limit is drawn as a hollow triangle that points down.
@@ -42,7 +42,7 @@ _LOG2_10 = math.log2(10)
 
 @dataclass(frozen=True, slots=True)
 class Octave:
-    """Cases whose distance is in [2^exponent, 2^(exponent + width)), or which are exact tangencies (TANGENT)."""
+    """Cases with a distance in [2^exponent, 2^(exponent + width)); with the exponent TANGENT, exact tangencies."""
 
     exponent: float
     asked: int
@@ -51,7 +51,7 @@ class Octave:
 
     @property
     def middle(self) -> float:
-        """The log2 of the distance in its middle."""
+        """The log2 of the distance in the middle of the octave."""
         return self.exponent + self.width / 2
 
     @property
@@ -69,26 +69,26 @@ class Curve:
 
     @property
     def asked(self) -> int:
-        """All cases."""
+        """The number of all cases."""
         return sum(octave.asked for octave in self.octaves)
 
     @property
     def wrong(self) -> int:
-        """All wrong answers."""
+        """The number of all wrong answers."""
         return sum(octave.wrong for octave in self.octaves)
 
 
 def curve(name: str, octaves: Mapping[float, tuple[int, int]]) -> Curve:
     """A method's curve of [asked, wrong] by octave. Where there are many octaves, STEP of them make one point.
 
-    Points of few cases each would hide the curve behind their scatter.
+    Points with few cases each would scatter and hide the curve.
     """
     finite = [exponent for exponent in octaves if math.isfinite(exponent)]
     width = STEP if finite and max(finite) - min(finite) > MANY else 1
     asked: Counter[float] = Counter()
     wrong: Counter[float] = Counter()
     for exponent, (cases, errors) in octaves.items():
-        if exponent == math.inf:  # no change of the inputs changes the answer, so it has no place on the axis
+        if exponent == math.inf:  # no change of the inputs changes the answer, so the octave has no place on the axis
             continue
         start = exponent if exponent == TANGENT else exponent // width * width
         asked[start] += cases
@@ -98,7 +98,7 @@ def curve(name: str, octaves: Mapping[float, tuple[int, int]]) -> Curve:
 
 
 def in_parts(curves: Sequence[Curve]) -> Iterator[Sequence[Curve]]:
-    """The curves in parts that a plot can show, as even as possible."""
+    """The curves in parts of about equal size, each small enough for a plot."""
     parts = -(-len(curves) // AT_MOST)
     for part in range(parts):
         yield curves[part * len(curves) // parts : (part + 1) * len(curves) // parts]
@@ -146,7 +146,7 @@ def _axes(axes: Axes, curves: Sequence[Curve]) -> float:
 def _draw_curve(
     axes: Axes, curve: Curve, gid: str, how: style.CurveStyle, turn: tuple[int, int], left: float
 ) -> dict[str, list[str]]:
-    """Draw a curve. Marks with tooltips: its octaves with wrong answers, and in turn with other curves some without."""
+    """Draw a curve. Octaves with wrong answers have tooltips; curves take turns to have them for other octaves."""
     at = [(left if octave.exponent == TANGENT else octave.middle, octave) for octave in curve.octaves]
     finite = [pair for pair in at if pair[1].exponent != TANGENT]
     for measured, dashes, width in ((True, how.dashes, 1.4), (False, _DOTS, 0.9)):
@@ -170,7 +170,7 @@ def _tip(name: str, octave: Octave) -> str:
 
 
 def _segments(finite: Sequence[tuple[float, Octave]], *, measured: bool) -> tuple[list[float], list[float]]:
-    """The lines between neighbours of which one (`measured`) or none has wrong answers; separated by nan."""
+    """The lines between neighbours, separated by nan: those with wrong answers at an end (`measured`) or the others."""
     xs, ys = [], []
     for (x0, before), (x1, after) in pairwise(finite):
         if bool(before.wrong or after.wrong) == measured:
@@ -193,7 +193,7 @@ NOT_WRONG = ("right", "skipped", "abstained", "refused")
 
 
 def octave_plots(record: Record) -> Iterator[Plot]:
-    """A plot for each precision, more of them where the methods are many."""
+    """A plot for each precision; several if it has many methods."""
     totals = implementations(record)
     for precision in dict.fromkeys(total.precision for total in totals):
         curves = [one for total in totals if total.precision == precision and (one := _octave_curve(total)).octaves]
@@ -203,7 +203,7 @@ def octave_plots(record: Record) -> Iterator[Plot]:
 
 
 def _octave_curve(implementation: ImplementationTotal) -> Curve:
-    """The octaves of all families together."""
+    """The curve of an implementation, over all families together."""
     asked: Counter[float] = Counter()
     wrong: Counter[float] = Counter()
     for group in implementation.groups:
@@ -222,7 +222,7 @@ _SHORT, _LONG = "float32 and shorter", "float64 and longer"
 
 
 def error_plots(record: Record) -> Iterator[Plot]:
-    """A plot for each group of methods, of the workload near contact, or the first."""
+    """A plot for each group of methods on the workload near contact, or on the first workload."""
     for number, (group, curves) in enumerate(_groups(measured_methods(record), principal(record))):
         yield curve_plot(f"errors-{number}", group, curves)
 

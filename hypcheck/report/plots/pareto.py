@@ -1,7 +1,7 @@
-"""Error against run time: how near to contact a method is reliable, its cost, and the front that no other method beats.
+"""Error against run time: the distance above which a method is reliable, its cost, and the front of unbeaten methods.
 
-Of methods for sweeps, the share of missed and of false contacts stands in place of the distance. The methods of
-the front and those of the user have names; the other points have tooltips.
+For methods for sweeps, the share of missed and of false contacts is drawn instead of the distance. The methods of the
+front and the user's methods have names; the other points have tooltips.
 """
 
 from __future__ import annotations
@@ -66,11 +66,11 @@ def place_labels(
 ) -> None:
     """Write the name of each point (None: no name), the most important first. The axes' limits must be set before.
 
-    `lines` are level or upright and are kept free, too. After the first `important` names, a name stands next to its
-    point or is left out.
+    `lines` are horizontal or vertical; names do not cover them. After the first `important` names, a name is placed
+    next to its point or left out.
     """
     figure: Any = axes.figure
-    figure.canvas.draw()  # this computes the layout, which must not change later
+    figure.canvas.draw()  # drawing computes the layout, which must not change later
     figure.set_layout_engine("none")
     renderer = figure.canvas.get_renderer()
     scale = figure.dpi / 72
@@ -105,7 +105,7 @@ def place_labels(
 
 
 def _leader(across: str, upward: str) -> dict[str, Any]:
-    """The line from the corner of a name that stands farther away to its point."""
+    """The line from the corner of a name that is not next to its point to the point."""
     corner = (0.0 if across == "left" else 1.0, 0.0 if upward == "bottom" else 1.0)
     return {
         "arrowstyle": "-",
@@ -137,7 +137,7 @@ class MethodMark:
 
 
 def _draw_methods(axes: Axes, name: str, methods: Sequence[MethodMark]) -> dict[str, list[str]]:
-    """Draw the marks, the fastest tier on top, with a ring about those of exact methods. Returns the tooltips."""
+    """Draw the marks, the fastest tier on top, with a ring around marks of exact methods. Returns the tooltips."""
     exact = [method.mark for method in methods if method.exact]
     axes.plot([mark.x for mark in exact], [mark.y for mark in exact], **RING)
     tips: dict[str, list[str]] = {}
@@ -227,7 +227,7 @@ def points(record: Record, workload: str, *, everywhere: bool = False) -> list[P
 
 
 def front(candidates: Sequence[ParetoPoint]) -> list[ParetoPoint]:
-    """The points that no other beats: from the fastest on, each more reliable than all faster ones."""
+    """The points that no other point beats: from the fastest on, each more reliable than all faster ones."""
     best, kept = math.inf, []
     for point in sorted(candidates, key=lambda point: (point.time_ns, point.reliable_above)):
         if point.reliable_above < best:
@@ -237,7 +237,7 @@ def front(candidates: Sequence[ParetoPoint]) -> list[ParetoPoint]:
 
 
 def pareto_plots(record: Record) -> Iterator[style.Plot]:
-    """A plot for each timed workload, but not the one in `front_plots` if there are others."""
+    """A plot for each timed workload; if there are several, without the workload of `front_plots`."""
     found_on = {name: methods for name in measured.workloads(record) if (methods := points(record, name))}
     for place, (name, line) in enumerate(measured.workloads(record).items()):
         methods = found_on.get(name, [])
@@ -246,9 +246,9 @@ def pareto_plots(record: Record) -> Iterator[style.Plot]:
 
 
 def front_plots(record: Record) -> Iterator[style.Plot]:
-    """Two plots with names where there is room: the workload near contact, and the worst of all workloads.
+    """Two plots, with names if they fit: for the workload near contact, and for the worst of all workloads.
 
-    Of a benchmark of sweeps: missed contacts, and false contacts.
+    For a benchmark of sweeps: missed contacts, and false contacts.
     """
     if measured.sweep_totals(record):
         yield from _sweep_plots(record)
@@ -262,7 +262,7 @@ def front_plots(record: Record) -> Iterator[style.Plot]:
 
 
 def _plot(name: str, title: str, methods: Sequence[ParetoPoint], height: float = 375, timed: str = "") -> style.Plot:
-    """A plot with names along the front and of the user's methods, or with all if they are few; others have tooltips.
+    """A plot with names of the front's and the user's methods, or of all if they are few; others have tooltips.
 
     `timed` names the workload of the times if the title does not.
     """
@@ -301,7 +301,7 @@ _UNBEATEN = "no method is faster and more reliable"
 
 
 def _axes(axes: Axes, methods: Sequence[ParetoPoint], timed: str) -> dict[float, float]:
-    """Name the axes; the height of each reliability: its log10, and heights of their own for 0 and infinity."""
+    """Name the axes; return the height of each reliability: its log10, with separate heights for 0 and infinity."""
     finite = [math.log10(point.reliable_above) for point in methods if 0 < point.reliable_above < math.inf] or [-1.0]
     low, high = math.floor(min(finite)), math.ceil(max(finite))
     span = max(high - low, 4)
@@ -328,7 +328,7 @@ def _axes(axes: Axes, methods: Sequence[ParetoPoint], timed: str) -> dict[float,
 def _steps(
     best: Sequence[ParetoPoint], heights: dict[float, float], end: float
 ) -> list[tuple[Coordinates, Coordinates]]:
-    """The front's line, level from each point to the next one's time and then down to it."""
+    """The front's line: horizontal from each point to the next point's time, then down to this point."""
     steps: list[tuple[Coordinates, Coordinates]] = []
     for before, after in pairwise(best):
         corner = (after.time_ns, heights[before.reliable_above])

@@ -1,6 +1,6 @@
 """Pictures over a plane: shares of wrong answers over sizes and places, and maps of the half plane (r, z).
 
-Shares have five steps of colour, and stay empty where nothing was asked. In the half plane a dot is a grid point, r is
+Shares have five steps of colour; cells without a tested row stay empty. In the half plane a dot is a grid point, r is
 drawn across and z up; the fields of a verification are in semi-axes of the hyperboloid, r/α and |z|/γ.
 """
 
@@ -50,7 +50,7 @@ def step(asked: int, wrong: int) -> str:
 
 
 def cells(bins: Iterable[Sequence[int]], merged: int = 1) -> Cells:
-    """The cells of [across, up, asked, wrong], so many of them made one in each direction."""
+    """The cells of [across, up, asked, wrong], with `merged` of them joined into one in each direction."""
     asked: Counter[tuple[int, int]] = Counter()
     wrong: Counter[tuple[int, int]] = Counter()
     for across, up, cases, errors in bins:
@@ -60,7 +60,7 @@ def cells(bins: Iterable[Sequence[int]], merged: int = 1) -> Cells:
 
 
 def _heat_plots(prefix: str, width: float, maps: Mapping[str, Cells]) -> Iterator[Plot]:
-    """A small plot over the sizes for each map, by its title; all over the same part of the plane.
+    """A small plot over the sizes for each map, by its title; all show the same part of the plane.
 
     A cell has `width` decades: cell k reaches from 10^(k·width) to 10^((k+1)·width).
     """
@@ -81,7 +81,7 @@ def _heat_plot(name: str, title: str, width: float, bins: Cells, limits: Sequenc
     axes.grid(visible=False)
     wrong = {place: counts for place, counts in bins.items() if counts[1]}
     right = [place for place in bins if place not in wrong]
-    if right:  # as one shape: there are many, and nothing else to say of each
+    if right:  # as one shape, because there are many and none has a tooltip
         shape = Path.make_compound_path_from_polys(_squares(right))
         axes.add_patch(PathPatch(shape, facecolor=colour("share-0"), linewidth=0, clip_on=False))
     if wrong:
@@ -158,7 +158,7 @@ def picture_limits(r: Interval, z: Interval, shape: tuple[int, ...]) -> Any:  # 
 
 
 def mark_grid_points(axes: Axes, letters: Sequence[str], colours: Mapping[str, str], r: Interval, z: Interval) -> None:
-    """Draw the grid points of these letters as dots, too, for cells that are too small to be seen."""
+    """Draw the grid points of these letters also as dots, because some cells are too small to be seen."""
     grid = np.array([list(text) for text in letters])
     rs, zs = np.linspace(*r, grid.shape[1]), np.linspace(*z, grid.shape[0])
     for letter, name in colours.items():
@@ -258,7 +258,7 @@ def map_plots(record: Record) -> Iterator[Plot]:
 
 
 def maps_together(record: Record) -> Plot:
-    """The maps side by side, with a title that explains the picture without a report."""
+    """The maps side by side, with a title that explains the picture when it is seen without a report."""
     lines = record.of(MapLine)
     drawn = draw_maps(lines, 390 * len(lines), 470)
     drawn.suptitle("\n".join(dict.fromkeys(map(_scene, lines))), fontsize=11)
@@ -304,7 +304,7 @@ def _scene(line: MapLine) -> str:
 
 
 def _point_out(panels: Sequence[Axes], lines: Sequence[MapLine]) -> None:
-    """Mark in a large panel the place of a small one that lies inside it."""
+    """Mark in a large panel the region of a small panel that lies inside it."""
     for axes, line in zip(panels, lines, strict=True):
         for small in lines:
             if small is not line and _within(small, line):

@@ -1,7 +1,7 @@
 """Pictures of simulations: a walk in the forest with its phantoms, and flights inside a cooling tower.
 
-Of the forest: the walk from above, an invisible wall, the forest in space. Of the tower: the paper's Figure 4 redrawn,
-its Table 5 over the step v·t, and a tilted quadcopter.
+The forest has these: the walk from above, an invisible wall, the forest in space. The tower has these: the paper's
+Figure 4 redrawn, its Table 5 over the step v·t, and a tilted quadcopter.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ def axes_in_space(figure: Any, place: tuple[float, float, float, float], elevati
     for axis in (axes.xaxis, axes.yaxis, axes.zaxis):
         axis.set_pane_color((1.0, 1.0, 1.0, 0.0))
     axes.tick_params(labelsize=9, pad=1)
-    axes.tick_params(axis="z", pad=7)  # numbers stand apart from the axes
+    axes.tick_params(axis="z", pad=7)  # keep numbers away from the axes
     axes.zaxis.labelpad = 9
     return axes
 
@@ -38,7 +38,7 @@ def axes_in_space(figure: Any, place: tuple[float, float, float, float], elevati
 def _hyperboloid(
     body: dict[str, Any], heights: tuple[float, float], levels: int, facets: int
 ) -> tuple[Floats, Floats, Floats]:
-    """The points (x, y, z) of a surface about its own centre: as many levels between two heights, and facets."""
+    """The points (x, y, z) of a surface about its own centre, at `levels` heights and with `facets` facets."""
     z, angle = np.meshgrid(np.linspace(*heights, levels), np.linspace(0, 2 * np.pi, facets), indexing="ij")
     radius = body["alpha"] * np.hypot(1, z / body["gamma"])
     return radius * np.cos(angle), radius * np.sin(angle), z
@@ -52,7 +52,7 @@ def _circle(centre: Sequence[float], radius: float, pieces: int) -> tuple[list[f
 
 
 def _mark_contacts(axes: Iterable[Any], ways: dict[str, Any] | None) -> None:
-    """Mark the mover's centre at first contacts on the way, in axes of the plane or in space; none if not asked."""
+    """Mark the mover's centre at first contacts on sweeps, in a plane or in space; nothing if there are no sweeps."""
     points = []
     for contact in ways["contacts"] if ways else []:
         start, end = np.array(contact["start"]), np.array(contact["end"])
@@ -153,7 +153,7 @@ def _draw_stops(axes: Any, stops: list[dict[str, Any]], coordinates: int, **look
 
 
 def _wall(axes: Axes, whole: Axes, wall: dict[str, Any]) -> None:
-    """The surroundings of a phantom, in millimetres from it, and its place in the whole picture."""
+    """Draw the surroundings of a phantom, in millimetres from it, and mark it in the whole picture."""
     millimetres = 1000 * wall["half"]
     span = (-millimetres, millimetres)
     colours = {"e": FAINT, "E": colour("clear"), "c": colour("ink"), "C": colour("contact")}
@@ -179,9 +179,9 @@ def _wall(axes: Axes, whole: Axes, wall: dict[str, Any]) -> None:
 
 def _space(result: dict[str, Any]) -> Plot:
     figure = new_figure(760, 480)
-    place = (-0.12, -0.16, 1.22, 1.42)  # wider than what is drawn in it
+    place = (-0.12, -0.16, 1.22, 1.42)  # wider than its content
     axes = axes_in_space(figure.subfigures(), place, _ELEVATION, _AZIMUTH)
-    axes.computed_zorder = False  # by parts it would hide marks behind trunks
+    axes.computed_zorder = False  # drawn in parts, it would hide marks behind trunks
     for tree in sorted(result["trees"], key=_nearness):
         _trunk(axes, tree)
     foot = result["path"][0][2] - result["walker"]["d"]
@@ -201,7 +201,7 @@ def _space(result: dict[str, Any]) -> Plot:
 
 
 def _nearness(tree: dict[str, Any]) -> float:
-    """How near a tree is to the viewer of the forest in space; trees that are drawn later hide earlier ones."""
+    """A tree's nearness to the viewer of the forest in space; trees that are drawn later hide earlier ones."""
     angle = math.radians(_AZIMUTH)
     return float(tree["center"][0]) * math.cos(angle) + float(tree["center"][1]) * math.sin(angle)
 
@@ -229,7 +229,7 @@ _FRAMED: dict[str, Any] = {"frameon": True, "facecolor": colour("surface"), "edg
 
 
 def tower_plots(result: dict[str, Any]) -> Iterator[Plot]:
-    """The flights, and the table where there is one."""
+    """The flights, and the table if the result has one."""
     yield flights(result)
     if result["table_5"] is not None:
         yield _table(result["table_5"])
@@ -260,7 +260,7 @@ def flights(result: dict[str, Any]) -> Plot:
 
 
 def _tower_in_space(figure: SubFigure, assumptions: dict[str, Any], paths: list[dict[str, Any]]) -> Any:  # noqa: ANN401 - axes in space
-    axes = axes_in_space(figure, (-0.33, 0.0, 1.6, 1.0), 20, -60)  # a square, wider than what is drawn in it
+    axes = axes_in_space(figure, (-0.33, 0.0, 1.6, 1.0), 20, -60)  # a square, wider than its content
     wires = _hyperboloid(assumptions, _heights(assumptions, paths), 15, 25)
     axes.plot_wireframe(*wires, color=colour("soft"), linewidth=0.4, alpha=0.55)
     for place, path in enumerate(paths):
@@ -275,7 +275,7 @@ def _tower_in_space(figure: SubFigure, assumptions: dict[str, Any], paths: list[
 
 
 def _heights(assumptions: dict[str, Any], paths: list[dict[str, Any]]) -> tuple[float, float]:
-    """The part of the tower that is drawn: what is modelled, or what the flights use of it."""
+    """The heights of the tower that are drawn: the modelled part, or the part that the flights use."""
     if assumptions["height"] is not None:
         return float(assumptions["height"][0]), float(assumptions["height"][1])
     heights = [position[2] for path in paths for position in path["positions"]]
@@ -353,7 +353,7 @@ def _table(table: dict[str, Any]) -> Plot:
 
 
 def _pitch(assumptions: dict[str, Any], pitch: dict[str, Any]) -> Plot:
-    """The body upright and tilted beside the wall, and how often that changes the answer, over the step."""
+    """Draw the body upright and tilted beside the wall, and the share of answers changed by the tilt, over the step."""
     figure = new_figure(760, 380)
     section, shares = figure.subplots(1, 2, width_ratios=[1, 1.5])
     _section(section, assumptions, pitch["degrees"])

@@ -1,13 +1,13 @@
-"""How figures look: lines that differ without colour, sizes for a telephone, axes; and each figure as SVG.
+"""The style of figures: lines that differ without colour, sizes for a telephone, axes; and each figure as SVG.
 
-Widths are in points of the picture, which a page scales: 380 of them are legible across a telephone and across half a
-screen. Each curve has its own marker and dashes besides its colour.
+Widths are in points of the picture, which a page scales: a width of 380 is legible on a telephone and on half a screen.
+Each curve has its own marker and dashes besides its colour.
 
 SVG is for a page or a file: colours by role, tooltips, a title and a description, nothing to load. matplotlib writes
 colours and sizes as style attributes, which a strict content security policy forbids, and ids that clash with those of
 other figures on a page. Here colours become classes, which a page's style sheet defines for light and dark ground, the
-rest become attributes, and ids begin with the plot's name. In a file of its own each mark also carries its colour on
-light ground as an attribute, since viewers outside a browser know no variables of style sheets.
+rest become attributes, and ids begin with the plot's name. In a separate file each mark also has its colour on light
+ground as an attribute, because viewers outside a browser do not support variables of style sheets.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ NONE_WRONG = "none of n wrong: at most 3/n (95 %)"
 SETTINGS = {
     "figure.facecolor": "none",  # the page's own ground, light or dark
     "axes.facecolor": "none",
-    "font.family": "DejaVu Sans",  # wider than what a page uses in its place, so that what fits here fits there
+    "font.family": "DejaVu Sans",  # wider than the page's font, so that a text that fits here fits there
     "font.size": 10.5,
     "axes.titlesize": 10.5,
     "axes.labelsize": 10.5,
@@ -92,7 +92,7 @@ SETTINGS = {
 
 
 class CurveStyle(NamedTuple):
-    """The look of one curve of several."""
+    """The style of one of several curves."""
 
     colour: str
     marker: str
@@ -100,12 +100,12 @@ class CurveStyle(NamedTuple):
 
     @property
     def line(self) -> dict[str, Any]:
-        """The look of its line, as arguments of matplotlib."""
+        """The style of its line, as arguments of matplotlib."""
         return {"color": self.colour, "linestyle": self.dashes}
 
     @property
     def marks(self) -> dict[str, Any]:
-        """The look of its marks without a line, as arguments of matplotlib."""
+        """The style of its marks without a line, as arguments of matplotlib."""
         return {"color": self.colour, "marker": self.marker, "linestyle": "none"}
 
 
@@ -115,7 +115,7 @@ def colour(role: str) -> str:
 
 
 def curve_style(place: int) -> CurveStyle:
-    """The look of the curve at a place; after eight, markers and dashes are combined differently."""
+    """The style of the curve with this number; after eight, markers and dashes are combined differently."""
     number = len(MARKERS)
     turn = place // number
     return CurveStyle(
@@ -139,7 +139,7 @@ class Mark(NamedTuple):
 
 
 def draw_marks(axes: Axes, gid: str, marks: Sequence[Mark], **look: Any) -> dict[str, list[str]]:  # noqa: ANN401
-    """Draw marks of one look without a line. Returns their tooltips by the gid; nothing if there are no marks."""
+    """Draw marks of one style without a line. Returns their tooltips by the gid; empty if there are no marks."""
     if not marks:
         return {}
     xs, ys = [mark.x for mark in marks], [mark.y for mark in marks]
@@ -155,16 +155,16 @@ def styled() -> Iterator[None]:
 
 
 def new_figure(width: float, height: float) -> Figure:
-    """A figure of so many points, with a layout that makes room for labels."""
+    """A figure of this width and height in points, with a layout that leaves room for labels."""
     made = Figure(figsize=(width / 72, height / 72), layout="constrained")
-    FigureCanvasAgg(made)  # it measures texts
+    FigureCanvasAgg(made)  # the layout measures texts
     return made
 
 
 def share_layout(figure: Figure, first: Figure | None) -> Figure:
-    """Give the axes of a figure the places that they have in the `first` of equal ones; return the first.
+    """Give a figure's axes the places that they have in the `first` of equal figures; return the first.
 
-    To find a layout takes half of the time of drawing a small plot.
+    Computing a layout takes half of the time of drawing a small plot.
     """
     if first is None:
         figure.draw_without_rendering()
@@ -179,14 +179,14 @@ _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def power_of_ten(exponent: int) -> str:
-    """A power of ten as an axis shows it: 0.01, 0.1, 1, 10, 100, else 10⁻¹²."""
+    """The label of a power of ten on an axis: 0.01, 0.1, 1, 10, 100, else 10⁻¹²."""
     if -2 <= exponent <= 2:
         return f"{10.0**exponent:g}"
     return f"10{str(exponent).translate(_SUPERSCRIPTS)}"
 
 
 def _axis_number(value: float) -> str:
-    """A number as an axis shows it, of one digit: 0.02, 5, 2·10⁻⁴."""
+    """The label of a number of one digit on an axis: 0.02, 5, 2·10⁻⁴."""
     exponent = math.floor(math.log10(value) + 1e-9)
     digit = round(value / 10.0**exponent)
     if digit == 1:
@@ -195,7 +195,7 @@ def _axis_number(value: float) -> str:
 
 
 def ticks(low: float, high: float) -> list[tuple[float, str]]:
-    """Places and names on a logarithmic axis: powers of ten, with twos and fives if those are few."""
+    """Places and labels on a logarithmic axis: powers of ten, with twos and fives if the powers are few."""
     powers = [10.0**exponent for exponent in decades(low, high)]
     if len(powers) < 2:
         first, last = math.floor(math.log10(low)), math.ceil(math.log10(high))
@@ -251,7 +251,7 @@ _MARKS = (f"{_SVG}use", f"{_SVG}path", f"{_SVG}image")
 class Plot:
     """A figure with its `name` (of letters, digits and hyphens; its own on the page), its title and its description.
 
-    `tips` are tooltips: for the gid of an artist one for each of its marks, in the order in which they are drawn.
+    `tips` are tooltips by the gid of an artist: one for each of its marks, in the order of drawing.
     """
 
     name: str
@@ -296,7 +296,7 @@ def together(name: str, title: str, plots: Sequence[tuple[str, str]]) -> bytes:
 
 
 def _file(root: Xml.Element) -> bytes:
-    """A described element as a file of its own: with its colours, the rules for dark ground, and a ground."""
+    """A described element as a separate file: with its colours, the rules for dark ground, and a background."""
     root.set("font-family", _FONT)
     style = Xml.Element(f"{_SVG}style")
     style.text = _SHARP_LETTERS + dark_rules()
@@ -319,9 +319,9 @@ def _paint(element: Xml.Element) -> None:
 def _element(plot: Plot) -> Xml.Element:
     stream = io.BytesIO()
     with styled(), warnings.catch_warnings():  # the style says how text and ids are written, too
-        warnings.filterwarnings("ignore", message="Glyph")  # a name in letters that the font has not
+        warnings.filterwarnings("ignore", message="Glyph")  # a name with letters that the font lacks
         metadata = dict.fromkeys(("Creator", "Date", "Format", "Type"))
-        plot.figure.set_dpi(144)  # of what is drawn as an image
+        plot.figure.set_dpi(144)  # for the parts that are drawn as an image
         FigureCanvasSVG(plot.figure).print_svg(stream, metadata=metadata)  # savefig draws everything twice
     root = Xml.fromstring(stream.getvalue())  # noqa: S314 - just written
     for parent in list(root.iter()):
@@ -380,7 +380,7 @@ def _shown(words: str) -> str:
 
 
 def _rename(root: Xml.Element, name: str) -> None:
-    """Ids that something refers to get the plot's name before them; the others go."""
+    """Prefix ids that are referred to with the plot's name; remove the other ids."""
     used = {
         reference
         for element in root.iter()
@@ -408,12 +408,12 @@ def _describe(root: Xml.Element, name: str, title: str, description: str) -> Non
     root.set("role", "img")
     root.set("aria-labelledby", f"{name}-title {name}-desc")
     root.set("stroke-linejoin", "round")
-    root.set("text-rendering", "geometricPrecision")  # else a scaled picture spaces its letters as if it were not
+    root.set("text-rendering", "geometricPrecision")  # else a scaled picture keeps the unscaled letter spacing
 
 
 def _text(root: Xml.Element) -> str:
     Xml.register_namespace("", _SVG.strip("{}"))
-    for element in root.iter():  # what matplotlib puts between elements to be read by people
+    for element in root.iter():  # white space that matplotlib adds for people
         element.tail = None
         if element.text is not None and not element.text.strip():
             element.text = None

@@ -39,7 +39,7 @@ class SpeedRow:
 
 
 def speed_plots(record: Record) -> Iterator[Plot]:
-    """A plot for each workload and mode in which there are ratios."""
+    """A plot for each workload and mode that has ratios."""
     methods = measured_methods(record)
     keys = dict.fromkeys((line.workload, line.mode) for line in record.of(SpeedLine))
     for number, (workload, mode) in enumerate(keys):
@@ -104,7 +104,7 @@ CONVERGENCE_QUANTITIES = (
 
 
 def convergence_plots(record: Record) -> Iterator[Plot]:
-    """A plot for each quantity, a curve a method."""
+    """A plot for each quantity, with a curve for each method."""
     methods: dict[str, list[ConvergenceLine]] = {}
     for line in sorted(record.of(ConvergenceLine), key=lambda line: line.triangles):
         methods.setdefault(line.method, []).append(line)
@@ -114,7 +114,7 @@ def convergence_plots(record: Record) -> Iterator[Plot]:
 
 
 def _convergence_mark(line: ConvergenceLine, what: str) -> style.Mark:
-    """What is drawn of a line; of no wrong answer among n the upper limit 3/n."""
+    """The mark for a line of the record; if none of n answers is wrong, at the upper limit 3/n."""
     tip = (
         f"{line.method}, {line.triangles:,} triangles: {line.wrong:,} of {line.asked:,} wrong,"
         f" deviation {figure(line.deviation)} radii, query {figure(line.query_ns)} ns,"
@@ -169,7 +169,7 @@ def bounding_plots(record: Record) -> Iterator[Plot]:
 
 
 def _bounding_marks(line: BoundingLine, what: str) -> list[style.Mark]:
-    """What is drawn over d/b, of the rows that have it."""
+    """The marks over d/b, for the rows that have the quantity."""
     marks = []
     for ratio, asked, contacts, excess in line.overlap:
         value = excess if what == "excess" else contacts / asked if asked else None
@@ -195,7 +195,7 @@ def _bounding_plot(what: str, label: str, curves: Mapping[str, Sequence[style.Ma
 
 
 def forest_plots(record: Record) -> Iterator[Plot]:
-    """One plot, a curve for each that was asked."""
+    """One plot, with a curve for each candidate."""
     curves: dict[str, list[style.Mark]] = {}
     for line in sorted(record.of(ForestLine), key=lambda line: line.trees):
         tip = (

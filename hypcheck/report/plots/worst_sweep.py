@@ -1,8 +1,9 @@
-"""The worst answer of each implementation about a sweep: that sweep in the half plane (r, z), where it is curved.
+"""The worst answer of each implementation about a sweep: the sweep in the half plane (r, z), where it is curved.
 
 An upright spheroid meets the hyperboloid in the half plane of its centre, so that the half plane shows the truth at
-each time. The whole sweep stands left; right of it is where the spheroid first touches, or comes nearest, which a long
-sweep would hide. Sweeps of tilted spheroids have no picture: where they touch, it need not be in this plane.
+each time. The left panel shows the whole sweep. The right panel shows the place where the spheroid first touches or is
+nearest, which is too small to see in a long sweep. Sweeps of tilted spheroids have no picture, because their contact
+need not be in this plane.
 """
 
 from __future__ import annotations
@@ -87,7 +88,7 @@ def _drawn(case: WrongAnswer) -> _DrawnSweep:
 
 
 def _nearest_time(row: tuple[float, ...]) -> float:
-    """The time, about, at which the spheroid is nearest to the surface."""
+    """The approximate time at which the spheroid is nearest to the surface."""
     low, high = 0.0, 1.0
     for _ in range(_ZOOMS):
         times = np.linspace(low, high, _POINTS // _ZOOMS)
@@ -113,7 +114,7 @@ def _whole(axes: Axes, sweep: _DrawnSweep) -> None:
     r = min(float(rs.min()) - 1.2 * b, near_r[0]), max(float(rs.max()) + 1.2 * b, near_r[1])
     z = min(float(zs.min()) - 1.2 * d, near_z[0]), max(float(zs.max()) + 1.2 * d, near_z[1])
     span = r[1] - r[0]
-    r = (0.0 if r[0] < span else r[0]), r[1] + 0.04 * span  # the axis, unless it is far away; the marks of both ends
+    r = (0.0 if r[0] < span else r[0]), r[1] + 0.04 * span  # room for the axis, unless far away, and for end marks
     _panel(axes, sweep, r, z, "the whole way")
     for time, marker in ((0.0, "o"), (1.0, "s")):
         axes.plot(*sweep.at(time), marker=marker, markersize=6, color=colour(SWEEP), zorder=4)
@@ -137,14 +138,14 @@ def _panel(axes: Axes, sweep: _DrawnSweep, r: Interval, z: Interval, title: str)
 
 
 def _about(sweep: _DrawnSweep) -> tuple[Interval, Interval]:
-    """The part of the half plane about the spheroid at the time that is shown."""
+    """The part of the half plane around the spheroid at the shown time."""
     b, d = sweep.row[2:4]
     r, z = (float(coordinate) for coordinate in sweep.at(sweep.shown))
     return (max(0.0, r - AROUND * b), r + AROUND * b), (z - AROUND * d, z + AROUND * d)
 
 
 def _times(sweep: _DrawnSweep) -> Floats:
-    """Times of the whole sweep, and more of them about the one that is shown and where it is nearest to the axis."""
+    """Times of the whole sweep, denser around the shown time and around the time nearest to the axis."""
     x, y = sweep.row[4:6]
     u, v = sweep.row[7] - x, sweep.row[8] - y
     turn = -(x * u + y * v) / (u * u + v * v) if u or v else 0.0

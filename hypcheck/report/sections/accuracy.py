@@ -66,7 +66,7 @@ _FAMILY_DISTANCE = prose(
 
 
 def family_sections(record: Record) -> Iterator[Section]:
-    """Every family of every judged method, the worst cases, and where they lie; only the page has these sections."""
+    """Every family of every judged method, the worst cases, and their places; only the page has these sections."""
     totals = [total for total in implementations(record) if total.asked or total.statuses]
     if not totals:
         return
@@ -115,7 +115,7 @@ def _family_table(totals: Sequence[ImplementationTotal]) -> TableBlock:
 
 
 def _mistakes(totals: Sequence[ImplementationTotal]) -> list[str]:
-    """The kinds of mistakes that can be made about the questions of these methods."""
+    """The kinds of mistakes that are possible for the questions of these methods."""
     about_sweeps = {QUESTIONS[total.question].layout.has_end for total in totals}
     of_positions = [Mistake.WRONG_SIDE] if False in about_sweeps else []
     of_times = [Mistake.LATE, Mistake.EARLY] if True in about_sweeps else []

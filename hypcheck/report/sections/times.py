@@ -53,7 +53,7 @@ def speed_sections(record: Record) -> Iterator[Section]:
 
 
 def _untimed(words: str, lines: Sequence[measurements.RefusedLine | measurements.UnmeasuredLine]) -> list[Block]:
-    """A list of these lines after these words; nothing without a line."""
+    """A list of these lines after these words; nothing if there is no line."""
     items = [(Code(line.method), f" on {line.workload}, {line.mode}: {line.reason}") for line in lines]
     return [Paragraph(words), bullets(items)] if items else []
 
@@ -107,7 +107,7 @@ _SCENES = prose(
 
 
 def scene_sections(record: Record) -> Iterator[Section]:
-    """What scenes leave out and save, and the cost of a walker's step in a forest."""
+    """The work that scenes' kernels leave out, the time that they save, and the cost of a walker's step in a forest."""
     scenes, forests = record.of(measurements.SceneLine), record.of(measurements.ForestLine)
     if scenes:
         yield Section("What scenes leave out", (Paragraph(_SCENES), _shares(scenes), _scene_table(scenes)))

@@ -45,7 +45,7 @@ _ORACLES = prose(
 
 
 def oracle_sections(record: Record) -> Iterator[Section]:
-    """The agreement of the oracles; none if no oracle was wanted."""
+    """The agreement of the oracles; none if the plan has no oracle."""
     totals = model.oracle_totals(record)
     if not totals:
         return
@@ -78,7 +78,7 @@ _IN_TABLE = ("right", "tolerated", "wrong", "skipped")
 
 
 def method_sections(record: Record) -> Iterator[Section]:
-    """What each method got wrong, by how much, and in which families; none if nothing was judged."""
+    """The wrong answers of each method, their errors and families; none if nothing was judged."""
     totals = model.implementations(record)
     exact = [total for total in totals if total.exact]
     others = [total for total in totals if not total.exact]
@@ -187,7 +187,7 @@ def _statuses(statuses: dict[str, int]) -> str:
 
 
 def gated_sections(record: Record) -> Iterator[Section]:
-    """Gated implementations: what each declares, and what it was judged as; none if nothing was gated."""
+    """Gated implementations: their declarations, and the values used to judge them; none if nothing was gated."""
     gated = model.under_test(record)
     if not gated:
         return
@@ -203,7 +203,7 @@ def gated_sections(record: Record) -> Iterator[Section]:
 
 
 def _gated_rows(name: str, line: ImplementationLine) -> Iterator[Row]:
-    """What it declares, and what it was judged as: options of the command line replace declarations."""
+    """The declarations and the values used to judge: options of the command line replace declarations."""
     for shown, what, description in ((Code(name), "declared", line.declared), ("", "judged as", line.used)):
         yield (
             shown,
@@ -251,13 +251,13 @@ _SWEEPS = prose(
 
 
 def sweep_sections(record: Record) -> Iterator[Section]:
-    """The worst answers about sweeps, drawn; none if no such answer is wrong."""
+    """Pictures of the worst answers about sweeps; none if no answer about a sweep is wrong."""
     if any(model.drawn_sweep(implementation) is not None for implementation in model.implementations(record)):
         yield Section("The worst sweeps", (Paragraph(_SWEEPS), SWEEPS))
 
 
 def timing_sections(record: Record) -> Iterator[Section]:
-    """How long the fast path takes beside other methods; none if nothing was timed."""
+    """The time of the fast path compared with other methods; none if nothing was timed."""
     totals = model.timing_totals(record)
     if not totals:
         return
@@ -286,7 +286,7 @@ MAP = Figures("map", "exact positions and wrong answers over the half plane (r, 
 
 
 def map_sections(record: Record) -> Iterator[Section]:
-    """The points at which a method goes wrong in the half plane of a scene; none if there is no map."""
+    """The points in the half plane of a scene at which a method is wrong; none if there is no map."""
     items = [
         (
             f"{line.name}: ",
@@ -310,7 +310,7 @@ _FINDINGS = prose(
 
 
 def paper_sections(record: Record) -> Iterator[Section]:
-    """The paper's equations, the proofs of its formulas, and what they get wrong exactly."""
+    """The paper's equations, the proofs of its formulas, and their errors in exact arithmetic."""
     equations, proofs, findings = record.of(EquationLine), record.of(ProofLine), record.of(FindingLine)
     if equations:
         yield _equations(equations)
