@@ -245,7 +245,7 @@ CELLS = 121
 
 
 def phantom_wall(trees: Trees, place: Floats, half: float) -> dict[str, Any]:
-    """The answers over a square around a place at its height, as lines of letters from the least y to the greatest.
+    """The answers over a square around a place at its height: lines of letters from the least y to the greatest.
 
     e: exterior to every tree, c: not; upper case if float32 answers differently. x varies along a line.
     """

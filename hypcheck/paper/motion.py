@@ -1,26 +1,26 @@
-"""Moves and turns decided exactly from beginning to end, and what a test at the end of each move misses.
+"""Moves and turns decided exactly from beginning to end, and the errors of a test at the end of each move.
 
-Which sweeps and which turns in place are clear from beginning to end follows from one observation
-(docs/mathematics.md, "Monotone in every input"): an interior spheroid stays so where its centre comes nearer to the
-axis and farther from the waist's plane, an exterior one where it does the opposite. So one exact decision at the worst
-corner of a sweep, its largest distance from the axis with its least height, or the reverse, proves the whole sweep
-clear. A sweep that is neither proved clear so, nor disproved by one of its ends, is decided by truth/swept.py or
-truth/turning.py.
+One observation proves most sweeps and turns in place clear from beginning to end (docs/mathematics.md, "Monotone in
+every input"): an interior spheroid stays interior if its centre moves nearer to the axis and farther from the waist's
+plane, an exterior spheroid stays exterior if it does the opposite. So one exact decision at the worst corner of a sweep
+proves the whole sweep clear; the corner is the largest distance from the axis with the least height, or the reverse. If
+this proof fails and no end of the sweep is in contact, truth/swept.py or truth/turning.py decides.
 
 Bounds, u = 2⁻⁵³. Along a segment the distance from the axis is convex: the largest is at an end, and √(x²+y²) computed
 is within 3u of it. The least is not below the least of n·C at the ends for any horizontal direction n of length 1; n·C
 is computed to within 3u (|x|+|y|), and the n used is at most 1 + 4u long. Coordinates that are differences are within u
-of themselves. MARGIN covers all of these several times.
+of themselves. MARGIN is several times larger than the sum of these errors.
 
 A position is valid where the body is interior, or all four rotors are. The rotors lie within the body, so a sweep is
-valid from beginning to end exactly where no rotor meets contact on it. They are asked only where the body is not clear.
+valid from beginning to end exactly where no rotor meets contact on it. The rotors are tested only if the body is not
+clear.
 
-The last part is about a tilted quadcopter, of which Procedure 2.b knows nothing: its body is always upright. A
-quadcopter flies ahead by tilting: its axis makes the angle `degrees` with the vertical, towards where it goes. Its
-rotors tilt with it, in the plane through the body's centre perpendicular to the axis. Going up, down or turning in
-place it is upright. The sines and the rotors' places are rounded once, as those of an upright quadcopter are; the
-resulting numbers are decided exactly. A spheroid lies within the ball of its longer semi-axis. Where that ball is
-interior, so is the spheroid, however it is tilted; only the others are asked with their axes.
+The last part is about a tilted quadcopter, which Procedure 2.b does not model: its body is always upright. A quadcopter
+flies ahead by tilting: its axis makes the angle `degrees` with the vertical, in the direction of the movement. Its
+rotors tilt with it, in the plane through the body's centre perpendicular to the axis. When it goes up, down or turns in
+place, it is upright. The sines and the rotors' places are rounded once, as for an upright quadcopter; the resulting
+numbers are decided exactly. A spheroid lies within the ball of its longer semi-axis. If that ball is interior, the
+spheroid is interior for every tilt; only other spheroids are decided with their axes.
 """
 
 from __future__ import annotations
@@ -49,9 +49,9 @@ MARGIN = 64 * 2.0**-53
 def stays_on_side(
     side: Position, sizes: Sizes, start: Columns, end: Columns, center: tuple[float, float, float] = (0.0, 0.0, 0.0)
 ) -> Mask:
-    """Which spheroids keep to `side`, INTERIOR or EXTERIOR, on the whole segment from start to end; (n,).
+    """A mask of the spheroids that stay on `side`, INTERIOR or EXTERIOR, on the whole segment from start to end; (n,).
 
-    `center` is the hyperboloid's; what is rounded where it is subtracted is within the bounds too.
+    `center` is the hyperboloid's; the bounds include the rounding of its subtraction.
     """
     corner = _inner_corner if side is Position.INTERIOR else _outer_corner
     first, last = _from(center, start), _from(center, end)
@@ -78,13 +78,13 @@ def _favoured(side: Position, at: Columns) -> Columns:
 
 
 def _inner_corner(start: Columns, end: Columns) -> Columns:
-    """A position that is interior only if the whole sweep is: as far out and as low as the sweep gets."""
+    """A position whose interior answer proves the whole sweep interior: the sweep's largest radius and least height."""
     radius = np.maximum(np.hypot(start[0], start[1]), np.hypot(end[0], end[1])) * (1 + MARGIN)
     return radius, np.zeros_like(radius), _least_height(start[2], end[2]) * (1 - MARGIN)
 
 
 def _outer_corner(start: Columns, end: Columns) -> Columns:
-    """A position that is exterior only if the whole sweep is: as near to the axis and as high as the sweep gets."""
+    """A position whose exterior answer proves the whole sweep exterior: the sweep's least radius and largest height."""
     x, y = start[0] + end[0], start[1] + end[1]
     length = np.hypot(x, y)
     length = np.where(length > 0, length, 1.0)
@@ -114,11 +114,11 @@ def _least_height(first: Floats, second: Floats) -> Floats:
 
 
 def stays_on_side_turning(sizes: Sizes, arm: float, at: Columns, direction: Direction, degrees: Floats) -> Mask:
-    """Which parts stay interior while an arm that points into `direction` turns by so many degrees (−180 … 180); (n,).
+    """A mask of the parts that stay interior while an arm in `direction` turns by `degrees` (−180 … 180); (n,).
 
-    The largest distance from the axis is ρ + l where the arm points outward during the turn, else it is reached at an
-    end. Rounding may take an arm for one that just does not point outward: near there the distance is flat, and MARGIN,
-    with the lengths ρ and l for a scale, holds what is missed.
+    The largest distance from the axis is ρ + l if the arm points outward at some time of the turn, else it is reached
+    at an end. Rounding may wrongly find that an arm nearly, but never, points outward. There the distance hardly
+    changes, and MARGIN, scaled by the lengths ρ and l, covers the difference.
     """
     x, y, z = at
     after = turned(direction, any_angle(degrees))
@@ -138,7 +138,7 @@ def stays_on_side_turning(sizes: Sizes, arm: float, at: Columns, direction: Dire
 def _comes_by(x: Floats, y: Floats, direction: Direction, degrees: Floats) -> Mask:
     """Whether an arm points away from the axis at some time of the turn."""
     cosine, sine = direction
-    angle = np.degrees(np.arctan2(x * sine - y * cosine, x * cosine + y * sine))  # of the arm, from outward
+    angle = np.degrees(np.arctan2(x * sine - y * cosine, x * cosine + y * sine))  # angle of the arm from outward
     return np.asarray(
         np.where(degrees >= 0, (angle <= 0) & (angle + degrees >= 0), (angle >= 0) & (angle + degrees <= 0))
     )
@@ -155,9 +155,9 @@ MOST_CONTACTS = 12
 
 @dataclass(frozen=True, slots=True)
 class Contact:
-    """The first contact on an accepted move from `start` to `end`, the centre's: of `rotor` 1 to 4.
+    """The first contact of `rotor` 1 to 4 on an accepted move of the centre from `start` to `end`.
 
-    It is at a time from `first_lower` to `first_upper`, where the move takes from 0 to 1.
+    Its time is from `first_lower` to `first_upper`; the move lasts from 0 to 1.
     """
 
     start: tuple[float, float, float]
@@ -169,7 +169,7 @@ class Contact:
 
 @dataclass(slots=True)
 class VerdictCounts:
-    """Numbers of events, each in a field of its own."""
+    """Counts of events, one field for each kind."""
 
     def add(self, other: VerdictCounts) -> None:
         """Add the counts of another value of the same class."""
@@ -194,12 +194,13 @@ def total(several: Iterable[Verdicts], none: Verdicts) -> Verdicts:
 class MoveVerdicts(VerdictCounts):
     """Exact verdicts on the movements of flights.
 
-    Of the accepted `vertical` and `horizontal` moves `…_touching` meet contact on the sweep, `…_begun` of these at its
-    very beginning (after a turn in place whose answer was ignored), `wrongly_accepted` of all at their end.
-    `wrongly_refused` moves end in a valid position. Of the moves that were `asked` about, Procedure 2.a as printed
-    decides `procedure_2a_differs` otherwise than 2.b as printed; `repaired_2a_differs` and `repaired_2b_differs` are
-    those that the procedures put right decide otherwise than as printed. Of the `turns` in place `turns_touching` sweep
-    a rotor through contact. `contacts` has those of moves that begin in a valid position, MOST_CONTACTS at most.
+    `vertical` and `horizontal` count the accepted moves. `…_touching` of them have contact on the sweep, `…_begun` of
+    these at its beginning (after a turn in place whose answer was ignored); `wrongly_accepted` of all have contact at
+    their end. `wrongly_refused` moves end in a valid position. `asked` is the number of tested moves. For
+    `procedure_2a_differs` of them the printed Procedure 2.a decides differently from the printed 2.b; for
+    `repaired_2a_differs` and `repaired_2b_differs` the repaired procedure decides differently from the printed one.
+    `turns` counts turns in place; `turns_touching` of them move a rotor through contact. `contacts` has the contacts of
+    moves that begin in a valid position, at most MOST_CONTACTS.
     """
 
     vertical: int = 0
@@ -219,8 +220,8 @@ class MoveVerdicts(VerdictCounts):
     contacts: tuple[Contact, ...] = ()
 
     def add(self, other: VerdictCounts) -> None:
-        """Count what another has counted as well."""
-        VerdictCounts.add(self, other)  # super() does not know a class that is made anew for its slots
+        """Add the counts of another value."""
+        VerdictCounts.add(self, other)  # super() fails in a class that dataclass copies for its slots
         self.contacts = self.contacts[:MOST_CONTACTS]
 
     def watch(self, craft: Craft, moves: Moves) -> None:
@@ -243,7 +244,7 @@ class MoveVerdicts(VerdictCounts):
         self._watch_turns(craft, moves)
 
     def _compare(self, craft: Craft, moves: Moves) -> None:
-        """What Procedure 2.a, and both procedures put right, say of the moves that Procedure 2.b was asked about."""
+        """Count the answers of 2.a and of both repaired procedures that differ, about the moves that 2.b tested."""
         some = np.flatnonzero((moves.accepted | moves.refused) & ~moves.turning)
         at, heading, answer = of(moves.end, some), headed(moves.before, some), moves.accepted[some]
         printed, repaired = Procedures(craft), Procedures(craft, repaired=True)
@@ -265,7 +266,7 @@ class MoveVerdicts(VerdictCounts):
 
 
 def valid(craft: Craft, at: Columns, heading: Direction) -> Mask:
-    """Which positions are exactly valid: the body interior, or every rotor, centred where (15) says in floats."""
+    """A mask of exactly valid positions: the body or every rotor is interior; rotors' centres are floats from (15)."""
     result = np.asarray(classify_scene(craft.sizes, *at) == Position.INTERIOR)
     near = np.flatnonzero(~result)
     rotors = craft.rotors(of(at, near), headed(heading, near))
@@ -274,12 +275,15 @@ def valid(craft: Craft, at: Columns, heading: Direction) -> Mask:
 
 
 def all_four(rotors: Mask) -> Mask:
-    """Whether an answer about all first rotors, then all second ones and so on, holds for all four of each."""
+    """For each craft, whether all four rotors have the answer.
+
+    `rotors` holds the answers about all first rotors, then about all second ones, and so on.
+    """
     return np.asarray(rotors.reshape(ROTORS, -1).all(axis=0))
 
 
 def _judged(craft: Craft, start: Columns, end: Columns, heading: Direction) -> tuple[Mask, Mask, Mask]:
-    """Which sweeps are valid throughout, which at their beginning, which at their end."""
+    """Masks of the sweeps that are valid everywhere, at their beginning, and at their end."""
     clear = stays_on_side(Position.INTERIOR, craft.sizes, start, end)
     begun, ended = clear.copy(), clear.copy()
     near = np.flatnonzero(~clear)
@@ -291,7 +295,7 @@ def _judged(craft: Craft, start: Columns, end: Columns, heading: Direction) -> t
 
 
 def _contacts(craft: Craft, start: Columns, end: Columns, heading: Direction) -> tuple[Contact, ...]:
-    """The first contact of each move, with the rotor that has it."""
+    """The first contact of each move, with its rotor."""
     first, last = craft.rotors(start, heading), craft.rotors(end, heading)
     contacts = []
     for move, (here, there) in enumerate(zip(zip(*start, strict=True), zip(*end, strict=True), strict=True)):
@@ -321,7 +325,7 @@ def headed(direction: Direction, indices: NDArray[np.int64]) -> Direction:
 
 
 def leaning_interior(sizes: Sizes, at: Columns, axis: Columns) -> Mask:
-    """Which spheroids are interior, decided exactly; each has a centre and an axis; (n,)."""
+    """A mask of the interior spheroids, decided exactly, (n,); each has a centre and an axis."""
     alpha, gamma, b, d = sizes
     longest = max(b, d)
     inside = np.asarray(classify_scene((alpha, gamma, longest, longest), *at) == Position.INTERIOR)
@@ -345,7 +349,7 @@ class Lean:
 
     @classmethod
     def by(cls, degrees: float, toward: Direction) -> Lean:
-        """Leaning by so many degrees from the vertical."""
+        """Quadcopters tilted by `degrees` from the vertical."""
         cosine, sine = any_angle(np.array(degrees))
         return cls(toward, float(cosine), float(sine))
 
@@ -370,7 +374,7 @@ class Lean:
 
 
 def valid_leaning(craft: Craft, at: Columns, heading: Direction, lean: Lean) -> tuple[Mask, Mask]:
-    """Which positions are valid, the body interior or every rotor, and where the body alone is interior."""
+    """Masks of the valid positions (the body or every rotor is interior), and of positions with an interior body."""
     body = leaning_interior(craft.sizes, at, lean.axis)
     valid = body.copy()
     near = np.flatnonzero(~body)
@@ -385,11 +389,11 @@ def valid_leaning(craft: Craft, at: Columns, heading: Direction, lean: Lean) -> 
 
 @dataclass(slots=True)
 class PitchVerdicts(VerdictCounts):
-    """Answers about horizontal moves, each at the move's end, against the exact ones about the tilted craft.
+    """Counts of answers at the ends of horizontal moves, compared with exact answers about the tilted craft.
 
-    Of the `moves` that Procedure 2.b was asked about, its answer is `wrong` about so many; it is `dangerous` where it
-    accepts and the tilted craft is not valid. `body_wrong` and `body_dangerous` are the same for the body alone:
-    an upright body is interior where a tilted one is not, or the reverse.
+    `moves` is the number of moves that Procedure 2.b tested, `wrong` the number of its wrong answers, `dangerous` the
+    number of moves that it accepts although the tilted craft is not valid. `body_wrong` and `body_dangerous` are the
+    same counts for only the body: an upright body is interior where a tilted one is not, or the reverse.
     """
 
     moves: int = 0
@@ -423,10 +427,10 @@ VERSION = 1
 
 
 def near_wall(craft: Craft, degrees: float, seed: int, count: int = CENTRES) -> dict[str, Any]:
-    """How many positions of the body change near the wall as it is tilted: anywhere, and along the radius, outwards.
+    """The numbers of the body's positions near the wall that a tilt changes: in any direction, and radially outward.
 
     Heights are uniform over the tower's (from −γ to γ where it has no end), distances from the axis uniform within ±b
-    of the wall's. A change is `dangerous` where the upright body is clear and the tilted one is not.
+    of the wall's. A change is `dangerous` if the upright body is clear and the tilted one is not.
     """
     draw = Draw("tower-pitch", VERSION, seed)
     alpha, gamma, b, _ = craft.sizes

@@ -1,12 +1,12 @@
-"""The quadcopter of a scene: a body and four equal rotors, Procedures 2.a and 2.b, and where its flights may start.
+"""The quadcopter of a scene: a body and four equal rotors, Procedures 2.a and 2.b, valid starts of its flights.
 
 The paper's section 3.2 puts rotor i at the angle g_i = g1 + (i − 1) π/2 and, by equation (15), an eighth of a turn on.
-So a part's `angle` is g_i − heading + 45°, and with (T1, T2) of g1 the four rotors need no more
+So a part's `angle` is g_i − heading + 45°, and (T1, T2) of g1 is enough for all four rotors
 (derivation/paper_listings.py).
 
-Points of the unit circle are computed by + − × ÷ √ alone, so that a flight is the same to the byte on every machine.
-The polynomials are those of fdlibm's __kernel_sin and __kernel_cos (Sun Microsystems, 1993), good to less than an ulp
-for angles up to π/4.
+Points of the unit circle are computed only by + − × ÷ √, so that a flight is the same to the byte on every machine. The
+polynomials are those of fdlibm's __kernel_sin and __kernel_cos (Sun Microsystems, 1993), good to less than an ulp for
+angles up to π/4.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ def any_angle(degrees: Floats) -> Direction:
 
 
 def quarter_turns(cosine: Floats, sine: Floats, quarters: np.typing.NDArray[np.int64]) -> Direction:
-    """The direction turned by so many quarters, counterclockwise."""
+    """The direction turned by `quarters` quarter turns, counterclockwise."""
     odd = quarters % 2 == 1
     cosine, sine = np.where(odd, -sine, cosine), np.where(odd, cosine, sine)
     back = quarters // 2 % 2 == 1
@@ -132,7 +132,7 @@ class Craft:
 
 
 class Procedures:
-    """Procedures 2.a and 2.b in float64, as printed or `repaired`, with what the sizes decide taken out of the loop."""
+    """Procedures 2.a and 2.b in float64, printed or `repaired`; steps on sizes are done once, before the loop."""
 
     def __init__(self, craft: Craft, *, repaired: bool = False) -> None:
         arithmetic = float_arithmetic(_FORMAT)
@@ -151,7 +151,7 @@ class Procedures:
         return np.asarray(self._body(dict(zip("xyz", at, strict=True)))[0])
 
     def ask(self, at: Columns, heading: Direction) -> tuple[Mask, Mask]:
-        """Procedure 2.b: whether a position is a valid one, and whether the rotors were asked, as printed for Δ ≤ 0."""
+        """Procedure 2.b: masks of valid positions, and of positions whose rotors were tested (printed: for Δ ≤ 0)."""
         _, asked, valid = self._body(dict(zip("xyz", at, strict=True)))
         if asked.any():
             some = np.flatnonzero(asked)
@@ -160,14 +160,14 @@ class Procedures:
         return valid, asked
 
     def ask_rotors(self, at: Columns, heading: Direction) -> Mask:
-        """Procedure 2.a: whether all four rotors are found to be interior."""
+        """Procedure 2.a: a mask of the positions at which it finds all four rotors interior."""
         cosine, sine = turned(heading, self._offset)
         (valid,) = self._rotors({**dict(zip("xyz", at, strict=True)), "cosine": cosine, "sine": sine})
         return np.asarray(valid)
 
 
 def craft_of(scene: SceneModel) -> Craft:
-    """The quadcopter of a scene. Raises InputError where Procedures 2.a and 2.b are not about such a scene."""
+    """The quadcopter of a scene. Raises InputError if Procedures 2.a and 2.b do not apply to the scene."""
     if len(scene.hyperboloids) != 1:
         raise InputError(
             f"the scene {scene.name!r} has {len(scene.hyperboloids)} hyperboloids; it must have one, the tower"
@@ -187,9 +187,9 @@ def craft_of(scene: SceneModel) -> Craft:
 
 
 def require_ordinary(scene: SceneModel) -> None:
-    """Raise InputError where lengths are so long or short, or places so far, that what is printed overflows.
+    """Raise InputError if lengths are so long or short, or places so far, that the printed procedures overflow.
 
-    So it does where something is tilted, of which the printed procedures know nothing.
+    Also raise InputError if anything is tilted, which the printed procedures do not model.
     """
     if scene.leaning:
         raise InputError(
@@ -213,7 +213,7 @@ def require_ordinary(scene: SceneModel) -> None:
 
 
 def _places(scene: SceneModel) -> Iterator[tuple[str, float]]:
-    """Every coordinate that a simulation begins with or is bounded by, and what is there."""
+    """Every start or limiting coordinate of a simulation, and what is there."""
     for body in scene.hyperboloids:
         yield from ((f"the centre of {body.name!r}", value) for value in body.center)
         yield from _ends(f"the height of {body.name!r}", body.height)
@@ -241,7 +241,7 @@ def _require_regime(scene: SceneModel, tower: Hyperboloid) -> None:
 
 
 def _first_of_four(scene: SceneModel) -> MoverPart:
-    """The first rotor; raises InputError unless there are four, equal, and each a quarter of a turn from the last."""
+    """The first rotor. Raises InputError unless there are four equal rotors, each a quarter turn from the last."""
     parts = scene.mover.parts
     if len(parts) != ROTORS or not _equal(parts) or not _quarters(parts):
         raise InputError(
@@ -269,7 +269,7 @@ def rims(craft: Craft, start: Start, z: Floats) -> Floats:
 
 
 def require_valid_start(scene: str, craft: Craft, start: Start) -> None:
-    """Raise InputError unless, wherever a flight starts and heads, the body is interior or all four rotors are."""
+    """Raise InputError unless the body or all four rotors are interior for every start and heading of a flight."""
     _, _, b, d = craft.sizes
     _, _, small_b, small_d = craft.rotor
     if not _interior(craft, start, b, d, 0.0) and not _interior(craft, start, small_b, small_d, craft.arm):
@@ -284,9 +284,10 @@ def _interior(craft: Craft, start: Start, b: float, d: float, beyond: float) -> 
     """Whether a spheroid is interior everywhere on the rims of the discs, and `beyond` them (≥ 0, outwards).
 
     With its centre at radius r and height z it is interior iff r + b √(1 − w²/d²) < R(z + w) for all |w| ≤ d; the
-    wall's radius R is even and convex. Where r is the same at all heights, the height nearest the waist decides. Where
-    r is R less something, R(z + w) − R(z) counts: over z, convexity makes it least at the top for w < 0, at the bottom
-    for w > 0, so both ends decide. A margin greater than R leaves r the same, and at the ends only greater than that.
+    wall's radius R is even and convex. If r is the same at all heights, the height nearest the waist decides. If r is R
+    minus a margin, R(z + w) − R(z) decides: as a function of z it is, by convexity, least at the top for w < 0 and at
+    the bottom for w > 0, so the two ends decide. A margin greater than R leaves r the same, and at the ends r is at
+    least this.
     """
     alpha, gamma, _, _ = craft.sizes
     low, high = start.z.low, start.z.high

@@ -57,7 +57,7 @@ def forest_lines(result: dict[str, Any]) -> Iterator[str]:
 
 
 def _ends_of_trees(ends: dict[str, Any]) -> Iterator[str]:
-    """What the centre's height misses of trees that end."""
+    """The lines about the errors of a test by the centre's height for trees that end."""
     yield "Trees as they end, where the walk asks for the height of the centre alone:"
     for name, what in (("steps", "step"), ("questions", "question")):
         asked, needless, dangerous = (ends[name][key] for key in ("asked", "needless", "dangerous"))
@@ -72,7 +72,7 @@ def _ends_of_trees(ends: dict[str, Any]) -> Iterator[str]:
 
 
 def _ends_of_tower(ends: dict[str, Any]) -> Iterator[str]:
-    """What the centre's height misses of a tower that ends."""
+    """The lines about the errors of a test by the centre's height for a tower that ends."""
     yield "The tower as it ends, where the flights ask for the height of the centre alone:"
     for name, what in (("flights", "of the figure"), ("table_5", "of the table")):
         counts = ends[name]
@@ -273,7 +273,7 @@ def _ways(ways: dict[str, Any]) -> Iterator[str]:
 
 
 def pitch_lines(lean: dict[str, Any]) -> Iterator[str]:
-    """What a tilted quadcopter changes, line by line."""
+    """The changes that a tilted quadcopter causes, line by line."""
     yield f"Tilted by {lean['degrees']:g} degrees into each movement ahead or back, which Procedure 2.b does not know:"
     total, moves = lean["total"], lean["total"]["moves"]
     for name, what, refused in (

@@ -1,8 +1,9 @@
 """`simulate tower`: the quadcopter of the paper's sections 3.2 and 4, its flights (Figure 4) and Table 5.
 
-The figure has flights of 25 positions and Δ along them; the table stands beside the printed figures. A cell of the
-table is v·t: the way that the quadcopter covers at speed v in its response time t is the step that it moves and looks
-ahead by. Each run of a cell is a flight over the scene's distance; its figure is the mean of the runs' percentages.
+The figure has flights of 25 positions and Δ along them; the table is shown with the printed figures. A cell of the
+table belongs to a step v·t, the distance that the quadcopter covers at speed v in its response time t; it moves and
+looks ahead by this step. Each run of a cell is a flight over the scene's distance; the cell's figure is the mean of the
+runs' percentages.
 """
 
 from __future__ import annotations
@@ -33,10 +34,10 @@ POSITIONS = 25
 def paths(
     craft: Craft, flight: Flight, step: float, seed: int
 ) -> tuple[list[dict[str, Any]], MoveVerdicts, EndVerdicts]:
-    """Three flights of 25 positions each, from the tower's centre, as JSON has them; exact verdicts on sweeps and ends.
+    """Three flights of 25 positions each, from the tower's centre, for JSON; and exact verdicts on sweeps and ends.
 
-    Each has `positions` [x, y, z], `discriminant` (equation (13) at each of them), and how many `executions`, of these
-    `touching` (Δ ≤ 0), of the movements `refused`, and draws to `outside_height`.
+    Each has `positions` [x, y, z], `discriminant` (equation (13) at each of them), and numbers: `executions`,
+    executions with Δ ≤ 0 (`touching`), `refused` movements, and draws that lead outside the height (`outside_height`).
     """
     tracks: list[list[tuple[float, ...]]] = [[] for _ in range(FLIGHTS)]
     ways, ends = MoveVerdicts(), EndVerdicts()
@@ -98,7 +99,7 @@ STATEMENT = (
 
 
 def statement(craft: Craft) -> str:
-    """What has to be said wherever the table is shown; that rotors overlap, or leave the body, where they do."""
+    """The statement to show with every table; it also says if rotors overlap or leave the body."""
     (_, _, b, _), (_, _, small, _) = craft.sizes, craft.rotor
     apart, inside = math.sqrt(2.0) * craft.arm >= 2 * small, craft.arm + small <= b
     if apart and inside:
@@ -128,15 +129,15 @@ class FlightBlock:
 
     @property
     def moves(self) -> int:
-        """Accepted moves of a run."""
+        """The number of accepted moves of a run."""
         return moves_of(self.flight, self.speed * self.time)
 
 
 @dataclass(frozen=True, slots=True)
 class FlightShare:
-    """A figure of the table: the mean percentage and its standard error (None for a single run), and means a run.
+    """A figure of the table: the mean percentage, its standard error (None for a single run), and means per run.
 
-    `outside_height`: draws that lead beyond the modelled height, of which nothing is asked.
+    `outside_height`: draws that lead beyond the modelled height and are not tested.
     """
 
     percent: float
@@ -150,9 +151,9 @@ class FlightShare:
 
 
 def moves_of(flight: Flight, step: float) -> int:
-    """How many steps cover the distance; a last one that overshoots by rounding alone is not made.
+    """The number of steps that cover the distance; a last step that is needed only because of rounding is left out.
 
-    Raises InputError where there are more than MOST_MOVES.
+    Raises InputError if there are more than MOST_MOVES.
     """
     moves = flight.distance / step * (1 - 2.0**-40)
     if moves > MOST_MOVES:
@@ -165,9 +166,9 @@ def moves_of(flight: Flight, step: float) -> int:
 
 @dataclass(frozen=True, slots=True)
 class FlownBlock:
-    """What came of a block's runs; `ways` has counts where they were watched, `pitch` where the craft is tilted.
+    """The results of a block's runs; `ways` has counts if sweeps were watched, `pitch` if the craft is tilted.
 
-    `ends` has some where the block asks about them.
+    `ends` has counts if the block decides ends.
     """
 
     tallies: Tallies
@@ -177,7 +178,7 @@ class FlownBlock:
 
 
 def fly_block(block: FlightBlock) -> FlownBlock:
-    """The runs of a block, with exact verdicts on their sweeps where it is `watched`, on tilt, and on ends."""
+    """The results of a block's runs, with exact verdicts on sweeps if it is `watched`, on tilt, and on ends."""
     ways, leaning, ends, degrees = MoveVerdicts(), PitchVerdicts(), EndVerdicts(), block.pitch
 
     def observe(moves: Moves) -> None:
@@ -204,7 +205,7 @@ def blocks(
     pitch: float | None = None,
     ends: bool = False,
 ) -> dict[tuple[float, float], list[FlightBlock]]:
-    """The blocks of each cell (t, v): those of the table, and of its second row read as 0.25."""
+    """The blocks of each cell (t, v): the cells of the table, and its second row read as t = 0.25."""
     return {
         (time, speed): [
             FlightBlock(
@@ -220,7 +221,7 @@ def blocks(
 def table_5(
     cells: Mapping[tuple[float, float], Sequence[FlightBlock]], executor: Executor | None, advance: Advance
 ) -> dict[tuple[float, float], FlightShare]:
-    """Every cell, flown by the executor's processes; advanced by a block's moves whenever one is done."""
+    """The results of every cell, flown by the executor's processes; `advance` gets a block's moves when it is done."""
     tasks = sorted((block for cell_blocks in cells.values() for block in cell_blocks), key=lambda block: -block.moves)
     results = {}
     for block, result in perform(fly_block, tasks, executor):
@@ -254,7 +255,7 @@ def _cell(results: Sequence[FlownBlock]) -> FlightShare:
 
 
 def pitch_as_json(cells: Mapping[tuple[float, float], FlightShare]) -> dict[str, Any]:
-    """The counts of each cell (t, v), and all together."""
+    """The counts of each cell (t, v), and their sum."""
     return {
         "total": asdict(total((cell.pitch for cell in cells.values()), PitchVerdicts())),
         "cells": [{"t": time, "v": speed, **asdict(cell.pitch)} for (time, speed), cell in cells.items()],
@@ -268,7 +269,7 @@ _FURTHER_COLUMNS = "difference_in_standard_errors", "executions", "refused", "ou
 def as_json(
     cells: Mapping[tuple[float, float], FlightShare], runs: int, craft_words: str, *, watched: bool
 ) -> dict[str, Any]:
-    """The table in rows t and columns v, as docs/simulate.md has it; `said` is what has to be said of it."""
+    """The table with rows t and columns v, in the form of docs/simulate.md, with the statement to show with it."""
     rows = [[cells[time, speed] for speed in SPEEDS] for time in (*TIMES, SECOND_READING)]
     columns: dict[str, list[list[float | None]]] = {
         name: [[getattr(cell, name) for cell in row] for row in rows]
@@ -298,7 +299,7 @@ def as_json(
 
 
 def _difference(cell: FlightShare, figure: float, runs: int) -> float | None:
-    """Ours less theirs over the standard error of that, theirs being as uncertain as 1000 of our runs are."""
+    """Our figure minus the paper's, over its standard error; the paper's figure is as uncertain as 1000 of our runs."""
     if not cell.standard_error:
         return None
     return (cell.percent - figure) / (cell.standard_error * math.sqrt(1 + runs / PRINTED_RUNS))
@@ -318,11 +319,11 @@ SCHEMA = "1.2.0"
 
 @dataclass(frozen=True, slots=True)
 class TowerPlan:
-    """What is to be simulated: the flights of the figure with steps of `speed`·`time`, and Table 5 where `runs` > 0.
+    """The plan of a simulation: the figure's flights with steps of `speed`·`time`, and Table 5 if `runs` > 0.
 
-    `continuous`: the sweeps between positions are decided as well, in the table too. `pitch`: by how many degrees the
-    quadcopter is tilted into its horizontal movements in the table's flights, or None where that is not asked. `ends`:
-    positions are decided beside the tower as it ends, too.
+    `continuous`: the sweeps between positions are decided too, also in the table. `pitch`: the degrees by which the
+    quadcopter is tilted in horizontal movements of the table's flights, or None for no tilt. `ends`: positions are also
+    decided beside the tower with its ends.
     """
 
     scene: SceneModel
@@ -336,12 +337,12 @@ class TowerPlan:
 
     @property
     def craft(self) -> Craft:
-        """The scene's quadcopter. Raises InputError where the scene has none that the procedures are about."""
+        """The scene's quadcopter. Raises InputError if the scene has none to which the procedures apply."""
         return craft_of(self.scene)
 
     @property
     def flight(self) -> Flight:
-        """The scene's rules of flight. Raises InputError where it has none, or they begin where no flight may be."""
+        """The scene's rules of flight. Raises InputError if it has none, or they begin at a place that is not valid."""
         if self.scene.flight is None:
             raise InputError(f"the scene {self.scene.name!r} has no [flight]; docs/scenes.md has its keys")
         _require_room(self.scene, self.scene.flight)
@@ -349,7 +350,7 @@ class TowerPlan:
         return self.scene.flight
 
     def blocks(self) -> dict[tuple[float, float], list[FlightBlock]]:
-        """The work of Table 5, by cell; none where it is not asked for. Raises InputError."""
+        """The blocks of Table 5 by cell; none if the table is not requested. Raises InputError."""
         if not self.runs:
             return {}
         return blocks(
@@ -364,7 +365,7 @@ class TowerPlan:
 
 
 def _require_room(scene: SceneModel, flight: Flight) -> None:
-    """Raise InputError where flights begin outside the modelled height, or the region bounds them closer than that."""
+    """Raise InputError if flights begin outside the modelled height, or if the region is smaller than that height."""
     (tower,) = scene.hyperboloids
     start, height, region = flight.start.z, tower.height, scene.region
     if height is not None and not height.low <= start.low <= start.high <= height.high:
@@ -384,7 +385,7 @@ def _require_room(scene: SceneModel, flight: Flight) -> None:
 
 
 def simulate_tower(plan: TowerPlan, executor: Executor | None, advance: Advance) -> dict[str, Any]:
-    """The result, as schemas/simulate-tower-1.2.0.json has it. Raises InputError."""
+    """The result in the form of schemas/simulate-tower-1.2.0.json. Raises InputError."""
     craft, flight, step = plan.craft, plan.flight, plan.speed * plan.time
     if plan.ends:
         require_ends(plan.scene)
@@ -414,7 +415,7 @@ def simulate_tower(plan: TowerPlan, executor: Executor | None, advance: Advance)
 
 
 def _ends(flown: EndVerdicts, cells: Mapping[tuple[float, float], FlightShare]) -> dict[str, Any]:
-    """What the centre's height misses in the figure's flights, and in the table's where they are flown."""
+    """The errors of the test by the centre's height in the figure's flights, and in the table's if they are flown."""
     table = total((cell.ends for cell in cells.values()), EndVerdicts())
     return {"flights": asdict(flown), "table_5": asdict(table) if cells else None}
 
@@ -423,7 +424,7 @@ _RULES = ("distance", "straight", "vertical", "largest_turn", "refused_turn", "b
 
 
 def _assumptions(scene: SceneModel, craft: Craft, flight: Flight) -> dict[str, Any]:
-    """What the scene says: the sizes the paper prints, and all that it leaves open."""
+    """The assumptions of the scene: the sizes that the paper prints, and the values that it leaves open."""
     alpha, gamma, b, d = craft.sizes
     _, _, small_b, small_d = craft.rotor
     height, start = None if craft.height is None else [craft.height.low, craft.height.high], flight.start

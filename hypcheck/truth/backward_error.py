@@ -1,21 +1,22 @@
 """How far an answer about a pair is from being right: the least relative change of its numbers that makes it right.
 
 The backward error is the infimum of the ε for which changing each number by a relative ε at most makes the answer
-right. changes.py tells of one ε whether it is enough. Of an upright pair one exact decision tells that, so that
-bisection finds the error itself: nothing is linearised and nothing is sampled. Of any other pair a change is proved to
-be enough, or none to be, and between lie changes of which neither is proved: the error is bracketed. No caller has to
-know which it is.
+right. changes.py decides whether one ε is enough. For an upright pair one exact decision suffices, so that bisection
+finds the error itself: nothing is linearised and nothing is sampled. For any other pair some changes are proved to be
+enough, and some sizes of change are proved not to be; for sizes between them neither is proved: the error is bracketed.
+Callers need not distinguish the two cases.
 
-Runs judge many answers, most of them wrong by far: `lower_ends` proves that of many rows at once, in float64
-(float_boxes.py), and `quick_bracket` begins there.
+Runs judge many answers, and most wrong answers have large errors: `lower_ends` proves lower bounds of many errors at
+once, in float64 (float_boxes.py), and `quick_bracket` begins with them.
 
-`flip_exponents` gives floor(log2) of the least relative change that leads many rows to another position. Of upright
-rows by exact positions of changed float64 rows: positions are monotone in every number (changes.py), so that one known
-corner of the box of changes is best. Floats do not hold the corner of the box of relative changes 2^k. So a corner a
-little inside of that box and one a little outside are asked: a flip at the inner one is a flip at 2^k, and no flip at
-the outer one is none at 2^k, since flips are monotone in every change. The changes asked for are 2^k (1 ∓ 2⁻⁸); each
-product is rounded once, by 2⁻⁵³ of itself at most, so that for k ≥ LEAST every change comes out on its side of 2^k.
-What lies between the two, one row in a hundred, and what is nearer than 2^LEAST, is left to exact numbers.
+`flip_exponents` gives, for many rows, floor(log2) of the least relative change that leads to another position. For
+upright rows it uses exact positions of changed float64 rows: positions are monotone in every number (changes.py), so
+that one known corner of the box of changes is best. Floats do not hold the corner of the box of relative changes 2^k.
+So two corners are tested, one a little inside of that box and one a little outside: a flip at the inner corner implies
+a flip at 2^k, and no flip at the outer corner implies none at 2^k, since flips are monotone in every change. These
+changes are 2^k (1 ∓ 2⁻⁸); each product is rounded once, by 2⁻⁵³ of itself at most, so that for k ≥ LEAST every change
+stays on its side of 2^k. Exact numbers decide the rows that flip only between the two corners, one row in a hundred,
+and rows with a distance below 2^LEAST.
 """
 
 from __future__ import annotations
@@ -58,10 +59,11 @@ STEPS = 8
 
 
 def _flip(pair: Pair, truth: Decision, answer: Position) -> Flip | EndedFlip | float:
-    """What makes an answer right; the backward error itself where that is known at once: 0 or inf.
+    """The change that makes an answer right, as a Flip; or the backward error if it is known directly: 0 or inf.
 
-    It is 0 for a right answer and for the limit of right answers (the truth is a tangency from that side). No relative
-    change up to 1 brings a centre on the hyperboloid's axis outside.
+    The error is 0 for a right answer and for the limit of right answers (the truth is a tangency from that side). It is
+    inf for the answer "exterior" about a centre on the hyperboloid's axis: no relative change up to 1 brings this
+    centre outside.
     """
     if answer in (truth.position, truth.limit_of):
         return 0.0
@@ -74,7 +76,7 @@ def _flip(pair: Pair, truth: Decision, answer: Position) -> Flip | EndedFlip | f
 
 
 def tolerated(pair: Pair, truth: Decision, answers: Iterable[Position], change: Fraction) -> bool | None:
-    """Whether a relative change up to `change` makes one of the wrong answers right; None where neither is proved."""
+    """Whether a relative change up to `change` makes one of the wrong answers right; None if this is not decided."""
     if change == 0:
         return False
     flips = [_flip(pair, truth, answer) for answer in answers]
@@ -85,7 +87,7 @@ def tolerated(pair: Pair, truth: Decision, answers: Iterable[Position], change: 
         return bool(searched)
     if _is_sharp(pair):
         return any(flip.reached(change) for flip in searched)
-    if all(flip.excluded(change, cuts=0) for flip in searched):  # most wrong answers are wrong by far
+    if all(flip.excluded(change, cuts=0) for flip in searched):  # most wrong answers have large errors
         return False
     if any(flip.reached(change) for flip in searched):
         return True
@@ -93,11 +95,11 @@ def tolerated(pair: Pair, truth: Decision, answers: Iterable[Position], change: 
 
 
 def bracket(pair: Pair, truth: Decision, answer: Position, cuts: int = CUTS, steps: int = STEPS) -> Bracket:
-    """The backward error of an answer to a valid pair, between two ends; inf where no change up to 1 is enough.
+    """A bracket of the backward error of an answer to a valid pair; inf if no change up to 1 is enough.
 
-    The upper end is at most RATIO times the lower where first derivatives tell (changes that do not bend the surfaces
-    much), and often elsewhere; it is 1 where no smaller change was found. Fewer `cuts` of a box and fewer `steps` of
-    halving take less time.
+    The upper end is at most RATIO times the lower if first derivatives describe the changes well (small changes of the
+    surfaces), and often in other cases; it is 1 if no smaller change was found. Fewer `cuts` of a box and fewer `steps`
+    of halving take less time.
     """
     flip = _flip(pair, truth, answer)
     if isinstance(flip, float):
@@ -110,9 +112,9 @@ def bracket(pair: Pair, truth: Decision, answer: Position, cuts: int = CUTS, ste
 
 
 def quick_bracket(pair: Pair, truth: Decision, answer: Position) -> Bracket:
-    """As `bracket`, in less time: of an upright pair both ends are the error to DIGITS digits.
+    """As `bracket`, in less time: for an upright pair both ends are the error to DIGITS digits.
 
-    Else narrower where the error is large: float64 proves the lower end where it can.
+    For other pairs it is narrower if the error is large: float64 proves the lower end if it can.
     """
     flip = _flip(pair, truth, answer)
     if isinstance(flip, float):
@@ -139,9 +141,9 @@ _QUICK_CUTS = 5
 
 
 def lower_end(pair: Pair, truth: Decision, answer: Position) -> float:
-    """A lower end for which 256 bits are taken, as for an answer wrong by little; 0 where none is found.
+    """A lower bound of the error, proved with 256 bits, which a small error needs; 0 if none is found.
 
-    Of an upright pair the error to DIGITS digits.
+    For an upright pair the error to DIGITS digits.
     """
     flip = _flip(pair, truth, answer)
     if isinstance(flip, float):
@@ -152,10 +154,10 @@ def lower_end(pair: Pair, truth: Decision, answer: Position) -> float:
 
 
 def lower_ends(pairs: Sequence[Pair], truths: Sequence[Decision], answers: Sequence[Sequence[Position]]) -> list[float]:
-    """A lower end, proved in float64, of the least error of several answers to each pair; 0 where none is found.
+    """A lower bound, proved in float64, of the least error of several answers to each pair; 0 if none is found.
 
-    None is looked for where the pair is upright, since there `tolerated` takes little time, and where the hyperboloid
-    ends. inf where no change up to 1 is enough.
+    No bound is searched for an upright pair, for which `tolerated` takes little time, or if the hyperboloid ends. The
+    bound is inf if no change up to 1 is enough.
     """
     ends = [0.0 if _is_sharp(pair) or pair.has_ends else math.inf for pair in pairs]
     owners, goals = [], []
@@ -178,9 +180,9 @@ def _tens(pairs: Sequence[Pair]) -> Rows:
 
 
 def estimate(pair: Pair, truth: Decision, answer: Position) -> float:
-    """About the backward error, fast; it ranks answers. Of an upright pair the error to DIGITS digits.
+    """A fast estimate of the backward error, which ranks answers; for an upright pair the error to DIGITS digits.
 
-    Else what derivatives at the row tell, which is no proof.
+    For other pairs it is an estimate from derivatives at the row, without a proof.
     """
     flip = _flip(pair, truth, answer)
     if isinstance(flip, float):
@@ -189,7 +191,7 @@ def estimate(pair: Pair, truth: Decision, answer: Position) -> float:
 
 
 def exponent(pair: Pair, truth: Decision, answer: Position) -> float:
-    """log2 of the estimate, of an upright pair floor(log2) of the error, which takes a third of the decisions.
+    """log2 of the estimate; for an upright pair floor(log2) of the error, which takes a third of the decisions.
 
     −inf for 0, inf for inf.
     """
@@ -201,7 +203,7 @@ def exponent(pair: Pair, truth: Decision, answer: Position) -> float:
 
 
 def excluded_at_once(pairs: Sequence[Pair], goals: Sequence[Goal], changes: Sequence[float]) -> list[bool]:
-    """Where float64 proves that no change up to `changes` attains a goal; False says nothing."""
+    """A mask of pairs for which float64 proves that no change up to `changes` attains a goal; False is undecided."""
     held = float_boxes.excluded(_tens(pairs), goals, np.array(changes))
     return [bool(proved) and not pair.is_upright for proved, pair in zip(held, pairs, strict=True)]
 
@@ -217,7 +219,7 @@ def is_bracket(
 ) -> bool:
     """Whether proofs are found that the backward error of an answer lies between these ends.
 
-    `lower_holds` says that the lower end is proved already, as by excluded_at_once.
+    `lower_holds` says that the lower end is already proved, for example by excluded_at_once.
     """
     flip = _flip(pair, truth, answer)
     if isinstance(flip, float):
@@ -230,7 +232,7 @@ def is_bracket(
 
 
 def _bisected(flip: Flip) -> float:
-    """The error where every change is known to be enough or not, rounded up to DIGITS significant digits."""
+    """The error of a flip that decides every change, rounded up to DIGITS significant digits."""
     low = power_of_two(octave(flip.reached))  # the distance is not 0
     high = 2 * low
     for _ in range(math.ceil(DIGITS * math.log2(10))):
@@ -240,12 +242,12 @@ def _bisected(flip: Flip) -> float:
 
 
 def _is_sharp(pair: Pair) -> bool:
-    """Whether one exact decision tells of every change whether it is enough."""
+    """Whether one exact decision shows for every change whether it is enough."""
     return pair.is_upright and not pair.has_ends
 
 
 def _reached_end(flip: Flip | EndedFlip) -> Fraction:
-    """A change that is reached, less than 9/8 of one that is not found to be."""
+    """A change that is reached, at most 9/8 times a change that is not found to be reached."""
     missed = rounded(flip.estimate(), BITS)
     high, step = rounded(missed * Fraction(11, 10), BITS), 2
     while high < 1 and not flip.reached(high):
@@ -258,7 +260,7 @@ def _reached_end(flip: Flip | EndedFlip) -> Fraction:
 
 
 def _excluded_end(flip: Flip | EndedFlip, high: Fraction) -> tuple[Fraction, Fraction]:
-    """A change below `high` that one certificate excludes, 0 where none is found; and `high`."""
+    """A change below `high` that one certificate excludes (0 if none is found), and `high`."""
     low, step = rounded(high * Fraction(4, 5), BITS), 2
     while not flip.excluded(low, cuts=0):
         low, step = low / step, step * step
@@ -273,7 +275,7 @@ _LARGEST_STEP = 2**128
 def _narrowed(
     flip: Flip | EndedFlip, cuts: int, steps: int, ends: tuple[Fraction, Fraction]
 ) -> tuple[Fraction, Fraction]:
-    """The ends brought nearer to each other, by so many halvings at most."""
+    """The two ends, narrowed by at most `steps` bisections."""
     low, high = ends
     doubtful = high
     for _ in range(steps):
@@ -310,7 +312,7 @@ TOWARD_INTERIOR = np.array([1.0, -1.0, -1.0, -1.0, -1.0, -1.0, 1.0])
 def flip_exponents(rows: Rows) -> Floats:
     """floor(log2) of each row's distance to the nearest other position, (n,); −inf for a tangency.
 
-    Of a pair that is not upright that of an estimate: to prove it takes too long.
+    For a pair that is not upright it is from an estimate, because a proof takes too long.
     """
     octaves = np.full(len(rows), np.nan)
     upright = upright_mask(rows)
@@ -326,7 +328,7 @@ def flip_exponents(rows: Rows) -> Floats:
 
 
 def distance_exponents(rows: Rows, positions: Positions) -> Floats:
-    """flip_exponents of upright rows (n, 7) with these exact positions; NaN where floats cannot tell."""
+    """flip_exponents of upright rows (n, 7) with these exact positions; NaN where floats cannot decide."""
     lengths = np.abs(rows)
     within = ((lengths >= SMALLEST) & (lengths <= LARGEST) | (lengths == 0)).all(axis=1)
     octaves = np.full(len(rows), np.nan)
@@ -352,7 +354,7 @@ def _changes_position(rows: Rows, positions: Positions, exponents: NDArray[np.in
     """Whether changes of 2^exponent · factor bring each row to another position, (n,)."""
     change = np.ldexp(factor, exponents)[:, None]
     clear, side = positions != Position.CONTACT, (positions == Position.INTERIOR)[:, None]
-    # A clear row is changed away from where it is, and has flipped once it is there no more.
+    # A clear row is changed away from its position, and has flipped if it has another one.
     away = np.where(side, -TOWARD_INTERIOR, -TOWARD_EXTERIOR)
     flipped = np.zeros(len(rows), dtype=np.bool_)
     flipped[clear] = _positions_of_changed(rows[clear], away[clear], change[clear]) != positions[clear]

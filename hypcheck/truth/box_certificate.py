@@ -1,7 +1,7 @@
-"""One certificate that holds for every centre and axis of a box: proof that no change in it makes an answer right.
+"""One certificate for every centre and axis of a box: it proves that no change in the box makes an answer right.
 
 The proofs (box_proofs.py) are in intervals of mpmath, with 256 bits. A box too large for one certificate is cut in
-halves along the number that costs most.
+halves along the number that loosens the bounds most.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ _SHARES = (Fraction(1), 1 - Fraction(1, 1 << 20), Fraction(1, 2))
 
 
 class State:
-    """The margin on the goal's side and its derivatives at one row, in plain numbers, which prove nothing.
+    """The margin on the goal's side and its derivatives at one row, in plain numbers, without a proof.
 
     Where φ is largest on the goal's side, the margin is that maximum. Elsewhere λ is 0 and the margin φ₀ = −1, and the
     derivatives are those of h at the centre, which has to change its sign first.
@@ -83,7 +83,7 @@ class State:
 
 
 def certified(sizes: Row, box: Box, goal: Goal, cuts: int) -> bool:
-    """Whether the goal is shown not to be attained with these sizes, centres and axes."""
+    """Whether it is proved that the goal is not attained with these sizes, centres and axes."""
     middle, radii = tuple((low + high) / 2 for low, high in box), [(high - low) / 2 for low, high in box]
     pull = [goal.sign * slope for slope in State(sizes, middle, goal).derivatives()]
     corner = tuple(high if slope > 0 else low for slope, (low, high) in zip(pull, box, strict=True))
@@ -97,7 +97,7 @@ def certified(sizes: Row, box: Box, goal: Goal, cuts: int) -> bool:
     low, high = box[cut]
     halves = [(low, middle[cut]), (middle[cut], high)]
     if pull[cut] > 0:
-        halves.reverse()  # the more doubtful half first
+        halves.reverse()  # the half with the smaller margin first
     return all(certified(sizes, [*box[:cut], half, *box[cut + 1 :]], goal, cuts - 1) for half in halves)
 
 
@@ -113,7 +113,7 @@ def _held(worst: State, goal: Goal, middle: Row, radii: list[Fraction]) -> bool:
 
 
 def _shares_of_radius(worst: State) -> Iterator[mpf]:
-    """How far to go along Σq: to the end, half of that from the hyperboloid, or to where h turns before the end."""
+    """The shares of a radius to try along Σq: all, the middle to the hyperboloid, or up to where h turns before."""
     form, one, q = worst.form, plain.mpf(1), [-worst.side * part for part in worst.n]
     width = form.width(worst.v, q)
     if not width:  # at the hyperboloid's centre h falls or rises in no direction

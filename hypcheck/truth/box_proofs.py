@@ -2,13 +2,13 @@
 
 With s and h the two surfaces' equations and φ_λ = min over X of s(X) + λ h(X), a clear pair stays clear where φ_λ > 0
 for one λ. A pair stays off a side where one point of the spheroid, given by the spheroid's centre and axis, does. Both
-are bounded by their value in the middle of the box and their derivatives over the box. They are as sharp as the box is
-small: the derivatives of sup φ_λ are those of s + λh at the nearest point, where each number enters s or h alone, so
-that the best corner and the best certificate belong together.
+are bounded by their value in the middle of the box and their derivatives over the box. The bounds are sharper for
+smaller boxes: the derivatives of sup φ_λ are those of s + λh at the nearest point, where each number enters s or h
+alone, so that the best corner and the best certificate belong together.
 
 First what a change is to achieve (`Goal`) and the form of a pair in numbers of any kind with + − · / and a square root.
-An enclosure is an interval of mpmath (box_certificate.py), or float64 intervals of many rows (float_boxes.py), and what
-is said of it is then said of each row. NaN compares as no proof.
+An enclosure is an interval of mpmath (box_certificate.py), or float64 intervals of many rows (float_boxes.py); then
+every statement holds for each row. A comparison with NaN gives no proof.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ Vector = list[Any]
 
 @dataclass(frozen=True, slots=True)
 class Goal:
-    """What a change is to achieve: the row's position becomes `side`, or, with `leave`, is no longer `side`."""
+    """The goal of a change: the row's position becomes `side`, or, with `leave`, is no longer `side`."""
 
     side: Position
     leave: bool
@@ -44,7 +44,7 @@ class Goal:
 
     @property
     def sizes(self) -> Signs:
-        """Which way α, γ, b, d help: up or down."""
+        """The directions in which changes of α, γ, b, d help: up or down."""
         wide, tall = (-1, 1) if self.side is Position.EXTERIOR else (1, -1)
         return tuple(self.sign * part for part in (wide, tall, -1, -1))
 
@@ -52,11 +52,11 @@ class Goal:
 class Form:
     """The two surfaces for fixed sizes, in numbers of one kind, such as intervals; centre C and axis v are given later.
 
-    Intervals prove (box_certificate.py, float_boxes.py); plain numbers say where. `root` is the square root of a
-    number of that kind.
+    Intervals give proofs (box_certificate.py, float_boxes.py); plain numbers only find good places for them. `root` is
+    the square root of a number of that kind.
 
-    Σ = M⁻¹ = b² I + (d² − b²) v vᵀ/(v·v) stands for M wherever it can: its entries change with the axis as much as the
-    spheroid does, those of M much more where the spheroid is thin.
+    Σ = M⁻¹ = b² I + (d² − b²) v vᵀ/(v·v) replaces M wherever possible: its entries change with the axis as much as the
+    spheroid does, the entries of M much more if the spheroid is thin.
     """
 
     def __init__(self, sizes: Vector, root: Callable[[Any], Any]) -> None:
@@ -84,7 +84,7 @@ class Form:
         return [self.b2 * p + along * part for p, part in zip(across(v, q), v, strict=True)]
 
     def width(self, v: Vector, q: Vector) -> Number:
-        """√(qᵀ Σ q): how far the spheroid reaches along q, times |q|."""
+        """√(qᵀ Σ q): the spheroid's half width along q, times |q|."""
         aside = cross(v, q)
         return self.root((self.b2 * squares(aside) + self.d2 * dot(v, q) ** 2) / squares(v))
 
@@ -104,9 +104,9 @@ class Form:
         return M, adjoint, [G[0][0], adjoint[2][2], dot(G[0], adjoint[0])]
 
     def nearest(self, at: Number, C: Vector, v: Vector) -> tuple[Vector, list[Vector]] | None:
-        """X with (1 + λ Σ D) X = C and the matrix's inverse; None where M + λD is not shown to be positive definite."""
+        """X with (1 + λ Σ D) X = C and the matrix's inverse; None if M + λD is not proved positive definite."""
         M, adjoint, minors = self.pencil(at, v)
-        if not all(part > 0 for part in minors):  # of an interval: each of its numbers
+        if not all(part > 0 for part in minors):  # for an interval: each of its numbers
             return None
         inverse = [[dot(row, column) / minors[2] for column in M] for row in adjoint]
         return [dot(row, C) for row in inverse], inverse
@@ -125,11 +125,12 @@ def across(v: Vector, q: Vector) -> Vector:
 
 @dataclass(frozen=True, slots=True)
 class BoxKind:
-    """How enclosures of a kind are made and read.
+    """The operations of one kind of enclosure.
 
-    `between` makes one of its ends, `root` is its square root; `low`, `high` and `size`, the largest absolute value,
-    are plain numbers. `safe` is a factor that is more than the rounding of a sum of a few positive products of plain
-    numbers, `nothing` more than what they lose by underflow, `tiny` a small factor that is felt in a product.
+    `between` makes an enclosure from two ends, `root` takes its square root; `low`, `high` and `size`, the largest
+    absolute value, return plain numbers. `safe` is a factor that exceeds the rounding of a sum of a few positive
+    products of plain numbers, `nothing` exceeds the loss by underflow, `tiny` is a small factor that still changes a
+    product.
     """
 
     between: Callable[[Any, Any], Any]
@@ -148,7 +149,7 @@ class BoxKind:
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """A box: the form of its sizes, its middle and the whole of it, both centre and axis; `radii` reach to its ends."""
+    """A box: the form of its sizes, its middle and its whole range (centre and axis); `radii` reach to its ends."""
 
     kind: BoxKind
     form: Form
@@ -157,13 +158,13 @@ class Place:
     radii: Vector
 
     def spread(self, slopes: Iterable[Number]) -> Number:
-        """More than a function can change from the middle to anywhere in the box."""
+        """A bound of a function's change from the middle to any place in the box."""
         terms = [self.kind.size(slope) * radius for slope, radius in zip(slopes, self.radii, strict=True)]
         return self.kind.safe * sum(terms[1:], terms[0]) + self.kind.nothing
 
 
 def stays_clear(place: Place, multiplier: Number) -> Any:  # noqa: ANN401 - a bool, or one of each row
-    """Whether φ at this λ is > 0 for every centre and axis of the box.
+    """Whether φ at this λ is proved > 0 for every centre and axis of the box.
 
     Its derivatives are 2λ n by the centre and −λ² times those of nᵀ Σ n by the axis, n = D X held fixed there.
     """
@@ -184,7 +185,7 @@ def stays_clear(place: Place, multiplier: Number) -> Any:  # noqa: ANN401 - a bo
 
 
 def _reach(place: Place, at: Number, X0: Vector, R: list[Vector]) -> tuple[Vector, Any]:
-    """Δ > 0 such that X is within Δ of X0 over the whole box and M + λD definite there; and where it is proved to be.
+    """Δ > 0 such that over the whole box X is within Δ of X0 and M + λD is definite; and whether this is proved.
 
     With A = 1 + λ Σ D, A X = C, it is enough that |R (C − A X0)| + |1 − R A| Δ < Δ, R being the inverse of A in the
     middle (Rump): then A is regular for every axis of the box, and M + λD definite as it is in the middle.
@@ -208,7 +209,7 @@ def _reach(place: Place, at: Number, X0: Vector, R: list[Vector]) -> tuple[Vecto
 
 
 def stays_off(place: Place, side: Number, direction: Vector, shares: Iterable[Number]) -> Any:  # noqa: ANN401
-    """Whether a point of the spheroid is not on a side for any centre and axis of the box.
+    """Whether a point of the spheroid is proved off a side for every centre and axis of the box.
 
     The point is the centre, or C + ρ Σq/√(qᵀΣq), ρ ≤ 1 one of the shares, which turns with the axis and stays in the
     spheroid; for ρ = 1 it is the spheroid's farthest in the fixed direction q.
@@ -232,7 +233,7 @@ def stays_off(place: Place, side: Number, direction: Vector, shares: Iterable[Nu
 
 
 def _crosses(place: Place, side: Number, offset0: Vector, offset: Vector, by_axis: Vector) -> Any:  # noqa: ANN401
-    """Whether h at centre + offset is not on a side anywhere in the box; by_axis are the derivatives of half h."""
+    """Whether h at centre + offset is off a side everywhere in the box; by_axis are the derivatives of half h."""
     form, (C0, _), (C, _) = place.form, place.middle, place.whole
     height = side * form.hyperboloid([a + b for a, b in zip(C0, offset0, strict=True)])
     n = form.gradient([a + b for a, b in zip(C, offset, strict=True)])

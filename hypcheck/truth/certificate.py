@@ -1,4 +1,4 @@
-"""What proves an answer about an ellipsoid and a quadric, and the check of that proof, in exact arithmetic alone.
+"""Certificates of answers about an ellipsoid and a quadric, and their check, only in exact arithmetic.
 
 S and H are the symmetric 4×4 matrices of the two surfaces, X̃ = (x, y, z, 1); the ellipsoid is s = X̃ᵀSX̃ ≤ 0, and the
 quadric's side of a point is the sign of h = X̃ᵀHX̃. M and D are their upper 3×3 parts, M positive definite. Where
@@ -22,7 +22,7 @@ Where the hyperboloid ends, with the body K = {h ≤ 0, z_min ≤ z ≤ z_max} a
 - contact: two points of the ellipsoid between the ends on opposite sides of h; with a solid, one in K and one that is
   not in its inner part.
 
-A contact that is a touch is said without points: what proves it is the exact rule alone (exact.py).
+A contact that is a touch has no points: only the exact rule proves it (exact.py).
 
 **A sweep.** S(t) is the spheroid's matrix at time t; M does not change. With a λ for which M + λD is positive definite,
 S(t) + λH is so exactly where
@@ -36,7 +36,7 @@ form that belongs to φ. So it is enough:
 - clear up to a time: pieces (λ, end), each beginning where the one before ends, the first at 0;
 - contact: a time, and a certificate of contact at that time.
 
-Nothing here needs the ellipsoid or the quadric to be round, or an axis to be vertical. `surfaces` makes the matrices of
+The ellipsoid and the quadric need not be round here, and no axis needs to be vertical. `surfaces` makes the matrices of
 a spheroid and a hyperboloid. This module shares no code with what makes certificates: it starts from the numbers of a
 row and the definitions.
 """
@@ -58,7 +58,7 @@ Matrix = list[list[Fraction]]
 
 @dataclass(frozen=True, slots=True)
 class Piece:
-    """Heights from `low` to `high`, None where they go on for ever, with the λ and the μ that prove them clear."""
+    """Heights from `low` to `high` (None: no end), with the λ and the μ that prove the wall clear there."""
 
     low: Fraction | None
     high: Fraction | None
@@ -70,7 +70,7 @@ class Piece:
 class Certificate:
     """A claim with its witness: `multiplier` λ, or `points` (in the caller's coordinates), or `double_root` m.
 
-    Where the hyperboloid ends also `pieces`; a contact without any of these is no proof.
+    If the hyperboloid ends, it may have `pieces`; a contact without any of these is not proved.
     """
 
     position: Position
@@ -85,7 +85,7 @@ class Query(Protocol):
 
     @property
     def row(self) -> Sequence[float | Fraction]:
-        """The numbers in the order of geometry.pair.COLUMNS; what stands behind them is not read."""
+        """The numbers in the order of geometry.pair.COLUMNS; later numbers are not read."""
 
     @property
     def axis(self) -> Sequence[float | Fraction]:
@@ -99,8 +99,8 @@ class Query(Protocol):
 def check_certificate(pair: Query, certificate: Certificate) -> bool:
     """Whether the certificate proves its claim about this pair; a double root proves tangency, not contact alone.
 
-    Numbers of other types are taken as the rationals that they are: with one float all would be rounded, and a pivot
-    above 0 could come of that. Raises ValueError for a claim that is no position, and for NaN.
+    Numbers of other types are converted to their exact rationals: a single float would round all results, and a pivot
+    could become > 0 by rounding. Raises ValueError for a claim that is not a position, and for NaN.
     """
     low, high, _ = pair.heights
     if low != -math.inf or high != math.inf:
@@ -242,7 +242,7 @@ def pivots(matrix: Matrix) -> list[Fraction]:
     """The diagonal of L D Lᵀ by elimination, up to the first pivot that shows the matrix not positive semidefinite.
 
     All are > 0 if and only if the matrix is positive definite, all ≥ 0 if and only if it is semidefinite: a pivot of 0
-    with anything else than zeros beside it counts as −1.
+    with a nonzero number in its row counts as −1.
     """
     rows, result = [row[:] for row in matrix], []
     for i, row in enumerate(rows):
@@ -293,9 +293,9 @@ class PairAtTime:
 
 @dataclass(frozen=True, slots=True)
 class PassageCertificate:
-    """What proves an answer: `pieces` (λ, end) without contact, and the contact at a `time`; None where there is none.
+    """The certificate of a sweep's answer: `pieces` (λ, end) without contact, and contact at a `time`, if there is any.
 
-    `points` are in the caller's coordinates; `double_root` is that of a tangency, in place of points.
+    `points` are in the caller's coordinates; `double_root` is the double root of a tangency; a tangency has no points.
     """
 
     pieces: tuple[tuple[Fraction, Fraction], ...] = ()
@@ -314,7 +314,7 @@ def place(row: Sequence[float], time: Fraction) -> PairAtTime:
 
 
 def clear_until(row: Sequence[float], certificate: PassageCertificate) -> Fraction | None:
-    """The time up to which the pieces prove the spheroid clear; None where there is none, or a piece fails."""
+    """The time up to which the pieces prove the spheroid clear; None if there are no pieces, or one fails."""
     last = Fraction(0)
     S, H = surfaces(place(row, last))
     unit, numbers = _whole([number for matrix in (S, H) for line in matrix[:3] for number in line[:3]])
@@ -358,13 +358,13 @@ def _bernstein(
 
 
 def _whole(numbers: Sequence[Fraction]) -> tuple[int, list[int]]:
-    """The least number that makes all of them whole, and them times it."""
+    """The least positive integer whose multiples of all numbers are integers, and these multiples."""
     unit = math.lcm(*(number.denominator for number in numbers))
     return unit, [number.numerator * (unit // number.denominator) for number in numbers]
 
 
 def contact_at(row: Sequence[float], certificate: PassageCertificate) -> Fraction | None:
-    """The time from 0 to 1 at which the certificate proves contact; None where it does not."""
+    """The time from 0 to 1 at which the certificate proves contact; None if it does not."""
     time = certificate.time
     if time is None or not 0 <= time <= 1:
         return None

@@ -1,15 +1,17 @@
-"""Relative changes of a pair's ten numbers, and whether any up to a size makes a wrong answer right.
+"""Relative changes of a pair's ten numbers: whether a change up to a given size makes a wrong answer right.
 
 Positions are monotone in the four sizes (a larger spheroid contains the smaller one; {h > 0} grows when α falls or γ
 grows), so that among their changes one corner of the box of changes is best. For an upright pair the same holds of the
 centre: the exterior positions are an up-set (a pair stays exterior when α falls, γ grows, b or d falls, |x| or |y|
 grows, |z| falls), the interior ones likewise with α, γ, x, y, z the other way round (docs/mathematics.md, "Monotone in
-every input"). There one exact decision at one corner tells. A sphere is an upright pair: its b and d change alike.
+every input"). So one exact decision at one corner is enough. A sphere is an upright pair: its b and d have the same
+change.
 
-Of any other pair positions are not monotone in centre and axis:
+For any other pair positions are not monotone in centre and axis:
 
-- that a change is enough is proved by a corner of the box of changes at which an exact decision finds the answer right;
-- that none is, by certificates that hold over the whole box (box_certificate.py), the sizes at their best corner.
+- a change is proved to be enough by a corner of the box of changes at which an exact decision finds the answer right;
+- a size of change is proved not to be enough by certificates for the whole box (box_certificate.py), with the sizes at
+  their best corner.
 """
 
 from __future__ import annotations
@@ -40,15 +42,15 @@ BITS = 12
 
 
 def goal_of(truth: Position, answer: Position) -> Goal:
-    """What makes a wrong answer right: on the way from a clear position to contact it is enough to leave the first."""
+    """The goal that makes a wrong answer right; for "contact" it is enough to leave the clear position."""
     return Goal(truth, leave=True) if answer is Position.CONTACT else Goal(answer, leave=False)
 
 
 def corner(lengths: Lengths, change: Fraction, toward: Position) -> Lengths:
-    """The corner of the box of relative changes up to `change` that is nearest to `toward`; farthest, if that is < 0.
+    """The corner of the box of relative changes up to `change` that is nearest to `toward`; farthest if `change` < 0.
 
-    Of an upright pair; |change| < 1; `toward` is EXTERIOR or INTERIOR. Lengths are scaled by the denominator of
-    `change`, which leaves the ratios alone.
+    The pair is upright; |change| < 1; `toward` is EXTERIOR or INTERIOR. Lengths are scaled by the denominator of
+    `change`, which does not change the ratios.
     """
     grown, shrunk = change.denominator + change.numerator, change.denominator - change.numerator
     wide, tall = (shrunk, grown) if toward is Position.EXTERIOR else (grown, shrunk)
@@ -65,7 +67,7 @@ def corner(lengths: Lengths, change: Fraction, toward: Position) -> Lengths:
 
 @dataclass(frozen=True, slots=True)
 class Flip:
-    """A pair and what a change of it is to achieve."""
+    """A pair, and the goal of its change."""
 
     pair: Pair
     lengths: Lengths
@@ -100,7 +102,7 @@ class Flip:
         return certified(self._sizes(change), box, self.goal, cuts)
 
     def reached_above(self, low: Fraction, ratio: Fraction) -> Fraction:
-        """A change above `low` that is reached, nearly the least one; 1 where none is found."""
+        """A reached change above `low`, nearly the least one; 1 if none is found."""
         high = rounded(low * Fraction(17, 16), BITS)
         patterns = tuple(self._pointed(high))
         while high < 1 and not self._attained(high, patterns):
@@ -111,7 +113,7 @@ class Flip:
         return min(high, change)
 
     def estimate(self) -> Fraction:
-        """The change that derivatives at the row promise to be enough, at most 1/2, and > 0."""
+        """The change that is enough by the derivatives at the row, an estimate in (0, 1/2]."""
         state = self._state(self.row[: len(SIZES)], self.row[len(SIZES) :])
         value = abs(fraction(state.value()))
         derivatives = (*state.derivatives(), *state.size_derivatives())
@@ -136,7 +138,7 @@ class Flip:
         return any((exact.position(lengths) is self.goal.side) is not self.goal.leave for lengths in corners)
 
     def _signs(self, change: Fraction) -> Iterator[Signs]:
-        """Signs of changes of centre and axis: those that derivatives point to, then all others."""
+        """Signs of changes of centre and axis: first the signs of derivatives, then all others."""
         tried = set()
         for pattern in itertools.chain(self._pointed(change), _PATTERNS):
             signs = tuple(sign if number else 0 for sign, number in zip(pattern, self.row[len(SIZES) :], strict=True))
@@ -145,7 +147,7 @@ class Flip:
                 yield signs
 
     def _pointed(self, change: Fraction) -> Iterator[Signs]:
-        """The signs of the derivatives of φ at the row, and again at the corner that these point to."""
+        """The signs of the derivatives of φ at the row, then at the corner that these signs give."""
         signs: Signs = (0,) * 6
         for _ in range(2):
             state = self._state(self._sizes(change), _moved(self.row[len(SIZES) :], signs, change))
@@ -155,7 +157,7 @@ class Flip:
 
 @lru_cache(64)
 def _lengths(pair: Pair) -> Lengths:
-    """The lengths of one of the last pairs: each is asked about several times in turn."""
+    """The lengths of a pair, cached: several questions about the same pair follow each other."""
     return pair.lengths
 
 

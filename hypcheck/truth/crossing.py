@@ -1,8 +1,8 @@
 """Points that prove a crossing: the centre, and a point of the spheroid on the hyperboloid's other side.
 
-Upright, all candidates lie in the plane through the axis: the simple ones first, then ever nearer to the best one.
-Tilted, they go along φ(λ) (exact.py): where its maximum is < 0, X(λ) = (M + λD)⁻¹ M C tends to a point of the
-hyperboloid within the spheroid, and a little beyond it the sides have changed.
+For an upright pair all candidates lie in the plane through the axis: first simple points, then points nearer and nearer
+to the best one. For a tilted pair they follow φ(λ) (exact.py): if its maximum is < 0, X(λ) = (M + λD)⁻¹ M C tends to a
+point of the hyperboloid within the spheroid, and a little beyond this point the side changes.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ Homogeneous = tuple[Vector, int]
 def points(pair: Query, lengths: Lengths) -> tuple[Point, ...]:
     """The centre and a point of the spheroid on the other side of the hyperboloid (or the centre alone, on it).
 
-    Of a tilted pair the other point is strictly on the other side, which rules tangency out, too.
+    For a tilted pair the other point is strictly on the other side, which also excludes tangency.
     """
     return _upright_points(pair, lengths) if lengths.is_upright else _tilted_points(pair, quartic(lengths))
 
@@ -62,12 +62,12 @@ def _upright_points(pair: Query, lengths: Lengths) -> tuple[Point, ...]:
 
 
 def _upright_candidates(pair: Query, lengths: Lengths, outward: bool) -> Iterator[Point]:
-    """Points of the spheroid's plane through the axis, first the simple ones, then ever nearer to the best one."""
+    """Points of the spheroid in the plane through the axis: first simple ones, then points that tend to the best."""
     _, _, b, d, x, y, z = (Fraction(number) for number in pair.row[:7])
     radius = root_of(x * x + y * y, 30, upward=True)
 
     def moved(across: Fraction, along: Fraction) -> Point:
-        """The centre moved by these parts of b and d: away from the axis and to the waist, or the other way."""
+        """The centre moved by these parts of b and d: away from the axis and to the waist, or opposite."""
         to_waist = min(abs(z), along * d) if outward else -along * d
         height = z - to_waist if z >= 0 else z + to_waist
         if not radius:
@@ -77,14 +77,14 @@ def _upright_candidates(pair: Query, lengths: Lengths, outward: bool) -> Iterato
 
     for fifths in ((5, 0), (0, 5), (4, 3), (3, 4)):  # Pythagorean triples: on the spheroid, or within
         yield moved(Fraction(fifths[0], 5), Fraction(fifths[1], 5))
-    if outward and abs(z) < d:  # right out from the waist, where a spheroid a little too wide for the throat sticks out
+    if outward and abs(z) < d:  # horizontally outward: a spheroid a little too wide for the throat crosses it there
         yield moved(1 - (z / d) ** 2, Fraction(1))
     for bits in precisions(start=8):
         near = _near_surface(lengths, bits)
         if near is None:
             continue
         stretch, height = near
-        # From the centre through the nearest point, and on by ever smaller shares of the distance.
+        # From the centre through the nearest point, and beyond it by smaller and smaller shares of the distance.
         for beyond in (Fraction(1, 1 << bits // 2), Fraction(1, 1 << bits)):
             along = 1 + beyond
             w = z + d * (height - z / d) * along
@@ -95,7 +95,7 @@ def _upright_candidates(pair: Query, lengths: Lengths, outward: bool) -> Iterato
 def _near_surface(lengths: Lengths, bits: int) -> tuple[Fraction, Fraction] | None:
     """About the hyperboloid's nearest point to the centre, in spheroid radii: its radius and its height.
 
-    The radius is given as a multiple of the centre's, except on the axis. None where `bits` is too few to tell.
+    The radius is given as a multiple of the centre's, except on the axis. None if `bits` is too small.
     """
     p, q, s, t = lengths.alpha**2, lengths.b**2, lengths.gamma**2, lengths.d**2
     A, B, z = Fraction(p, q), Fraction(s, t), Fraction(lengths.z, lengths.d)
@@ -110,7 +110,7 @@ def _near_surface(lengths: Lengths, bits: int) -> tuple[Fraction, Fraction] | No
 
 
 def _multiplier_of_nearest(lengths: Lengths, bits: int) -> Fraction | None:
-    """The root of F(t) = A P/(A+t)² − B Q/(B−t)² − 1 to `bits` bits of its distance to 0 and to the pole it nears.
+    """The root of F(t) = A P/(A+t)² − B Q/(B−t)² − 1 to `bits` bits of its distance to 0 and to the nearer pole.
 
     With t = −A m/n or t = B m/n, 0 ≤ m < n, the sign of F is that of a difference of integers.
     """
@@ -131,7 +131,7 @@ def _multiplier_of_nearest(lengths: Lengths, bits: int) -> Fraction | None:
         m, n = share.numerator, share.denominator
         return not falls_toward_A(m, n) if inside else falls_toward_B(m, n)
 
-    # The share's odds, 2^j : 1, first; then the share itself between two of them.
+    # First the share's odds as powers of two, 2^j : 1; then the share itself between two of these.
     step, low = 1, 0
     direction = -1 if too_far(_odds(0)) else 1
     while too_far(_odds(low + direction * step)) is (direction < 0):
@@ -163,7 +163,7 @@ def _bisect(too_far: Callable[[Fraction], bool], low: Fraction, high: Fraction, 
 def _tilted_points(pair: Query, F: Quartic) -> tuple[Point, ...]:
     """The centre and a point of the spheroid strictly on the hyperboloid's other side (or the centre alone, on it).
 
-    Such points rule tangency out, too. There always are some: X(λ) tends to a point within the spheroid or beyond.
+    Such points also exclude tangency. They always exist: X(λ) tends to a point within the spheroid or beyond it.
     """
     forms = _Forms(pair)
     center = forms.fraction((forms.center, 1))
@@ -176,7 +176,7 @@ def _tilted_points(pair: Query, F: Quartic) -> tuple[Point, ...]:
 
 
 class _Forms:
-    """The two surfaces' equations in integers, and what the pencil needs of them.
+    """The two surfaces' equations in integers, and the data for the pencil.
 
     Lengths are integers over their common denominator L, so that the unit is 1/L. With V = v·v, q = b², t = d², p = α²
     and s = γ², M is `M` over q t V, its inverse is `inverse` over V, and D is the diagonal `D` over p s. A point is
@@ -225,7 +225,7 @@ class _Forms:
 
 
 def _tilted_candidates(forms: _Forms, F: Quartic) -> Iterator[Homogeneous]:
-    """Points ever nearer to the best one: first the steepest direction from the centre, X(λ), then X at a pole."""
+    """Points that tend to the best one: first the steepest direction from the centre, X(λ), then X at a pole."""
     gradient = forms.gradient(forms.center)
     steepest, under = times(forms.inverse, gradient), forms.V * forms.under_D
     square = Fraction(dot(steepest, gradient), under * forms.under_D)
@@ -247,9 +247,10 @@ def _tilted_candidates(forms: _Forms, F: Quartic) -> Iterator[Homogeneous]:
 def _across_the_pole(
     forms: _Forms, F: Quartic, adjoint: tuple[Matrix, int], point: Homogeneous, bits: int
 ) -> Iterator[Homogeneous]:
-    """From a point on the centre's side to the hyperboloid, and a little on, along the direction that a pole leaves.
+    """From a point on the centre's side to the hyperboloid, and a little beyond it, in the pole's null direction.
 
-    So little that only `bits` bits tell it from the hyperboloid: the nearer to tangency, the less room there is.
+    The step beyond is so small that only `bits` bits distinguish it from the hyperboloid: near tangency there is little
+    room.
     """
     matrix, scale = adjoint
     direction = max(matrix, key=lambda column: dot(column, column))

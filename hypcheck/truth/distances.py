@@ -1,4 +1,4 @@
-"""The nearest point for arrays of tilted spheroids: the clearance rounded to float64, where an error bound allows it.
+"""The nearest point for arrays of tilted spheroids: the clearance rounded to float64, if an error bound allows it.
 
 nearest.py answers a pair exactly; here any λ and any point X near the nearest one, both found in float64 and taken
 as given, enclose the same distance. With s(X) = (X − C)ᵀM(X − C) − 1, G = M + λD ≥ μ > 0, r = G X − M C and L = s(X) +
@@ -46,7 +46,7 @@ Triple = tuple[Floats, Floats, Floats]
 
 @dataclass(frozen=True, slots=True)
 class Decided:
-    """For each row: the clearance, whether it is surely the true one rounded to nearest; the position, whether sure."""
+    """For each row the clearance, whether it is proved correctly rounded, the position, and whether it is proved."""
 
     clearance: Floats
     clearance_certain: Mask
@@ -55,7 +55,7 @@ class Decided:
 
 
 def decide(rows: Rows) -> Decided:
-    """Clearance and position of valid rows (n, 10) as far as double-double arithmetic can tell.
+    """Clearance and position of valid rows (n, 10) as far as double-double arithmetic can decide.
 
     The position is certain where the clearance is, and a tangency never is.
     """
@@ -69,7 +69,7 @@ def decide(rows: Rows) -> Decided:
 
 
 def _inside(rows: Rows) -> Mask:
-    """A mask of the rows whose lengths are ordinary numbers, and whose axis is one that scaling keeps exact."""
+    """A mask of the rows whose lengths are within the limits, and whose axis can be scaled exactly."""
     size = np.abs(rows)
     lengths = np.where(size[:, :7] > 0, size[:, :7], 1.0)
     axis = np.where(size[:, 7:] > 0, size[:, 7:], size[:, 7:].max(axis=1, keepdims=True))
@@ -115,7 +115,7 @@ def _decided(rows: Rows) -> tuple[Floats, Positions, Mask]:
 
 
 def _start(rows: Rows, pairs: _Pairs) -> tuple[Triple, Floats]:
-    """X and λ by eigenvectors and bisection: a hint, of which nothing is proved."""
+    """X and λ by eigenvectors and bisection: a hint without a proof."""
     b, d = (pairs.sizes[k][:, None, None] for k in (2, 3))
     unit = np.stack(pairs.axis, axis=1)
     unit /= np.linalg.norm(unit, axis=1, keepdims=True)
@@ -156,7 +156,7 @@ def _polished(pairs: _Pairs, X: Triple, at: Floats) -> tuple[Triple, Floats]:
 
 
 def _enclosed(pairs: _Pairs, X: Triple, at: Floats) -> tuple[DoubleDouble, Floats, Floats]:
-    """L, how far below it sup φ is at most, and how far above; inf where the bounds do not hold."""
+    """L, and bounds of sup φ's distance below and above it; inf where the bounds do not hold."""
     _, _, b, d = pairs.sizes
     height, terms = _height(pairs, X)
     w = tuple(_subtracted(x, c) for x, c in zip(X, pairs.centre, strict=True))
@@ -189,11 +189,11 @@ def _enclosed(pairs: _Pairs, X: Triple, at: Floats) -> tuple[DoubleDouble, Float
 
 
 def _least_eigenvalue(pairs: _Pairs, at: Floats) -> Floats:
-    """A number below all eigenvalues of M + λD, by the minors of a smaller matrix; 0 where these show none."""
+    """A lower bound of the eigenvalues of M + λD, from the minors of a smaller matrix; 0 if these give none."""
     matrix = _matrix(pairs, at)
     scale = pairs.thick + pairs.long + np.abs(at) * (pairs.D[0] - pairs.D[2])
     adjugate, determinant = _adjugate(matrix)
-    guess = determinant / (adjugate[0] + adjugate[3] + adjugate[5])  # at most the least, at least a third of it
+    guess = determinant / (adjugate[0] + adjugate[3] + adjugate[5])  # from a third of the least eigenvalue up to it
     g00, g01, g02, g11, g12, g22 = matrix
     g00, g11, g22 = (entry - guess / 2 for entry in (g00, g11, g22))
     minor, minor_terms = g00 * g11 - g01 * g01, np.abs(g00 * g11) + g01 * g01

@@ -1,7 +1,7 @@
 """Double-double arithmetic on numpy arrays: each number is an unevaluated sum high + low with |low| ≤ u·|high|.
 
 u = 2⁻⁵³. Every operation below is within 16u² = 2⁻¹⁰² of the exact result, relative to the result itself, or for sums
-relative to |first| + |second|, as long as nothing overflows and nothing but a negligible part underflows. The count of
+relative to |first| + |second|, as long as nothing overflows and only a negligible part underflows. The count of
 roundings stands at each operation, in units of u² and to first order; 16 leaves room for the higher orders.
 
 The error-free transformations are those of Knuth (sum) and Dekker (product; numpy has no fused multiply-add).
@@ -65,7 +65,7 @@ def add_float(first: DoubleDouble, second: Floats | float) -> DoubleDouble:
 
 
 def sum_of(numbers: Sequence[DoubleDouble]) -> DoubleDouble:
-    """The sum of one number or more, from the first on, as add."""
+    """The sum of one or more numbers, added in order; roundings as in add."""
     total, *others = numbers
     for number in others:
         total = add(total, number)

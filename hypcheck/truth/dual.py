@@ -1,6 +1,6 @@
 """The Lagrange dual of a pair as a quotient of polynomials with integer coefficients: its formulas, in exact integers.
 
-nearest.py says what it is, and finds its supremum.
+nearest.py defines the dual, and finds its supremum.
 """
 
 from __future__ import annotations
@@ -76,7 +76,7 @@ class Dual:
 
 
 def _upright(lengths: Lengths) -> Dual:
-    """D of an upright pair; each group of lengths in its own unit."""
+    """The D of an upright pair; each group of lengths has its own unit."""
     p, q, R = _reduced(lengths.alpha**2, lengths.b**2, lengths.x**2 + lengths.y**2)
     s, t, Z = _reduced(lengths.gamma**2, lengths.d**2, lengths.z**2)
     under = (-q * t, q * s - p * t, p * s)
@@ -84,7 +84,7 @@ def _upright(lengths: Lengths) -> Dual:
 
 
 def _general(lengths: Lengths) -> Dual:
-    """D of any pair. With N = q t V M and Q = p s D in integers, M + λD = (N + νQ)/(q t V) for ν = λ q t V/(p s).
+    """The D of any pair. With N = q t V M and Q = p s D in integers, M + λD = (N + νQ)/(q t V) for ν = λ q t V/(p s).
 
     The adjugate of N + νQ is that of N, plus ν times a mixed one, plus ν² times that of Q.
     """

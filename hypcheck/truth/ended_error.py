@@ -1,6 +1,6 @@
-"""How far a pair whose hyperboloid ends is from another answer: by changes of its numbers, and by its clearance.
+"""The distance of a pair whose hyperboloid ends from another answer: by changes of its numbers, and by clearance.
 
-**Changes** of one size: whether some is found that gives an answer, or none can.
+**Changes** of a given size: whether one is found that gives an answer, or it is proved that none does.
 
 A pair changed by ε has α', γ', b', d', C', an axis v' and heights, each number within a relative ε of its own. Scaling
 space by T = diag(α/α', α/α', γ/γ') makes the hyperboloid the given one; let δ = 2ε/(1 − ε), more than a quotient of two
@@ -15,13 +15,13 @@ So the changed spheroid lies in the given one grown by 1 + η, and holds that sh
 
     η = (1 + 1.01 ε K)(1 + 1.02 ε K)(1 + ε)/(1 − ε) − 1 + δ Σ |C_i| √M_ii.
 
-A grown spheroid beside the longest wall that is clear is clear however the pair is changed, and a shrunk one beside the
-shortest wall that has contact has contact. Of a solid, disjoint is disjoint from the longest body, inside is inside the
-shortest.
+If the grown spheroid is clear of the longest wall, every changed pair is clear. If the shrunk spheroid has contact with
+the shortest wall, every changed pair has contact. For a solid body, disjoint from the longest body means always
+disjoint, and inside the shortest body means always inside.
 
 **Clearance.** 1 + clearance is the factor at which the spheroid, scaled about its centre, just touches. Scaled by more
-than that it meets the wall or a disc, by less it does not: that is decided exactly. least.py guesses the factor, and
-where it cannot, the factor is found by halving exponents and then intervals.
+than that it meets the wall or a disc, by less it does not: that is decided exactly. least.py gives a guess of the
+factor; if it cannot, bisection of exponents and then of intervals finds the factor.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ _BITS = 24
 
 @dataclass(frozen=True, slots=True)
 class EndedFlip:
-    """The changes of a pair that give the answer: as changes.Flip, where the hyperboloid ends."""
+    """A pair and an answer that its changes should give: as changes.Flip, for hyperboloids that end."""
 
     pair: Pair
     truth: Position
@@ -52,16 +52,16 @@ class EndedFlip:
 
     @property
     def free(self) -> bool:
-        """Whether the answer is as right as the truth: a centre at an end of an open wall has two sides."""
+        """Whether the answer is as right as the truth: a centre at an open wall's end height belongs to both sides."""
         pair, sides = self.pair, {self.truth, self.answer}
         return not pair.solid and Position.CONTACT not in sides and pair.z in (pair.z_min, pair.z_max)
 
     def estimate(self) -> Fraction:
-        """A power of two that is not excluded, and its half is; or the least that is asked."""
+        """A power of two that is not excluded, though its half is; or the least power that is tested."""
         return power_of_two(1 + last(lambda exponent: self.excluded(power_of_two(exponent)), _LEAST_OCTAVE, 0))
 
     def excluded(self, change: Fraction, cuts: int = 0) -> bool:  # noqa: ARG002 - as changes.Flip has it
-        """Whether no change up to that size gives the answer; False says nothing."""
+        """Whether it is proved that no change up to this size gives the answer; False is undecided."""
         if change > _LARGEST:
             return False
         off, growth = 2 * change / (1 - change), self._growth(change)
@@ -114,7 +114,7 @@ class EndedFlip:
         return rounded(eta, _BITS) * Fraction(1001, 1000) if eta else eta
 
     def _position(self, factor: Fraction, longer: Fraction) -> Position | None:
-        """The position of the spheroid times that factor beside a wall longer by that much; None of what is none."""
+        """The position of the spheroid times `factor` beside a wall longer by `longer`; None if either vanishes."""
         pair = self.pair
         low = _times(pair.z_min, 1 + longer if pair.z_min < 0 else 1 - longer)
         high = _times(pair.z_max, 1 + longer if pair.z_max > 0 else 1 - longer)
@@ -125,7 +125,7 @@ class EndedFlip:
         return exact.position(Lengths.of(row))
 
     def _sure_side(self, off: Fraction) -> Position | None:
-        """The side of the centre, however it is moved by that much of itself; None where it can have both."""
+        """The side of the centre after every relative change up to `off`; None if it can be on both sides."""
         pair = self.pair
         x, y, z = (Fraction(part) for part in (pair.x, pair.y, pair.z))
         outward = (x * x + y * y) / Fraction(pair.alpha) ** 2
@@ -163,7 +163,7 @@ def clearance(pair: Pair, decision: Decision) -> float:
 
 
 def enclosure(pair: Pair, decision: Decision) -> tuple[Fraction, Fraction]:
-    """Two numbers that the clearance lies between, 2⁻⁵⁶ of 1 + clearance apart at most, none < 0 of a clear pair."""
+    """Bounds of the clearance, at most 2⁻⁵⁶ of 1 + clearance apart; for a clear pair none is < 0."""
     if decision.tangent:
         return Fraction(0), Fraction(0)
     low, high = _bracket(pair)

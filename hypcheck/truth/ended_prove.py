@@ -1,4 +1,4 @@
-"""The search for what proves an answer about a hyperboloid that ends; certificate.py checks it.
+"""The search for the certificate of an answer about a hyperboloid that ends; certificate.py checks it.
 
 A wall that is missed is cut into pieces, each with a λ and a μ: λ is that of the middle height (sections.py), and then
 the best μ is known. With A w² + B w + C the least e + λ h at a height w, the form with μ (w − l)(w − u) is positive
@@ -27,9 +27,9 @@ _BITS = (8, 24, 64, 160)
 
 
 def prove(pair: Pair, decision: Decision, multiplier: Fraction | None) -> Certificate:
-    """A certificate for the exact answer about a pair that has ends; `multiplier` is that without ends, if any.
+    """A certificate for the exact answer about a pair with ends; `multiplier` is the pair's without ends, if any.
 
-    That of a touch, and of a crossing that floats do not find, says no more than the position: see certificate.py.
+    For a touch, and for a crossing that floats do not find, it has only the position: see certificate.py.
     """
     position = decision.position
     if position is Position.CONTACT:
@@ -71,7 +71,7 @@ def _end(height: float, otherwise: Fraction) -> Fraction:
 
 
 def _half_height_squared(pair: Pair) -> Fraction:
-    """The square of how far the spheroid reaches up and down from its centre."""
+    """The square of the spheroid's half height."""
     b, d, v = Fraction(pair.b), Fraction(pair.d), [Fraction(part) for part in pair.axis]
     return b * b + (d * d - b * b) * v[2] * v[2] / sum((part * part for part in v), Fraction(0))
 
@@ -90,7 +90,7 @@ def _outside(pair: Pair, low: Fraction | None, high: Fraction | None) -> Piece:
 
 
 def _tried(S: Matrix, H: Matrix, heights: tuple[Fraction, Fraction], at: Fraction, *, solid: bool) -> Iterator[Piece]:
-    """Pieces with this λ to more and more bits that are proved."""
+    """The proved pieces with this λ, rounded to more and more bits."""
     low, high = heights
     for bits in _BITS:
         multiplier = rounded(at, bits) if at else at
@@ -107,7 +107,7 @@ def _tried(S: Matrix, H: Matrix, heights: tuple[Fraction, Fraction], at: Fractio
 
 
 def _least_at_height(S: Matrix, H: Matrix, at: Fraction) -> tuple[Fraction, Fraction, Fraction] | None:
-    """A, B, C; None where e + λh is not convex in horizontal planes."""
+    """A, B, C; None if e + λh is not convex in horizontal planes."""
     rows = [[a + at * b for a, b in zip(*pair, strict=True)] for pair in zip(S, H, strict=True)]
     for i in (0, 1):
         if rows[i][i] <= 0:

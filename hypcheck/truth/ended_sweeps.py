@@ -1,6 +1,6 @@
-"""Sweeps beside a hyperboloid that ends: whether a spheroid that moves straight meets its wall or its discs, and when.
+"""Sweeps beside a hyperboloid that ends: whether, and when, a spheroid on a sweep meets its wall or its discs.
 
-Contact begins and ends where the spheroid E touches the wall or a disc without crossing it. The point of touch is
+Contact begins and ends when the spheroid E touches the wall or a disc without crossing it. The point of touch is
 
 - on the wall between its ends: E is tangent to the whole hyperboloid, and the discriminant of F is 0 (sweep.py). Where
   it is 0 at all times, F has fewer roots still (below);
@@ -11,9 +11,9 @@ All of these are polynomials in the time t: the coefficients of g, and k, are qu
 end of a tilted hyperboloid is at a height w √U, so that they are u + v √U with polynomials u, v; then the norm
 u² − U v² is taken. Between two neighbouring roots of them all nothing changes, and one exact decision finds it.
 
-Roots are enclosed ever more narrowly. What is closer together than that counts as one cluster. A cluster between two
-clear times is clear if a larger spheroid that contains E at all its times is. Where that cannot be shown, E touches for
-an instant, or one larger by 2^−_BITS[-1] of itself does; both count as contact.
+Enclosures of roots are narrowed step by step. Roots whose enclosures meet count as one cluster. A cluster between two
+clear times is clear if a larger spheroid that contains E at all times of the cluster is clear. If this cannot be shown,
+E touches for an instant, or a spheroid larger by 2^−_BITS[-1] of itself does; both count as contact.
 
 **Where F has a double root at all times**, the point x(t) that belongs to it, on both surfaces, stays a point of touch
 for all complex t. The derivative of e(x(t), t) = 0 says that the normal there is at right angles to the sweep's
@@ -54,9 +54,9 @@ START, END = Fraction(0), Fraction(1)
 
 @dataclass(frozen=True)
 class EndedSweep:
-    """A spheroid that goes straight beside a hyperboloid that ends, or smaller ones within it, which move with it.
+    """The sweep of a spheroid beside a hyperboloid that ends; or of smaller spheroids (`parts`) that move within it.
 
-    With `parts` there is contact where the spheroid is in contact and its parts are not all clear on one side.
+    With `parts` there is contact when the spheroid is in contact and its parts are not all clear on one side.
     """
 
     whole: StraightSweep
@@ -69,7 +69,7 @@ class EndedSweep:
         return not self.parts or not _clear_on_one_side(part.position(time) for part in self.parts)
 
     def clear(self, first: Fraction, last: Fraction) -> bool:
-        """Whether bounds show that there is no contact between two times: of spheroids that are so much larger."""
+        """Whether there is provably no contact between two times: by larger spheroids that contain the moving ones."""
         middle, half = (first + last) / 2, (last - first) / 2
         if _larger(self.whole, middle, half) is not Position.CONTACT:
             return True
@@ -97,7 +97,7 @@ def _clear_on_one_side(positions: Iterator[Position]) -> bool:
 def _larger(sweep: StraightSweep, middle: Fraction, half: Fraction) -> Position:
     """The position of a spheroid that contains the moving one at all times about one.
 
-    Moved by a vector, a spheroid is contained in one that is larger by the vector's length in radii.
+    A spheroid moved by a vector is contained in the unmoved one enlarged by the vector's length in radii.
     """
     lengths, radii = sweep.at(middle), _radii(sweep) * half
     if not radii:
@@ -108,7 +108,7 @@ def _larger(sweep: StraightSweep, middle: Fraction, half: Fraction) -> Position:
 
 
 def _radii(sweep: StraightSweep) -> Fraction:
-    """At least how many radii of the spheroid, in the direction of the sweep, a sweep is long."""
+    """A lower bound of the sweep's length in radii of the spheroid in the sweep's direction."""
     start, (u, v, w) = sweep.start, map(abs, sweep.step)
     if sweep.is_upright and start.upward == (0, 0, 1):
         return Fraction(u + v, start.b) + Fraction(w, start.d)
@@ -130,7 +130,7 @@ def _scaled(lengths: Lengths, unit: int, radius: int) -> Lengths:
 
 
 def first_contact(sweep: EndedSweep) -> Interval | None:
-    """When there is contact first, enclosed; None where there is none from beginning to end."""
+    """An enclosure of the time of first contact; None if there is no contact."""
     if sweep.meets(START):
         return START, START
     if not sweep.whole.moves or _clear_in_pieces(sweep):
@@ -144,12 +144,12 @@ def first_contact(sweep: EndedSweep) -> Interval | None:
 
 
 def meets(sweep: EndedSweep) -> bool:
-    """Whether there is contact at all; as first_contact, but sooner where some time shows it."""
+    """Whether there is contact: the result of first_contact, but faster if some time shows contact."""
     return any(sweep.meets(Fraction(time, 4)) for time in (0, 4, 2, 1, 3)) or first_contact(sweep) is not None
 
 
 def grazes(sweep: StraightSweep) -> bool:
-    """Whether all contact on a sweep, which has some, is a touch."""
+    """Whether all contact on a sweep with contact is a touch."""
     times = [time for time in _gaps(EndedSweep(sweep).clusters(_BITS[0])) if time is not None]
     return all(sweep.position(time) is not Position.CONTACT or sweep.tangent(time) for time in times)
 
@@ -170,14 +170,14 @@ def _clusters(critical: Sequence[Polynomial], bits: int) -> list[Interval]:
 
 
 def _gaps(clusters: Sequence[Interval]) -> list[Fraction | None]:
-    """A time behind each cluster and before the next, after one before the first; None where there is no room."""
+    """A time before the first cluster, between each and the next, and after the last; None where there is no room."""
     ends = [START, *(high for _, high in clusters)]
     begins = [*(low for low, _ in clusters), END]
     return [None if low >= high else (low + high) / 2 for low, high in zip(ends, begins, strict=True)]
 
 
 def _first_of(sweep: EndedSweep, clusters: Sequence[Interval]) -> tuple[Interval | None, bool]:
-    """The first cluster with contact in it or behind it, the start being clear, and whether that is certain."""
+    """The first cluster with contact in it or after it, if the start is clear; and whether this is certain."""
     for (low, high), behind in zip(clusters, _gaps(clusters)[1:], strict=True):
         if low == high:
             if sweep.meets(low):
@@ -255,12 +255,12 @@ class _WithRoot:
 
     @property
     def vanishes(self) -> bool:
-        """Whether it is 0 for every t."""
+        """Whether the number is 0 for every t."""
         return not any(self._norm)
 
     @property
     def norm(self) -> list[Polynomial]:
-        """A polynomial that is 0 wherever this is, alone in a list; none where this is a constant, 0 or not."""
+        """A list with a polynomial that is 0 wherever this number is; an empty list if this is a constant, 0 or not."""
         return [self._norm] if len(self._norm) > 1 else []
 
     @property

@@ -8,23 +8,23 @@ exactly where f(λ) = det(S + λH) > 0.
 **Upright.** f is A + λ times the cubic g, and (λ₋, λ₊) is (−A, B). The rule (docs/mathematics.md, "The local maximum
 decides"): g(−A), g(0), g(B) ≤ 0, and the pair is exterior when g > 0 somewhere in (0, B), interior when g > 0 somewhere
 in (−A, 0), in contact otherwise. A cubic with leading coefficient > 0 has one local maximum λm at most, so only the
-sign of g(λm) and the place of λm are asked for. Both are signs of numbers u + v √h with integers u, v, h, and those are
-decided by squaring.
+sign of g(λm) and the place of λm are needed. Both follow from signs of numbers u + v √h with integers u, v, h; squaring
+decides these signs.
 
 **Tilted.** F is a positive multiple of f (pencil.py). F(0) < 0 and F(±∞) > 0. At λ₊ and λ₋ the matrix M + λD is
 singular and positive semidefinite, so that F ≤ 0 there. Hence one root is ≤ λ₋, one is ≥ λ₊, and the other two are
-complex or sit together in one of (−∞, λ₋], [λ₋, 0), (0, λ₊], [λ₊, ∞). On (λ₋, λ₊) f has the sign of
-φ = f/det(M + λD), which is concave with φ(0) = −1 and φ′(0) = h, the hyperboloid's equation at the centre: the sign of
-h says on which side of 0 f can be positive. With μ = |λ| and ℓ the end of the interval on that side, all that is asked
-is whether F > 0 for some μ in (0, ℓ):
+complex or sit together in one of (−∞, λ₋], [λ₋, 0), (0, λ₊], [λ₊, ∞). On (λ₋, λ₊) f has the sign of φ = f/det(M + λD),
+which is concave with φ(0) = −1 and φ′(0) = h, the hyperboloid's equation at the centre: the sign of h gives the side of
+0 on which f can be positive. With μ = |λ| and ℓ the end of the interval on that side, the only question is whether F >
+0 for some μ in (0, ℓ):
 
-- F has two real roots at least, so two are complex if and only if its discriminant is < 0; then the pair is in contact;
+- F has at least two real roots, so two are complex if and only if its discriminant is < 0; then the pair is in contact;
 - where all four are real, Descartes' rule counts exactly: 1 or 3 of them are positive (of λ's sign), and with 3 two lie
   in (0, ℓ] or all three in [ℓ, ∞), which the signs of F's derivatives at ℓ tell, by Descartes' rule again;
 - where the discriminant is 0 there is one multiple root, and it is rational. In (0, ℓ] it is a tangency, unless it is ℓ
   itself and a simple root lies below it, which makes the pair clear (the ring of upright spheroids, tilted).
 
-ℓ is p/q (towards interior, for b > d) or a root of E, so that every sign asked for is that of u + r √w in integers.
+ℓ is p/q (towards interior, for b > d) or a root of E, so that every required sign is the sign of u + r √w in integers.
 
 **Where the hyperboloid ends** (h is < 0 inside of it), W = {h = 0, z_min ≤ z ≤ z_max} is the wall,
 K = {h ≤ 0, z_min ≤ z ≤ z_max} the body, E the closed solid spheroid.
@@ -33,8 +33,8 @@ K = {h ≤ 0, z_min ≤ z ≤ z_max} the body, E the closed solid spheroid.
 - Solid: contact if and only if E meets W or one of the two discs in which K ends; else E lies in K or is disjoint from
   it, and the centre says which.
 
-E meets W only where it meets the whole hyperboloid. So the position without ends comes first, and sections.py is
-asked about the wall only where that is contact and E reaches beyond an end.
+E meets W only where it meets the whole hyperboloid. So the position without ends is decided first. sections.py decides
+about the wall only if that position is contact and E reaches beyond an end.
 """
 
 from __future__ import annotations
@@ -54,8 +54,8 @@ from hypcheck.truth.sections import Sections
 class Decision:
     """The exact answer.
 
-    `limit_of` is, for a tangency, the clear position that a smaller spheroid would have. `kind` is that of an upright
-    pair, of its contact or clearance; None of a tilted one.
+    `limit_of` is, for a tangency, the clear position that a smaller spheroid would have. `kind` is the kind of contact
+    or clearance of an upright pair; None for a tilted one.
     """
 
     position: Position
@@ -149,7 +149,7 @@ def _inner_tangency(above: int) -> Kind:
 
 
 def _outer_tangency(g: Cubic, top: int, bottom: int) -> Kind:
-    """The kind of a double root m = top/bottom > 0, by the place of m to B and to the simple root."""
+    """The kind of a double root m = top/bottom > 0, by the order of m, B and the simple root."""
     below = g.s * bottom - top * g.t  # the sign of B − m
     if below > 0:
         return Kind.EXTERIOR_TANGENT_POINT
@@ -187,8 +187,8 @@ def quartic_discriminant(a: Number, b: Number, c: Number, d: Number, e: Number) 
 def _three_beyond(F: Quartic) -> bool:
     """Whether all three positive roots, distinct ones, are ≥ ℓ.
 
-    By Descartes' rule for the Taylor coefficients at ℓ, all roots being real: three changes of sign. F(ℓ) ≤ 0 may stand
-    for −: where it is 0, the sign of F′(ℓ) at a simple root tells by itself which of the roots ℓ is.
+    By Descartes' rule for the Taylor coefficients at ℓ, all roots being real: three changes of sign. F(ℓ) ≤ 0 counts as
+    −: if it is 0, the sign of F′(ℓ) at a simple root alone shows which of the roots ℓ is.
     """
     signs = _signs_at_first(F) if F.at_first else _signs_at_second(F)
     return changes_of_sign((-1, *signs, 1)) == 3
@@ -223,7 +223,7 @@ def _signs_at_second(F: Quartic) -> list[int]:
 
 
 def _with_multiple_root(F: Quartic) -> Decision:
-    """The decision where F has a multiple root, which is one number and rational."""
+    """The decision if F has a multiple root; there is only one, and it is rational."""
     m = double_root(F)
     if m <= 0 or (beyond := _beyond(F, m)) > 0:
         return Decision(Position.CONTACT)
@@ -252,9 +252,9 @@ def ended_position(lengths: Lengths, whole: Position) -> Position:
 
 
 def ended_limit(lengths: Lengths, whole: Position, whole_limit: Position | None) -> Position | None:
-    """The clear position that a smaller spheroid would have where a contact is no more than a touch, else None.
+    """The clear position that a smaller spheroid would have if a contact is only a touch, else None.
 
-    `whole_limit` is the same without ends, where the position is `whole`.
+    `whole_limit` is this clear position for the pair without ends, whose position is `whole`.
     """
     sections = Sections.of(lengths)
     if whole is Position.CONTACT and _between(sections, lengths):

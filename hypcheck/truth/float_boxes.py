@@ -1,11 +1,11 @@
 """Certificates over boxes of changes for many rows at once, in float64 intervals.
 
-The proofs are those of box_proofs.py. Each end of an interval is rounded outward after each operation, so that
-what is certified here is proved. What is not, as near to contact or of very stiff sizes, is left to the 256 bits of
-box_certificate.py.
+The proofs are those of box_proofs.py. Each end of an interval is rounded outward after each operation, so that every
+certificate here is a proof. Rows without a certificate, near contact or with very stiff sizes, are left to the 256 bits
+of box_certificate.py.
 
-NaN, which overflow leaves, compares as no proof. Only sums, products, quotients and roots are asked of numpy, each of
-which IEEE 754 rounds correctly, so that the next float on either side bounds the exact result.
+Overflow gives NaN, and a comparison with NaN gives no proof. numpy computes only sums, products, quotients and roots,
+which IEEE 754 rounds correctly, so that the next floats on both sides bound the exact result.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ _LADDER = np.ldexp(np.exp2(np.arange(8) / 8), np.arange(LEAST, 0)[:, None]).rave
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Enclosures:
-    """An interval for each of n numbers, ends (n,); NaN where nothing is known."""
+    """An interval for each of n numbers, with ends (n,); NaN if nothing is known about a number."""
 
     low: Floats
     high: Floats
@@ -82,7 +82,7 @@ class Enclosures:
         return np.asarray(np.maximum(np.abs(self.low), np.abs(self.high)))
 
     def root(self) -> Enclosures:
-        """The square root; each is taken to hold no number below 0 that matters."""
+        """The square root; negative numbers in an interval are ignored, since they cannot occur."""
         return Enclosures(np.maximum(_down(np.sqrt(np.maximum(self.low, 0.0))), 0.0), _up(np.sqrt(self.high)))
 
 
@@ -122,7 +122,7 @@ _AT_ONCE = 4096
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Boxes:
-    """Sizes (4, n) at their best corner for a goal, and the ends (6, n) of centres and axes; the goals (n,)."""
+    """Sizes (4, n) at their best corner for a goal, the ends (6, n) of centres and axes, and the goals (n,)."""
 
     sizes: Floats
     low: Floats
@@ -142,13 +142,13 @@ class Boxes:
 
     @property
     def radii(self) -> Floats:
-        """How far it is from the rounded middle to the ends, at least."""
+        """Upper bounds of the distances from the rounded middle to the ends."""
         middle = self.middle
         return _up(np.maximum(self.high - middle, middle - self.low))
 
 
 def lower_ends(rows: Rows, goals: Sequence[Goal]) -> Floats:
-    """For each row (n, 10) a change that is proved not to attain its goal, float64 (n,): a lower end; 0 where none is.
+    """For each row (n, 10) a change that is proved not to attain its goal, a lower bound: float64 (n,); 0 if none is.
 
     It is a power of 2^(1/8) below 1, and nearly the largest that one certificate excludes.
     """
@@ -157,7 +157,7 @@ def lower_ends(rows: Rows, goals: Sequence[Goal]) -> Floats:
 
 
 def _lower_ends(rows: Rows, goals: Sequence[Goal]) -> Floats:
-    """By search among the steps of the ladder; of few rows many steps are tried at a time, which costs as much."""
+    """By a search among the steps of the ladder; for few rows many steps are tried at a time, at the same cost."""
     low, high = np.full(len(rows), -1), np.full(len(rows), len(_LADDER))
     active = np.arange(len(rows))
     while len(active):
@@ -175,13 +175,13 @@ def _lower_ends(rows: Rows, goals: Sequence[Goal]) -> Floats:
 
 
 def excluded(rows: Rows, goals: Sequence[Goal], changes: Floats, cuts: int = 0) -> Mask:
-    """Where certificates are found that no change up to `changes` (n,), each below 1, attains the goal."""
+    """A mask of rows with certificates that no change up to `changes` (n,), each below 1, attains the goal."""
     with np.errstate(all="ignore"):
         return _certified(_boxes(_normalised(rows), goals, changes), cuts)
 
 
 def _normalised(rows: Rows) -> Rows:
-    """The same pairs with lengths and axes about 1; NaN where float64 does not hold these exactly."""
+    """The same pairs scaled so that lengths and axes are about 1; NaN if float64 does not hold these exactly."""
     exponents = np.empty(rows.shape, dtype=np.int64)
     for part in (slice(0, len(COLUMNS)), slice(len(COLUMNS), None)):
         exponents[:, part] = np.frexp(np.abs(rows[:, part]).max(axis=1))[1][:, None]
@@ -203,7 +203,7 @@ def _boxes(rows: Rows, goals: Sequence[Goal], change: Floats) -> Boxes:
 
 
 def _certified(boxes: Boxes, cuts: int) -> Mask:
-    """Which goals are shown not to be attained in their boxes, (n,), each box cut up to so many times."""
+    """A mask of the goals that are proved not to be attained in their boxes, (n,); a box is cut up to `cuts` times."""
     held = np.ones(len(boxes.side), dtype=np.bool_)
     owners = np.arange(len(boxes.side))
     for left in range(cuts, -1, -1):
@@ -219,7 +219,7 @@ def _certified(boxes: Boxes, cuts: int) -> Mask:
 
 
 def _halves(boxes: Boxes, pull: Floats) -> Boxes:
-    """Each box in two, cut across the number that costs most."""
+    """The two halves of each box, cut across the number that loosens the bounds most."""
     middle, chosen = boxes.middle, np.argmax(np.abs(pull) * boxes.radii, axis=0)
     cut = chosen == np.arange(len(pull))[:, None]
     return Boxes(
@@ -232,7 +232,7 @@ def _halves(boxes: Boxes, pull: Floats) -> Boxes:
 
 
 def _held(boxes: Boxes) -> tuple[Mask, Floats]:
-    """Which goals one certificate excludes in each box, (n,); and how the margin changes with each number, (6, n)."""
+    """A mask of goals that one certificate excludes in a box, (n,); and the margin's change by each number, (6, n)."""
     sign = np.where(boxes.leave, -1.0, 1.0)
     pull = sign * np.stack(_Margin(boxes.sizes, boxes.middle, boxes.side).derivatives())
     worst = _Margin(boxes.sizes, np.where(pull > 0, boxes.high, boxes.low), boxes.side)
@@ -247,7 +247,7 @@ _SHARES = (1.0, 1 - 2.0**-20, 0.5)
 
 
 class _Margin:
-    """box_certificate.State of n rows in plain floats: where to look for a proof, itself none."""
+    """box_certificate.State of n rows in plain floats: it finds places for proofs, and proves nothing itself."""
 
     def __init__(self, sizes: Floats, rest: Floats, side: Floats) -> None:
         self.form, self.side = Form(list(sizes), np.sqrt), side
@@ -267,7 +267,7 @@ class _Margin:
 
 
 def _multiplier(sizes: Floats, rest: Floats) -> Floats:
-    """About the λ at which φ is largest, (n,): the root of φ's slope, from the odds of its distance to its pole."""
+    """Approximately the λ at which φ is largest, (n,): the root of φ's slope, found by bisection between its poles."""
     alpha, gamma, b, d = sizes
     x, y, z, v_x, v_y, v_z = rest
     horizontal = np.hypot(v_x, v_y)
@@ -314,7 +314,7 @@ def _root(A1: Floats, A2: Floats, B: Floats, P1: Floats, P2: Floats, Q: Floats) 
 
 
 def _proved(boxes: Boxes, at: Floats, X: Floats, C: Floats) -> Mask:
-    """Which goals, all to leave a side or all to come to one, the certificates of the worst corners exclude."""
+    """A mask of goals that the certificates of the worst corners exclude; all goals leave a side, or all reach one."""
     points = [_enclosed(part) for part in boxes.middle]
     whole = [Enclosures(low, high) for low, high in zip(boxes.low, boxes.high, strict=True)]
     form = Form([_enclosed(size) for size in boxes.sizes], KIND.root)

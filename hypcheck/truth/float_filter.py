@@ -1,19 +1,19 @@
 """Exact positions of many rows: floats with error bounds decide most of them, exact.py decides the rest.
 
 The filter looks for the parts of a certificate (certificate.py): a λ with g(λ) > 0, or two points of the spheroid on
-opposite sides of the hyperboloid. How the witness was found does not matter; only its check decides, and each check
-compares two sums of positive terms.
+opposite sides of the hyperboloid. The way in which a witness is found does not matter; only its check decides, and each
+check compares two sums of positive terms.
 
-Bound of the checks. u = 2⁻⁵³. A = (α/b)² and B, Q alike carry a factor (1+δ)^k, |δ| ≤ u, with k ≤ 3; P = (x²+y²)/b²
-k ≤ 4; both sides of a comparison are sums, products and quotients of positive numbers, so the factors only add up: no
-side below collects more than k = 16. (1+u)^16/(1−u)^16 < 1 + 33u, so MARGIN = 1 + 64u leaves room to spare. Where a
-difference of such numbers is needed (B − λ, r − 1), it is formed from an operand first moved by the margin to the safe
-side, and one more rounding of the result is in k. The roots r and a√(1+Q/B) are right to 4u and 10u of themselves, so
-that their difference lacks no more than 64u of both. `_safe` keeps every square, quotient and sum away from overflow
-and underflow: with lengths in 2^±100 (or zero) A, B, P, Q lie in 2^±401, λ is asked to lie in 2^±450, and a difference
-of such numbers is 0 or at least 2^-504, so that every quotient stays within 2^±960.
+Bound of the checks. u = 2⁻⁵³. A = (α/b)² and B, Q alike carry a factor (1+δ)^k, |δ| ≤ u, with k ≤ 3; P = (x²+y²)/b² k ≤
+4; both sides of a comparison are sums, products and quotients of positive numbers, so the factors only add up: no side
+below collects more than k = 16. (1+u)^16/(1−u)^16 < 1 + 33u, so MARGIN = 1 + 64u is more than enough. If a difference
+of such numbers is needed (B − λ, r − 1), one operand is first moved by the margin to the safe side; k includes one more
+rounding of the result. The roots r and a√(1+Q/B) are right to 4u and 10u of themselves, so that their difference lacks
+no more than 64u of both. `_safe` keeps every square, quotient and sum away from overflow and underflow: with lengths in
+2^±100 (or zero) A, B, P, Q lie in 2^±401, λ is asked to lie in 2^±450, and a difference of such numbers is 0 or at
+least 2^-504, so that every quotient stays within 2^±960.
 
-Where all rows have the same sizes, lines come first: each costs a few products and a comparison in x² + y² and z².
+If all rows have the same sizes, lines are tested first: each costs a few products and a comparison in x² + y² and z².
 
 Clearance. For a fixed λ in (0, B), g(λ) > 0 says P/(A+λ) − Q/(B−λ) > 1 + 1/λ, and for μ in (0, A), g(−μ) > 0 says
 P/(A−μ) − Q/(B+μ) < 1 − 1/μ. With P = (x²+y²)/b² and Q = z²/d² these are the two sides of straight lines in x²+y², z²:
@@ -30,8 +30,8 @@ safe side. Lengths lie in 2^±100 or are zero: b²A = α², b²λ ≤ αb, d²B 
 or not below 2^-160 of them, so that K and M lie in 2^±600: nothing over- or underflows. √(x²+y²) and ρ are right to 4u
 of themselves; their difference may lack 64u of both, and b another 64u.
 
-Any multiplier proves; good ones are double roots of g at a tangency. At height ζ = γ h of the surface that is about
-a/√(1 + h²), exactly so at the waist, where c² > a or, inside, a > 1.
+Every multiplier gives a proof; good multipliers are double roots of g at a tangency. At height ζ = γ h of the surface
+that is about a/√(1 + h²), exactly so at the waist, where c² > a or, inside, a > 1.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ Line = tuple[float, float]
 
 @dataclass(frozen=True, slots=True)
 class SizeLines:
-    """Pairs (K, M): exterior is what lies above one of the first, interior what lies below one of the second.
+    """Lines (K, M): centres above one of the first lines are exterior, centres below one of the second are interior.
 
     `surface` is the line of ρ², (α², (α/γ)²), and `width` is b, on the safe side.
     """
@@ -76,7 +76,7 @@ class SizeLines:
         ):
             if lines:
                 border = _envelope(lines, heights, nearest)
-                # By one of the two at most, so that adding does what choosing would, and many times faster.
+                # At most one of the two proves a position, so a sum can replace a choice, and is many times faster.
                 result += beyond(squares, border).view(np.int8) * np.int8(position - otherwise)
         rest = np.flatnonzero(result == otherwise)
         result[rest[self._touching(squares[rest], heights[rest])]] = Position.CONTACT
@@ -174,7 +174,7 @@ def _between_ends(rows: Rows) -> Positions:
 
 
 def filtered(rows: Rows) -> Positions:
-    """What the filter alone can prove of valid rows: a position, or UNDECIDED. int8 (n,)."""
+    """The positions of valid rows that the filter proves, or UNDECIDED: int8 (n,)."""
     columns = np.ascontiguousarray(rows.T)
     if _all_safe(columns):
         return _proved(columns)
@@ -197,7 +197,7 @@ def _chunk(rows: Rows, first_number: int) -> Positions:
 
 
 def _all_safe(columns: Floats) -> bool:
-    """Whether all rows are, by the extremes of each column; comparisons with a NaN are false."""
+    """Whether all rows are safe, by the extremes of each column; comparisons with a NaN are false."""
     if not columns.size:
         return True
     least, greatest = columns[:4].min(axis=1), columns[:4].max(axis=1)
@@ -217,7 +217,7 @@ def _safe(columns: Floats) -> Mask:
 
 
 def _proved(columns: Floats) -> Positions:
-    """A position, or UNDECIDED, of safe rows (7, n): by ever dearer witnesses, each asked about what is left."""
+    """A position, or UNDECIDED, of safe rows (7, n): by more and more expensive witnesses for the undecided rows."""
     with np.errstate(all="ignore"):  # a NaN or an infinity compares false, which is undecided
         result = _by_lines(columns)
         rest = np.flatnonzero(result == UNDECIDED)
@@ -232,7 +232,7 @@ def _proved(columns: Floats) -> Positions:
 
 
 def _by_lines(columns: Floats) -> Positions:
-    """What lines prove where all rows have the same sizes; of others nothing."""
+    """The positions that lines prove if all rows have the same sizes; else UNDECIDED for all."""
     sizes, (x, y, z) = columns[:4], columns[4:]
     if not columns.size or (sizes != sizes[:, :1]).any():
         return np.full(columns.shape[1], UNDECIDED, dtype=np.int8)
@@ -249,7 +249,7 @@ def _squares(columns: Floats) -> Squares:
 
 
 def _level(A: Floats, B: Floats, P: Floats, Q: Floats) -> Positions:
-    """By the point of the surface at the centre's own height: contact within a radius; else its λ may prove clear."""
+    """By the surface's point at the centre's height: contact if it is within a radius; else its λ may prove clear."""
     a, stretch, r = np.sqrt(A), np.sqrt(1 + Q / B), np.sqrt(P)
     surface, size = a * stretch, a / stretch
     within = np.abs(r - surface) + (MARGIN - 1) * (r + surface) < 2 - MARGIN
@@ -261,7 +261,7 @@ def _maximum(A: Floats, B: Floats, P: Floats, Q: Floats) -> Positions:
 
 
 def _local_maximum(A: Floats, B: Floats, P: Floats, Q: Floats) -> Floats:
-    """The λ of the local maximum of g, however badly it is computed."""
+    """The λ of the local maximum of g, approximately; no accuracy is needed."""
     c2 = A - B + 1 - P - Q
     c1 = B * (P - A - 1) + A * (1 - Q)
     root = np.sqrt(c2 * c2 - 3 * c1)
@@ -282,7 +282,7 @@ def _clear(A: Floats, B: Floats, P: Floats, Q: Floats, at: Floats) -> Positions:
 
 
 def _shift(proved: Mask, position: Position) -> Positions:
-    """What to add to UNDECIDED: a row is proved to be one thing at most, and adding is faster than choosing."""
+    """The number to add to UNDECIDED: at most one position of a row is proved, and a sum is faster than a choice."""
     return proved.view(np.int8) * np.int8(position - UNDECIDED)
 
 

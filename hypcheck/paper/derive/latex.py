@@ -89,7 +89,7 @@ Run = tuple[str, str]
 
 
 def _runs(tokens: list[Run], edge: str) -> list[Run]:
-    """The tokens joined to runs of one mode; spaces are of the mode that both sides have, or else text."""
+    """The tokens joined to runs of one mode; a space has the mode of its two sides if they are equal, else text."""
     kinds = ["text" if kind == "space" else kind for _, kind in tokens]
     for place, (_, kind) in enumerate(tokens):
         if kind == "mark":  # brackets and commas go with a formula that they touch

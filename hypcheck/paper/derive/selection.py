@@ -57,7 +57,7 @@ class Selection:
 
     @property
     def failing(self) -> tuple[str, ...]:
-        """The names of all that is shown and does not hold, or whose verdict is not borne out."""
+        """The names of shown formulas and chains that do not hold, and of entries whose verdict lacks support."""
         shown = (chain.name for chain in (*self.sections, *self.chains) if not chain.holds)
         return (*shown, *(entry.number for entry in self.entries if not entry.confirmed))
 

@@ -44,7 +44,7 @@ from hypcheck.paper.ledger.statements import errs
 
 
 class Claim(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """A claim of the paper as claims.toml has it: the fields of LedgerEntry, and what its `evidence` is."""
+    """A claim of the paper in the form of claims.toml: the fields of LedgerEntry, and the names of its `evidence`."""
 
     number: str
     section: str
@@ -66,7 +66,7 @@ def claims() -> dict[str, Claim]:
 
 @cache
 def faults() -> dict[str, str]:
-    """Why false statements are false, by the names that their claims have, in order: independent of each other."""
+    """The faults behind false statements, in order, by the names that claims use; the faults are independent."""
     return msgspec.convert(_content()["fault"], dict[str, str])
 
 
@@ -86,7 +86,7 @@ def entries() -> tuple[LedgerEntry, ...]:
 
 
 def statement(number: str) -> LedgerEntry:
-    """The entry of a statement in words. Raises KeyError where there is none."""
+    """The entry of a statement in words. Raises KeyError if there is none."""
     claim = claims()[number]
     why, follows, correction = (_filled_in(text) for text in (claim.why, claim.follows, claim.correction))
     return LedgerEntry(
@@ -104,7 +104,7 @@ def statement(number: str) -> LedgerEntry:
 
 
 def equation(checked: EquationCheck) -> LedgerEntry:
-    """The entry of one formula; the verdict expected of it is confirmed where the check comes to the same."""
+    """The entry of one formula; its expected verdict is confirmed if the check gives the same verdict."""
     entry = statement(_in_brackets(checked.number))
     expected = "misprint" if entry.verdict == MISPRINT else "holds"
     evidence = Evidence("identity", checked.finding, checked.verdict == expected)
@@ -118,7 +118,7 @@ def equation(checked: EquationCheck) -> LedgerEntry:
 
 
 def _in_brackets(number: str) -> str:
-    """A formula's number as the ledger has it: (12), but A.2b."""
+    """A formula's number in the form of the ledger: (12), but A.2b without brackets."""
     return number if number.startswith("A") else f"({number})"
 
 
@@ -166,7 +166,7 @@ def _evidence(line: str) -> Evidence:
 
 
 def entries_of(claim: str) -> tuple[LedgerEntry, ...]:
-    """The entries of one number; "Proposition 3" has several. Raises InputError where there is none."""
+    """The entries of one number; "Proposition 3" has several. Raises InputError if there is none."""
     claimed = _plain(claim)
     matching = tuple(entry for entry in entries() if _is_of(_plain(entry.number), claimed))
     if not matching:
@@ -175,7 +175,7 @@ def entries_of(claim: str) -> tuple[LedgerEntry, ...]:
 
 
 def _plain(number: str) -> str:
-    """A claim's number without what people leave out or write otherwise: "(12)", "eq. 12" and "12" are one."""
+    """A claim's number in a normal form, so that different spellings agree: "(12)", "eq. 12" and "12" are equal."""
     bare = re.sub(r"[()§]", " ", number.lower()).strip()
     bare = re.sub(r"^(equation|eq\.?|appendix)\s*(?=[\da])", "", bare)
     bare = re.sub(r"^prop(\.|\s)\s*", "proposition ", bare)
@@ -183,7 +183,7 @@ def _plain(number: str) -> str:
 
 
 def _is_of(number: str, claimed: str) -> bool:
-    """Whether a number is the one asked for or one of its parts: "proposition 3" has "proposition 3.1"."""
+    """Whether a number is the claimed one or one of its parts: "proposition 3" has the part "proposition 3.1"."""
     return number == claimed or bool(claimed and re.match(re.escape(claimed) + r"[.,:]\s?", number))
 
 
@@ -215,7 +215,7 @@ REASONS = {
 
 @dataclass(frozen=True)
 class Sentence:
-    """A sentence of the paper: where it stands, its first words, and the `rows` that judge it or a `reason`."""
+    """A sentence of the paper: its section, its first words, and the `rows` that judge it, or a `reason` for none."""
 
     section: str
     words: str
@@ -225,7 +225,7 @@ class Sentence:
 
 @cache
 def sentences() -> tuple[Sentence, ...]:
-    """All of them, in the paper's order."""
+    """All sentences, in the paper's order."""
     return tuple(map(_sentence, _text("sentences.txt").splitlines()))
 
 
@@ -237,7 +237,7 @@ def _sentence(line: str) -> Sentence:
 
 
 def coverage() -> str:
-    """How many sentences the ledger judges, and why it leaves out the rest, in words."""
+    """A text with the number of sentences that the ledger judges, and the reasons for the others."""
     every = sentences()
     without = [sentence.reason for sentence in every if sentence.reason]
     counted = ", ".join(f"{without.count(word)} {word} ({meaning})" for word, meaning in REASONS.items())

@@ -37,7 +37,7 @@ def discriminant_and_coefficients() -> Evidence:
 
 
 def listed_patterns(patterns: Mapping[Kind, Sequence[str]] = PATTERNS) -> Evidence:
-    """Evidence that the typed table of root patterns has the patterns that signs allow, each once."""
+    """Evidence that the hand-written table of root patterns has the patterns that signs allow, each once."""
     listed = sorted(chain.from_iterable(patterns.values()))
     allowed = sorted(admissible())
     wrong = sorted(set(listed) ^ set(allowed)) or (["a pattern twice"] if listed != allowed else [])
@@ -46,7 +46,7 @@ def listed_patterns(patterns: Mapping[Kind, Sequence[str]] = PATTERNS) -> Eviden
 
 
 def patterns_in_coq(patterns: Mapping[Kind, Sequence[str]] = PATTERNS) -> Evidence:
-    """Evidence that Coq's table of root patterns is the typed one."""
+    """Evidence that Coq's table of root patterns equals the hand-written one."""
     ours = {(kind.value, _meaning(kind), pattern) for kind, listed in patterns.items() for pattern in listed}
     coqs = [
         (kind, meaning, pattern_of((_PLACES[place], count) for place, count in roots))
@@ -66,7 +66,7 @@ _PLACES = {
 
 
 def _meaning(kind: Kind) -> str:
-    """What Coq calls the position of a kind."""
+    """Coq's name for the position of a kind."""
     side = {Position.EXTERIOR: "Outside", Position.INTERIOR: "Inside"}
     if kind.limit_of is not None:
         return f"Touches{side[kind.limit_of]}"
@@ -99,7 +99,7 @@ def _same_cubic(
     clear: Position,
     regime: Callable[[points.SquaredRatios], bool],
 ) -> Evidence:
-    """Two pairs of a regime with the same g, one in the clear and one in contact: no function of g tells which."""
+    """Evidence: two pairs of a regime with the same g, one clear and one in contact, which g cannot distinguish."""
     pairs, roots = case
     first, second, third = map(Fraction, roots)
     expected = (-(first + second + third), first * second + first * third + second * third, -first * second * third)
@@ -130,7 +130,7 @@ def _c2_of_12() -> points.Rational:
 
 
 def by_12(facts: points.PointFacts) -> points.PointFacts:
-    """The facts of a pair if g were what (12) prints; the position stays what it is."""
+    """The facts of a pair if g were the cubic that (12) prints; the position is unchanged."""
     point = facts.point
     return points.with_c2(facts, _c2_of_12()(point.a, point.c, point.r, 0, point.z))
 
@@ -165,7 +165,7 @@ def misled_by_12() -> Evidence:
 
 
 def regime_of_section_4() -> Evidence:
-    """Evidence that section 4, which has the regime of Proposition 5 as (a/b) ≥ 1, means a alone: by (12), a is α/b."""
+    """Evidence that section 4, which has the regime of Proposition 5 as (a/b) ≥ 1, means a ≥ 1: by (12), a is α/b."""
     meaning = read("α/b")
     checked = check((equality("Section 4", "regime = a/b", a=meaning, regime=meaning),))
     printed_as = read("a/b").subs(pencil.SMALL_A, meaning) == read("α/b²")
@@ -174,7 +174,7 @@ def regime_of_section_4() -> Evidence:
 
 
 def roots_of_f() -> Evidence:
-    """Evidence that f has one root more than the cubic g."""
+    """Evidence that f has one more root than the cubic g."""
     factor = known("det(λH + S) = (A + λ)·g(λ)/(A²·B)")
     degree = sympy.degree(pencil.cubic().g, pencil.LAMBDA)
     return Evidence("identity", factor.text, factor.holds and degree == 3)
@@ -251,7 +251,7 @@ def tilted_spheroid_is_another() -> Evidence:
 
 
 def changed_by_leaning() -> Evidence:
-    """Simplest pairs in the regime of Procedures 2.a and 2.b whose position is another once they are tilted."""
+    """The simplest pairs in the regime of Procedures 2.a and 2.b whose position changes when they are tilted."""
     searches = (
         points.first_change(
             Position.INTERIOR, Position.CONTACT, "dangerous: the upright body is clear, the tilted one is not"
@@ -271,10 +271,10 @@ def changed_by_leaning() -> Evidence:
 
 
 def missed_by_the_centres_height() -> Evidence:
-    """Simplest pairs in the regime of Procedures 2.a and 2.b which the centre's height decides otherwise than the end.
+    """The simplest pairs in the regime of Procedures 2.a and 2.b that a test by the centre's height decides wrongly.
 
-    One has its centre above z_max, where nothing is asked, and meets the wall; one has its centre below it, and meets
-    the wall only where there is none.
+    One pair has its centre above z_max, where no test is made, and meets the wall; one has its centre below z_max, and
+    meets only the infinite continuation of the wall.
     """
     witnesses = (_above_the_end(), _below_the_end())
     shows = ("above it, in contact with the wall", "not above it, interior; in contact without the end")

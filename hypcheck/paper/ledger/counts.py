@@ -1,4 +1,4 @@
-"""What the ledger counts: operations of programs, the printed figures of Table 5, and the numbers in its sentences.
+"""The counts of the ledger: operations of programs, the printed figures of Table 5, the numbers in its sentences.
 
 Costs that can be counted are counted from the programs; others are not judged.
 """
@@ -25,14 +25,14 @@ _TABLE_2, _COSINES = formulas.cost_of(formulas.FORMULAS["table-2"]), formulas.co
 
 
 def divisions_of_table_2() -> Evidence:
-    """Evidence that its loop does divide."""
+    """Evidence that the loop of Table 2 has divisions."""
     count = _TABLE_2.query.divisions
     text = f"{count} divisions a query, {_TABLE_2.by_fixed} of them by a number that the sizes fix"
     return Evidence("count", text, count > 0 and _TABLE_2.by_fixed == count)
 
 
 def operations_of_the_sizes() -> Evidence:
-    """Evidence that more could leave the loop of Table 2 than what it prints before it."""
+    """Evidence that more operations could be moved out of Table 2's loop than the paper moves."""
     scene, left = _TABLE_2.scene.rounded, formulas.loop_as_printed().rounded - _TABLE_2.query.rounded
     return Evidence("count", f"{scene} operations depend on the sizes alone", 0 < left < scene)
 
@@ -53,7 +53,7 @@ def directions_of_rotors() -> Evidence:
 
 
 def share_of_discriminants() -> Evidence:
-    """Evidence that more than half of Procedure 2.a's operations are those of discriminants; the half is ours."""
+    """Evidence that discriminants take over half of Procedure 2.a's operations; "half" is the ledger's threshold."""
     share, whole = formulas.discriminant_share()
     return Evidence("count", f"{share} of {whole} is more than half", 2 * share > whole)
 
@@ -72,7 +72,7 @@ NEAREST = (0.28, 0.46)
 
 def discriminants_closest_to_zero() -> Evidence:
     """Evidence that the least values of Δ > 0 in the paper's tower are those near its wall."""
-    # Evenly over the cylinder about the tower, so that those inside are evenly over the tower's volume.
+    # Uniform in the cylinder around the tower, so that the points inside are uniform in the tower's volume.
     heights, areas = (np.arange(400) + 0.5) / 400 * 17.8, (np.arange(1000) + 0.5) / 1000
     walls, radii = 2 * np.hypot(1, heights / 17.8)[:, None], 2 * np.sqrt(2 * areas)
     A, B, P, Q = 64.0, (17.8 / 0.15) ** 2, (radii / 0.25) ** 2, (heights[:, None] / 0.15) ** 2
@@ -90,7 +90,7 @@ def discriminants_closest_to_zero() -> Evidence:
 
 
 def _discriminants(A: float, B: float, P: Floats, Q: Floats) -> Floats:
-    """Δ by (14) and (13) in float64: a sample needs no more, and no verdict rests on one value's sign."""
+    """Δ by (14) and (13) in float64: enough for a sample, because no verdict depends on one value's sign."""
     c0, c1, c2 = -A * B, -A * B + A - B + B * P - A * Q, A - B + 1 - P - Q
     return -4 * c2**3 * c0 + c2**2 * c1**2 + 18 * c2 * c1 * c0 - 4 * c1**3 - 27 * c0**2
 
@@ -175,7 +175,7 @@ def _fall_with_steps(times: Sequence[float]) -> bool:
 
 
 def _volumes(share: float) -> float:
-    """How many spheroids Procedure 2.b asks on average, where a share in percent has Δ ≤ 0: the body, or all five."""
+    """The mean number of spheroids that Procedure 2.b tests, if `share` % have Δ ≤ 0: the body, or all five."""
     return 1 + 4 * share / 100
 
 
@@ -191,7 +191,7 @@ BENCH = {
 
 @cache
 def figures() -> dict[str, str]:
-    """The numbers that sentences of claims.toml have in braces."""
+    """The numbers for the names in braces in sentences of claims.toml."""
     share, whole = formulas.discriminant_share()
     numbers = {
         "query": _TABLE_2.query.rounded,

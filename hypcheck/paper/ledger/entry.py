@@ -1,4 +1,4 @@
-"""An entry of the ledger and its evidence: what became of one claim of the paper, and what the verdict rests on."""
+"""An entry of the ledger: the verdict on one claim of the paper, and the evidence for it."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ _PROVED_BY = {"identity": "sympy", "chain": "sympy", "programs": "sympy", "exhau
 
 @dataclass(frozen=True)
 class Evidence:
-    """One reason for a verdict, in a sentence without a full stop, and whether it was found to hold just now."""
+    """One reason for a verdict, in a sentence without a full stop, and whether it holds in this run."""
 
     kind: str
     text: str
@@ -49,11 +49,11 @@ class Evidence:
 class LedgerEntry:
     """One numbered statement of the paper.
 
-    `number` is how the paper numbers it, `section` where it stands there, `statement` what it says in a few words.
-    `verdict` is one of VERDICTS; `why` one line; `follows` what it means for someone who uses it. `correction` is the
-    statement put right, where something is wrong and can be; `printed` a formula's own text; `grounds` finds what the
-    verdict rests on. `harmless` says where a false statement does no harm, `faults` which faults of claims.toml make it
-    false: statements that are false for one and the same reason share a fault.
+    `number` is the paper's number, `section` the section there, `statement` a short form of the claim. `verdict` is one
+    of VERDICTS; `why` is one line; `follows` is the consequence for a user. `correction` is the corrected statement, if
+    it is wrong and can be corrected; `printed` is a formula's text; `grounds` computes the evidence. `harmless` says
+    where a false statement does no harm. `faults` names the faults of claims.toml that make it false: statements that
+    are false for the same reason share a fault.
     """
 
     number: str
@@ -70,7 +70,7 @@ class LedgerEntry:
 
     @cached_property
     def evidence(self) -> tuple[Evidence, ...]:
-        """What the verdict rests on, looked for when it is asked for."""
+        """The evidence for the verdict, computed at the first access."""
         return self.grounds()
 
     @property
@@ -90,14 +90,14 @@ class LedgerEntry:
 
     @property
     def confirmed(self) -> bool:
-        """Whether the evidence bears the verdict out; a verdict without any says that nothing can be checked."""
+        """Whether the evidence supports the verdict; a verdict without evidence says that nothing can be checked."""
         if self.verdict == NOT_CHECKABLE:
             return not self.evidence
         return bool(self.evidence) and all(evidence.holds for evidence in self.evidence)
 
 
 def by_chain(name: str) -> Evidence:
-    """Evidence that a chain of the derivation holds, with all it needs."""
+    """Evidence that a chain of the derivation holds, with all chains that it needs."""
     links = len(chains()[name].links)
     return Evidence("chain", f"{name}: {links} links hold", proved(name), chain=name)
 
@@ -119,13 +119,13 @@ def by_reading(text: str) -> Evidence:
 
 
 def by_coq(theorem: str) -> Evidence:
-    """Evidence that a Coq file states a theorem, "File.theorem", without a gap; `make prove` checks it."""
+    """Evidence that a Coq file has a complete theorem, "File.theorem"; `make prove` checks it."""
     file, _, name = theorem.partition(".")
     return Evidence("coq", f"{name} in proofs/{file}.v, which `make prove` checks", proves(file, name))
 
 
 def by_programs(*formulas: Formula) -> Evidence:
-    """Evidence that programs compute and decide what they must."""
+    """Evidence that programs compute the right values and decisions."""
     proofs = [proof for formula in formulas for proof in proofs_of(formula)]
     names = ", ".join(formula.name for formula in formulas)
     text = f"{len(proofs)} proofs of the program{'s' * (len(formulas) > 1)} {names}"
@@ -141,13 +141,13 @@ def without_counterexample(statement: points.Statement) -> Evidence:
 
 
 def harmless_where(statement: points.Statement, where: points.Condition) -> Evidence:
-    """Evidence that no point at which `where` holds contradicts a statement that is false elsewhere."""
+    """Evidence that a false statement holds at all points at which `where` holds."""
     evidence = without_counterexample(replace(statement, where=lambda facts: statement.where(facts) and where(facts)))
     return replace(evidence, text=f"harmless there: {evidence.text}")
 
 
 def with_counterexample(*statements: points.Statement) -> Evidence:
-    """Evidence that each statement is false: the simplest point which contradicts it, its position certified."""
+    """Evidence that each statement is false: the simplest point that contradicts it, with a certified position."""
     searches = [(statement, points.counterexample(statement)) for statement in statements]
     return _found([(search, f"contradicts: {statement.text}") for statement, search in searches])
 
@@ -168,5 +168,5 @@ def described(facts: points.PointFacts) -> str:
 
 
 def signs(facts: points.PointFacts) -> str:
-    """The numbers whose signs the propositions ask for: "Δ = 0, c2 = −33/4, c1 = 18"."""
+    """The numbers whose signs the propositions test, as text: "Δ = 0, c2 = −33/4, c1 = 18"."""
     return f"Δ = {facts.delta}, c2 = {facts.c2}, c1 = {facts.c1}".replace("-", "−")

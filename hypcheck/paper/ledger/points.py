@@ -1,13 +1,13 @@
 """Small rational points, the facts of each, and the search for counterexamples and examples among them.
 
-A point is an exact pair with small numbers; its facts are what a statement about pairs may speak of: Δ, the
-coefficients, the position. Statements are tried everywhere and on thin sets, where some sign that a statement asks for
-is 0: there statements fail. Each thin set is a stratum: its points come from the derivation's polynomials, solved for
-the number that puts them there, and are kept where that number is rational. The space is finite and has an order, the
-simplest point first. So a search that finds a counterexample finds the least one, and one that finds none has tried
-every point. What is found gets a certificate.
+A point is an exact pair with small numbers; its facts are the values that a statement about pairs can use: Δ, the
+coefficients, the position. Statements are tested everywhere and on thin sets, where a sign that a statement tests is 0:
+there statements fail. Each thin set is a stratum: its points come from the derivation's polynomials, solved for one
+number of the point, and are kept if that number is rational. The space is finite and ordered, the simplest point first.
+So a search that finds a counterexample finds the simplest one, and a search that finds none has tried every point.
+Every point found gets a certificate.
 
-The last part searches for the simplest pairs whose answer is another once the spheroid's axis is not vertical.
+The last part searches for the simplest pairs whose position changes when the spheroid's axis is not vertical.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ Rational = Callable[..., Fraction]
 
 @dataclass(frozen=True, slots=True)
 class Point:
-    """The unit sphere about (r, 0, z) and the hyperboloid of semi-axes a and c: by Theorem 1 every pair is one."""
+    """The unit sphere about (r, 0, z) and the hyperboloid with semi-axes a, c: Theorem 1 reduces every pair to it."""
 
     a: Fraction
     c: Fraction
@@ -44,21 +44,21 @@ class Point:
 
     @property
     def cost(self) -> tuple[Fraction | int, ...]:
-        """What is less for smaller numbers: the sum of all numerators and denominators, the largest, the numbers."""
+        """A key, less for smaller numbers: the sum of all numerators and denominators, the largest, the numbers."""
         numbers = (self.a, self.c, self.r, self.z)
         sizes = [abs(number.numerator) + number.denominator for number in numbers]
         return (sum(sizes), max(sizes), *numbers)
 
     @property
     def pair(self) -> Pair:
-        """The pair in whole numbers, which float64 holds: radial and axial lengths have a unit each."""
+        """The pair in whole numbers that float64 holds; radial and axial lengths have separate units."""
         b, d = lcm(self.a.denominator, self.r.denominator), lcm(self.c.denominator, self.z.denominator)
         return Pair(*map(float, (self.a * b, self.c * d, b, d, self.r * b, 0, self.z * d)))
 
 
 @dataclass(frozen=True, slots=True)
 class PointFacts:
-    """What is true of one point. `position` is the exact oracle's, all else from the derivation's polynomials."""
+    """The facts of a point. `position` is the exact oracle's; the others are from the derivation's polynomials."""
 
     point: Point
     A: Fraction
@@ -74,9 +74,9 @@ class PointFacts:
 
     @property
     def negative_roots(self) -> int:
-        """How many real roots of g are below 0, by multiplicity.
+        """The number of real roots of g below 0, with multiplicity.
 
-        By Descartes' rule, which is exact where all roots are real; where Δ < 0 the one real root is at least B.
+        By Descartes' rule, which is exact if all roots are real; if Δ < 0, the only real root is at least B.
         """
         if self.delta < 0:
             return 0
@@ -120,7 +120,7 @@ def facts(point: Point) -> PointFacts:
 
 
 def with_c2(facts: PointFacts, c2: Fraction) -> PointFacts:
-    """What the facts would be if c2 were another; the position stays what it is."""
+    """The facts with another c2; the position is unchanged."""
     return _of_coefficients(facts.point, facts.c0, facts.c1, c2, facts.position)
 
 
@@ -158,7 +158,7 @@ ZERO = Fraction(0)
 
 @dataclass(frozen=True, slots=True)
 class PointStratum:
-    """A set of points with a name that says what is special about them."""
+    """A set of points with a name that describes their special property."""
 
     name: str
     points: Callable[[], Iterable[Point]]
@@ -171,7 +171,7 @@ def numbers(height: int) -> tuple[Fraction, ...]:
 
 
 def strata() -> tuple[PointStratum, ...]:
-    """All of them."""
+    """All strata."""
     return (
         PointStratum("anywhere", lambda: _grid(numbers(3), numbers(3), _with_0(3), _with_0(3))),
         PointStratum("the waist, z = 0", lambda: _grid(numbers(4), numbers(4), _with_0(6), (ZERO,))),
@@ -226,7 +226,7 @@ def _grid(*values: Iterable[Fraction]) -> Iterator[Point]:
 
 
 def _solved(condition: sympy.Expr, height: int = 4, heights: Iterable[Fraction] = ()) -> Iterator[Point]:
-    """The points where the expression in A, B, P and Q vanishes; it is linear in P."""
+    """The points at which the expression in A, B, P and Q, which is linear in P, vanishes."""
     (solution,) = sympy.solve(condition, P)
     value = rational((A, B, Q), solution)
     for a, c, z in product(numbers(height), numbers(height), heights or _with_0(height)):
@@ -250,7 +250,7 @@ def _double_roots() -> Iterator[Point]:
 
 
 def root(value: Fraction) -> Fraction | None:
-    """The root of a rational, where that is a rational."""
+    """The square root of a rational if it is rational, else None."""
     if value < 0:
         return None
     candidate = Fraction(isqrt(value.numerator), isqrt(value.denominator))
@@ -262,7 +262,7 @@ Condition = Callable[[PointFacts], bool]
 
 @dataclass(frozen=True)
 class Statement:
-    """A claim about every pair for which `where` holds: that `says` holds. `text` is the claim in words."""
+    """The claim that `says` holds for every pair for which `where` holds. `text` is the claim in words."""
 
     text: str
     where: Condition
@@ -271,7 +271,7 @@ class Statement:
 
 @dataclass(frozen=True, slots=True)
 class PointWitness:
-    """One point, with a certificate of its position; `shows` says in words what it shows."""
+    """A point that shows a fact, with a certificate of its position; `shows` is the fact in words."""
 
     facts: PointFacts
     certificate: Certificate
@@ -289,7 +289,7 @@ Found = TypeVar("Found")
 
 @dataclass(frozen=True)
 class Search(Generic[Found]):
-    """What came of a search: how many points of the regime were tried, and the first that was looked for, if any."""
+    """The result of a search: the number of tried points of the regime, and the first matching point, if any."""
 
     tried: int
     found: Found | None
@@ -301,7 +301,7 @@ def counterexample(statement: Statement) -> Search[PointFacts]:
 
 
 def first_point(wanted: Condition, where: Condition = lambda _: True) -> Search[PointFacts]:
-    """The simplest point that is wanted; `tried` counts the points up to there for which `where` holds."""
+    """The simplest point with `wanted`; `tried` counts the points up to this one for which `where` holds."""
     tried = 0
     for facts in facts_in_order():
         tried += where(facts)
@@ -329,7 +329,7 @@ AXES = tuple(
 
 @dataclass(frozen=True, slots=True)
 class LeaningWitness:
-    """A pair with the certificates of two positions: tilted, and upright; `shows` says what it shows."""
+    """A pair with the certificates of two positions: tilted and upright; `shows` is the shown fact in words."""
 
     pair: Pair
     certificate: Certificate
@@ -361,7 +361,7 @@ class LeaningWitness:
 
 
 def first_change(before: Position, after: Position, shows: str, largest: int = LARGEST) -> Search[LeaningWitness]:
-    """The simplest pair that is `before` upright and `after` tilted, both proved."""
+    """The simplest pair with the position `before` upright and `after` tilted, both proved."""
     tried = 0
     for numbers in quadcopter_pairs(largest):
         vertical = Pair.from_row(numbers)

@@ -1,8 +1,8 @@
-"""The paper's statements about pairs, as printed and as repaired, and the conditions that they are made of.
+"""The paper's statements about pairs, printed and repaired, and the conditions that they consist of.
 
 claims.toml names them. The last part runs the procedures of Tables 1 to 4 as printed, in exact arithmetic. For
-Procedure 2.b there are quadcopters, a hull with four rotors in it, and a search for those that it refuses although they
-are inside.
+Procedure 2.b there are quadcopters, a hull with four rotors in it, and a search for quadcopters that it refuses
+although their rotors are interior.
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ def off_the_waist(facts: PointFacts) -> bool:
 
 
 def three_real_roots(facts: PointFacts) -> bool:
-    """Δ > 0: three different real roots."""
+    """Whether Δ > 0: three different real roots."""
     return facts.delta > 0
 
 
@@ -75,7 +75,7 @@ def contact(facts: PointFacts) -> bool:
 
 
 def not_exterior(facts: PointFacts) -> bool:
-    """Whether the spheroid is interior or in contact, as it is wherever its centre is inside the hyperboloid."""
+    """Whether the spheroid is interior or in contact; it always is if its centre is inside the hyperboloid."""
     return not exterior(facts)
 
 
@@ -85,12 +85,12 @@ def inside_a_tall_one(facts: PointFacts) -> bool:
 
 
 def three_positive(facts: PointFacts) -> bool:
-    """The sign pattern that Proposition 3 asks for beside Δ > 0."""
+    """Whether the coefficients have the signs that Proposition 3 requires in addition to Δ > 0."""
     return facts.c2 < 0 and facts.c1 > 0
 
 
 def printed_interior(facts: PointFacts) -> bool:
-    """The sign pattern that Proposition 5 asks for beside Δ > 0."""
+    """Whether the coefficients have the signs that Proposition 5 requires in addition to Δ > 0."""
     return (facts.c2 > 0 and facts.c1 != 0) or (facts.c2 < 0 and facts.c1 < 0)
 
 
@@ -100,7 +100,7 @@ def ring(facts: PointFacts) -> bool:
 
 
 def rule_of_all_sizes(facts: PointFacts) -> int:
-    """The position by the rule that the program "coefficients" is proved to decide by."""
+    """The position by the rule that, as is proved, the program "coefficients" uses."""
     (decision,) = decisions("coefficients")
     numbers = (facts.delta, facts.c1, facts.c2, facts.A, facts.B, facts.Q, facts.slope_at_B, facts.slope_at_minus_A)
     return decision.rule(*numbers)
@@ -130,7 +130,7 @@ REMARK_4 = Statement(
 
 
 def _proposition_5_1(text: str, zero: Callable[[PointFacts], bool]) -> Statement:
-    """The printed statement, tried on the pairs where one of the coefficients is 0."""
+    """The printed statement, for the pairs in which one of the coefficients is 0."""
     return Statement(
         text,
         lambda facts: wider(facts) and zero(facts),
@@ -167,7 +167,7 @@ REPAIRED_5 = Statement(
 
 
 def _valid(where: Condition, text: str) -> Statement:
-    """Procedure 1 and Table 2 are proved to decide as Proposition 3.1 says; the program is asked about a witness."""
+    """Procedure 1 and Table 2 are proved to decide by Proposition 3.1; the program is tested at a witness."""
     return Statement(f"{text} a movement is valid ⟺ the spheroid is exterior", where, PROPOSITION_3_1.says)
 
 
@@ -178,7 +178,7 @@ VALID_IF_NARROW = _valid(lambda facts: tall(facts) and facts.point.a < 1, "for �
 
 
 def _procedure_2a_says(facts: PointFacts) -> bool:
-    """The answer to a quadcopter on the axis, whose four rotors all have the position of this point."""
+    """Procedure 2.a's answer for a quadcopter on the axis, whose four rotors all have the position of this point."""
     point = facts.point
     inputs = {"alpha": point.a, "gamma": point.c, "b_s": 1, "d_s": 1, "x": 0, "y": 0, "z": point.z, "l": point.r}
     return bool(answers(FORMULAS["procedure-2a"], EXACT, {**inputs, "cosine": 1, "sine": 0}))
@@ -205,7 +205,7 @@ CLEAR_IS_POSITIVE = Statement("interior or exterior ⟺ Δ > 0", wide, lambda fa
 
 
 def program_says(name: str, facts: PointFacts) -> int:
-    """The answer of one of the formulas to a point, in exact arithmetic."""
+    """The answer of the formula with this name for a point, in exact arithmetic."""
     return int(answers(FORMULAS[name], EXACT, dict(zip(COLUMNS, facts.point.pair.row, strict=True))))
 
 
@@ -218,7 +218,7 @@ def errs(name: str, *about: Statement) -> Evidence:
 
 @dataclass(frozen=True)
 class Quadcopter:
-    """A hull at a point, and four rotors of `size` times the hull's axes on arms of length `arm`, in hull radii."""
+    """A hull at a point, with four rotors of `size` times the hull's axes on arms of length `arm`, in hull radii."""
 
     hull: PointFacts
     arm: Fraction
@@ -241,7 +241,7 @@ class Quadcopter:
 
     @property
     def answer(self) -> bool:
-        """Procedure 2.b's, in exact arithmetic, with rotors at 45° to the axes (cosine 1, sine 0)."""
+        """Procedure 2.b's answer, in exact arithmetic, with rotors at 45° to the axes (cosine 1, sine 0)."""
         hull = self.hull.point
         lengths = {"alpha": hull.a, "gamma": hull.c, "b": 1, "d": 1, "b_s": self.size, "d_s": self.size, "l": self.arm}
         centre = {"x": hull.r, "y": 0, "z": hull.z, "cosine": 1, "sine": 0}
@@ -249,7 +249,7 @@ class Quadcopter:
 
 
 def quadcopters(hull: PointFacts) -> tuple[Quadcopter, ...]:
-    """The quadcopters tried about one hull: arms of a half, a quarter, … and rotors half as long as the arms."""
+    """The quadcopters tried with one hull: arms of a half, a quarter, … and rotors half as large as the arms."""
     tried = (Quadcopter(hull, Fraction(2, halvings), Fraction(1, halvings)) for halvings in (4, 8, 16, 32))
     return tuple(quadcopter for quadcopter in tried if quadcopter.fits)
 
@@ -298,7 +298,7 @@ def valid_though_the_body_meets_the_wall() -> Evidence:
     """Evidence that Procedure 2.b calls a movement valid though a part of the body beside the rotors is past the wall.
 
     The body is in contact, the rotors are interior, and the certificate of contact has a point of the body's spheroid
-    beyond the wall: a part there would collide.
+    beyond the wall: a part at this point would collide.
     """
     search = first_point(lambda hull: _crossing(hull) and cleared_by_its_rotors(hull) is not None, _crossing)
     quadcopter = cleared_by_its_rotors(search.found) if search.found else None
@@ -319,12 +319,12 @@ def valid_though_the_body_meets_the_wall() -> Evidence:
 
 
 def _crossing(hull: PointFacts) -> bool:
-    """Contact with Δ < 0 in the regimes of Propositions 3 and 5: no tangency, and the rotors are asked."""
+    """Whether it is contact with Δ < 0 in the regimes of Propositions 3 and 5: no tangency; rotors are tested."""
     return wide(hull) and tall(hull) and contact(hull) and hull.delta < 0
 
 
 def cleared_by_its_rotors(hull: PointFacts) -> Quadcopter | None:
-    """A quadcopter that Procedure 2.b calls valid about a body in contact."""
+    """A quadcopter with this hull, which is in contact, that Procedure 2.b calls valid."""
     return next((quadcopter for quadcopter in quadcopters(hull) if quadcopter.answer), None)
 
 
