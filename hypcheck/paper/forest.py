@@ -2,14 +2,13 @@
 
 The walker of the paper's section 3.1 goes among trees of both types, as in a game.
 
-Table 2 computes before its loop the numbers that depend only on the sizes; here they are computed once for each tree.
-Its input is the walker's centre relative to the tree's centre. Centres are arbitrary, and the difference is rounded to
-float64, like every position that a game passes. The exact positions use the exact differences.
+Numbers that depend only on the sizes are computed once for each tree, as Table 2 computes them before its loop. Table
+2's input is the walker's centre minus the tree's, rounded to float64; exact positions use the exact difference.
 
 Before a step is made, the position to which it leads is tested against all trees that exist at that height. Steps
-beyond the scene's region are refused without a test. Only the end of a step is tested: between two free places it may
-touch a trunk; `steps_in_contact` finds such steps. A phantom is a contact that Procedure 1 in float32 reports at a free
-place; `phantom_wall` shows the invisible wall around one.
+beyond the scene's region are refused without a test. Only a step's end is tested: between two free places it may touch
+a trunk (`steps_in_contact`). A phantom is contact that Procedure 1 in float32 reports at a free place; `phantom_wall`
+shows its surroundings.
 """
 
 from __future__ import annotations

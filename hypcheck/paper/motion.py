@@ -275,10 +275,7 @@ def valid(craft: Craft, at: Columns, heading: Direction) -> Mask:
 
 
 def all_four(rotors: Mask) -> Mask:
-    """For each craft, whether all four rotors have the answer.
-
-    `rotors` holds the answers about all first rotors, then about all second ones, and so on.
-    """
+    """For each craft, whether all four rotors have the answer; `rotors` has all first ones, all second, and so on."""
     return np.asarray(rotors.reshape(ROTORS, -1).all(axis=0))
 
 

@@ -3,20 +3,18 @@
 A stratum is a thin set of rows on which a case distinction about the pair changes. Each family of vectors is a stratum:
 tangencies and other double roots (Δ = 0), the ring, vanishing coefficients, the axis, the waist, the borders of the
 regimes, long ratios. The other strata are the crossings of four surfaces, z = 0, r = 0, a = 1 and c² = a, with each
-other and with the border of contact: rows exactly on them, and rows very close to them. An implementation with fixed
-sizes is tested only with the families for these sizes. One that takes heights is tested first with hyperboloids that
-end.
+other and with the border of contact: rows on them and very close to them. An implementation with fixed sizes is tested
+only with their families; one that takes heights first with hyperboloids that end.
 
 Rows are brought to the border of contact by bisection on exact positions. The position is monotone in every input
-(docs/mathematics.md, "Monotone in every input"), so it changes at most twice while one length, or x and y together, are
-multiplied by a growing factor.
+(docs/mathematics.md, "Monotone in every input"), so it changes at most twice along a factor on one length, or on x and
+y together.
 
 Local search goes from a wrong answer to worse ones, as a pattern search with halving steps. The neighbours of a row
 have one of the six unknowns multiplied by 1 ± step (the search space is logarithmic), or lie exactly on a surface.
-Floats mostly fail in a thin layer at the border of contact, and a plain step would leave it. Therefore each neighbour
-is tested, and is also moved to the border. From there a ladder of rows leads away in growing steps; its farthest rung
-with a wrong answer counts. A sweep is moved there by the spheroid's size, in which contact is monotone
-(truth/passage_error.py).
+Floats mostly fail in a thin layer at the border of contact, and a plain step would leave it. So each neighbour is
+tested, and also moved to the border. From there a ladder leads away in growing steps; its farthest wrong rung counts. A
+sweep is moved there by the spheroid's size: contact is monotone in it (truth/passage_error.py).
 """
 
 from __future__ import annotations
@@ -442,8 +440,7 @@ def _climb(run: Hunt) -> Iterator[bool]:
 def _climbers(run: Hunt, climbers: dict[ClusterKey, Climber]) -> list[ClusterKey]:
     """The climbers for the next step: those with the longest step first, then those with the worst answer.
 
-    A climber is at the worst answer of its cluster. It starts again with the first step if the cluster has a new worst
-    answer.
+    A climber is at the worst answer of its cluster. It starts again with the first step if a worse one is found.
     """
     worst_first = sorted(run.clusters.items(), key=lambda item: item[1].worst.rank, reverse=True)
     for key, cluster in worst_first:

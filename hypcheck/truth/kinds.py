@@ -1,12 +1,12 @@
-"""Kinds: the names of everything that can happen between the two surfaces, one a row of the table of root patterns.
+"""Kinds: the names of all relations between the two surfaces, one for each row of the table of root patterns.
 
-Pure data, shared by the oracles that say more than a position. The table (docs/mathematics.md, "Root patterns and
-relative position") is after [10], re-derived; its text was not consulted. A = (α/b)², B = (γ/d)², a = √A, c = √B,
-r and z are the distances of the centre from the axis and from the plane of the waist after Theorem 1 of the paper
-(where the spheroid is the unit ball), and the roots are those of g, equation (12).
+Only data, shared by the oracles that give more than a position. The table (docs/mathematics.md, "Root patterns and
+relative position") is after [10], re-derived; its text was not consulted. A = (α/b)², B = (γ/d)², a = √A, c = √B, r and
+z are the distances of the centre from the axis and from the plane of the waist after Theorem 1 of the paper (where the
+spheroid is the unit ball), and the roots are those of g, equation (12).
 
 Two words of geometry: the hyperboloid's *throat* is its narrowest circle, of radius a, which the ball can be too wide
-to pass (a < 1); its *groove* is the hollow round that circle seen from outside, of radius of curvature c²/a, which the
+to pass (a < 1); its *groove* is the hollow around that circle seen from outside, of radius of curvature c²/a, which the
 ball can be too round to fit (c² < a).
 """
 
@@ -19,14 +19,12 @@ from hypcheck.geometry.pair import Position
 
 @unique
 class Kind(Enum):
-    """How the two surfaces meet, or do not. The value is the name that files and reports use; it never changes.
+    """The relation of the two surfaces. The value is the name that files and reports use; it never changes.
 
-    `position`: the position this kind is a case of.
-    `limit_of`: for a tangency, the clear position that an arbitrarily small change of the sizes makes of it.
-    `contact_set`: what the surfaces share.
-    `occurs`: for which hyperboloids; "always" means for every a and c.
-    `roots`: the pattern of roots of g that means it; roots not named lie at B or above.
-    `description`: one plain sentence.
+    `position`: the position of pairs of this kind. `limit_of`: for a tangency, the clear position to which an
+    arbitrarily small change of the sizes leads. `contact_set`: the common points of the surfaces. `occurs`: for which
+    hyperboloids; "always" means for every a and c. `roots`: the pattern of roots of g for this kind; roots that are not
+    named lie at B or above. `description`: one plain sentence.
     """
 
     position: Position
@@ -46,7 +44,7 @@ class Kind(Enum):
         roots: str,
         description: str,
     ) -> Kind:
-        """A member that carries what the table says of it; its value is the name alone."""
+        """A member with the columns of the table as attributes; its value is only the name."""
         member = object.__new__(cls)
         member._value_ = name
         member.position, member.limit_of, member.contact_set = position, limit_of, contact_set
@@ -55,7 +53,7 @@ class Kind(Enum):
 
     @property
     def tangent(self) -> bool:
-        """Whether the surfaces touch and cross nowhere: the clearance is exactly 0."""
+        """Whether the surfaces touch without crossing: the clearance is exactly 0."""
         return self.limit_of is not None
 
     INTERIOR = (

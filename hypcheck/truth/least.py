@@ -1,4 +1,4 @@
-"""The least value: how far the wall and the end discs are from the spheroid's centre, in spheroid radii.
+"""The least value: the distance of the wall and the end discs from the spheroid's centre, in spheroid radii.
 
 With M the spheroid's matrix let n(X) = √((X − C)ᵀ M (X − C)). The spheroid meets the wall if and only if n ≤ 1
 somewhere on it, and 1 + clearance is the least n on the wall, or on the whole border of a solid body. In an end disc n
@@ -18,7 +18,8 @@ and N the greatest n in the cell,
     K_ww ≤ 2 (1 + r'²)/m² + 2 N r''/m,   K_wθ ≤ 2 r r'/m² + 2 N r'/m,   K_θθ ≤ 2 r²/m² + 2 N r/m,
 
 where r' ≤ α/γ, r'' ≤ α²/(γ² r) at the least r of the cell, and N ≤ n₀ + e, e = (√(1 + r'²) h + r k)/m. Cells whose
-bound is above what some point has are dropped, the others cut, so that few are left about each minimum.
+bound is above the value at some point are dropped and the others are cut, so that few cells are left around each
+minimum.
 
 Roundings; u = 2⁻⁵³. Each coordinate of X − C, and of its parts along and across the axis, is within 32u S,
 S = |X| + |C|, so that n is within 64u S/m, besides 16u of itself. The slopes are within 128u S/m² in any direction, so
@@ -27,12 +28,12 @@ e > 2n, the term of second order alone, e²/2 or more, is above q, so that the b
 said to be within 256u S/m, which covers both. Cells overlap by more than the roundings of their middles. n² − 1 is
 looked at, whose sign decides, with 256u for the subtraction.
 
-Where these roundings loosen the bound of a cell more than its width does, the cells that are left, if they are few,
-are looked at in double-double: u is 2⁻¹⁰² then, and θ is the angle of the point (cos θ, sin θ) as float64 has it, drawn
-to the unit circle, which cells overlap by, too. Slopes stay in float64 there, of an X − C that is rounded last, so that
-they are within 128u |X − C|/m², u = 2⁻⁵³: what they are off by is small with the cell. Where no length is much larger
-than m, 10⁻²⁰ radii between the spheroid and contact are seen. An exact touch stays open: a bound is below it and a
-point's value above. No polynomial of the pair and no multiplier is used.
+If these roundings loosen the bound of a cell more than its width does, and few cells are left, they are evaluated in
+double-double: u is 2⁻¹⁰² then, and θ is the angle of the point (cos θ, sin θ) as float64 has it, drawn to the unit
+circle, which cells overlap by, too. Slopes stay in float64 there, of an X − C that is rounded last, so that they are
+within 128u |X − C|/m², u = 2⁻⁵³: what they are off by is small with the cell. Where no length is much larger than m,
+10⁻²⁰ radii between the spheroid and contact are seen. An exact touch stays undecided: the bound is below 1 and the
+value at a point is above. No polynomial of the pair and no multiplier is used.
 """
 
 from __future__ import annotations
@@ -63,7 +64,7 @@ _WIDTH = 2.0**-40
 
 @dataclass(frozen=True, slots=True)
 class LeastValue:
-    """The least n: `below` ≤ n² − 1 ≤ `above`, and a point (3,) near which it is; −1 and inf if bounds tell nothing."""
+    """The least n: `below` ≤ n² − 1 ≤ `above`, and a point (3,) near the minimum; −1 and inf if there are no bounds."""
 
     below: float
     above: float
@@ -81,7 +82,7 @@ class LeastValue:
 
     @property
     def meets(self) -> bool | None:
-        """Whether the closed spheroid reaches that far; None where bounds do not tell."""
+        """Whether the closed spheroid meets the border (n ≤ 1); None if the bounds do not decide."""
         return True if self.above < 0 else False if self.below > 0 else None
 
 
@@ -91,7 +92,7 @@ _ELSEWHERE = LeastValue(math.inf, math.inf, _NOWHERE)
 
 
 def position(pair: Pair) -> Position | None:
-    """The position of a pair, None where bounds do not tell."""
+    """The position of a pair; None if the bounds do not decide."""
     meets = to_border(pair, side_alone=True).meets
     if meets is None:
         return None
@@ -106,9 +107,9 @@ def _is_within(alpha: float, gamma: float, x: Fraction, y: Fraction, w: Fraction
     return (x * x + y * y) * Fraction(gamma) ** 2 <= Fraction(alpha) ** 2 * (Fraction(gamma) ** 2 + w * w)
 
 
-@np.errstate(over="ignore", invalid="ignore")  # what overflows tells nothing: _bounds
+@np.errstate(over="ignore", invalid="ignore")  # an overflow gives no bound: _bounds
 def to_border(pair: Pair, *, side_alone: bool = False, width: float = _WIDTH) -> LeastValue:
-    """The least n on the wall and, of a solid, on the discs, to `width` of n²; or until its side of 1 is known."""
+    """The least n on the wall and, for a solid, on the discs, within `width` of n²; or until its side of 1 is known."""
     lengths = [abs(number) for number in (*pair.row[:7], pair.z_min, pair.z_max) if number and math.isfinite(number)]
     if not (min(lengths) > _RANGE[0] and max(lengths) < _RANGE[1]):
         return NOTHING
@@ -121,7 +122,7 @@ def to_border(pair: Pair, *, side_alone: bool = False, width: float = _WIDTH) ->
 
 
 def _to_disc(pair: Pair, end: float) -> LeastValue:
-    """The least n in an end disc, infinite where it is at the rim."""
+    """The least n in an end disc; infinite if it is at the rim, which the wall includes."""
     if not math.isfinite(end):
         return _ELSEWHERE
     b2, d2, x, y, height = (Fraction(number) for number in (pair.b, pair.d, pair.x, pair.y, end))
@@ -139,7 +140,7 @@ def _to_disc(pair: Pair, end: float) -> LeastValue:
 
 
 def _to_wall(pair: Pair, *, side_alone: bool, width: float) -> LeastValue:
-    """Branch and bound over the wall, in double-double from where the roundings of float64 matter."""
+    """Branch and bound over the wall, in double-double as soon as the roundings of float64 matter."""
     cells, at, most = _first_cells(pair), _at, _MOST_CELLS
     above, point, below = math.inf, _NOWHERE, -1.0
     for _ in range(_ROUNDS):
@@ -165,10 +166,10 @@ def _to_wall(pair: Pair, *, side_alone: bool, width: float) -> LeastValue:
 
 @dataclass(frozen=True, slots=True)
 class _Bounds:
-    """Bounds of the least q − 1 in each of n cells, and points (3, n) of the wall in them where it is below `above`.
+    """Bounds of the least q − 1 in each of n cells, and points (3, n) of the wall in them with q − 1 below `above`.
 
     `below` is loosened by the error of q at that point, and by the term of second order, `loose`; `shares` (2, n) are
-    the parts of it that come from the height alone and from the angle alone.
+    the parts of `loose` that come only from the height and only from the angle.
     """
 
     below: Floats
@@ -180,7 +181,7 @@ class _Bounds:
 
 
 def _bounds(pair: Pair, cells: Floats, at: Callable[[Pair, Floats, Floats], _Values]) -> _Bounds:
-    """Bounds in cells, by a value and slopes in the middle of each, or at the end that it reaches."""
+    """Bounds in cells, from a value and slopes in the middle of each, or at the end of the wall that it reaches."""
     w, t, half, k = cells
     below, level, above = (np.clip(height, pair.z_min, pair.z_max) for height in (w - half, w, w + half))
     level = np.where(below == pair.z_min, below, np.where(above == pair.z_max, above, level))
@@ -213,7 +214,7 @@ def _first_cells(pair: Pair) -> Floats:
     reach = pair.alpha * math.hypot(1, min(max(pair.z, pair.z_min), pair.z_max) / pair.gamma)
     center = math.hypot(pair.x, pair.y)
     level = min(max(pair.z, pair.z_min), pair.z_max)
-    # The point of the wall at this level and azimuth is so near; what is farther up or down than that is farther.
+    # The wall's point at this level and azimuth has this distance; points farther up or down are farther away.
     far = (math.hypot(abs(center - reach), level - pair.z) / min(pair.b, pair.d)) * (1 + 1e-9) * max(pair.b, pair.d)
     low, high = max(pair.z_min, pair.z - far), min(pair.z_max, pair.z + far)
     if not low < high:
@@ -228,7 +229,7 @@ def _first_cells(pair: Pair) -> Floats:
 class _Values:
     """At n points X (3, n) of the wall: q − 1, a bound of its error, and the slopes of q.
 
-    To a point e radii away q changes by what the slopes say within `blur` e, besides what `error` covers.
+    To a point e radii away q changes by the slopes, within `blur` e, and within `error`.
     """
 
     excess: Floats
@@ -255,7 +256,7 @@ def _center(pair: Pair) -> Floats:
 
 
 def _error(pair: Pair, X: Floats, q: Floats, slack: float) -> Floats:
-    """How far q − 1 is off, where n is off by slack (|X| + |C|)/m, and the subtraction by slack."""
+    """The error of q − 1, if n has an error of slack (|X| + |C|)/m, and the subtraction one of slack."""
     size = np.abs(X) + np.abs(_center(pair))
     off = slack * np.sqrt((size * size).sum(axis=0)) / min(pair.b, pair.d)
     return np.asarray(off * (2 * np.sqrt(q) + off) + slack)
@@ -272,7 +273,7 @@ def _slopes(pair: Pair, v: Floats, D: Floats, r: Floats, turn: Floats, w: Floats
 
 
 def _at_finely(pair: Pair, w: Floats, t: Floats) -> _Values:
-    """The same with q − 1 in double-double."""
+    """As _at, with q − 1 in double-double."""
     ratio = double_double.quotient_of_floats(w, np.array([pair.gamma]))
     stretch = double_double.square_root(double_double.add_float(double_double.square(ratio), 1.0))
     r = double_double.multiply(stretch, _number(pair.alpha))
@@ -308,7 +309,7 @@ def _rounded(parts: list[DoubleDouble]) -> Floats:
 
 
 def _cut(cells: Floats, shares: Floats) -> Floats:
-    """Cells cut in two across the direction that loosens their bounds most, or in four; the parts overlap."""
+    """The cells, each cut in two across the direction that loosens its bound most, or in four; the parts overlap."""
     for row in (0, 1):
         wide = shares[row] * _ALIKE >= shares[1 - row]
         room = (np.abs(cells[0]) + cells[2] if row == 0 else 1.0) * _OVERLAP

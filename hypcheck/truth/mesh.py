@@ -1,4 +1,4 @@
-"""Meshes of the surface for FCL (python-fcl), the distance to them, and what a search for the mesh oracle ends with."""
+"""Meshes of the surface for FCL (python-fcl), the distance to them, and the results of the mesh oracle's searches."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def fcl_module() -> Any:  # noqa: ANN401 - the wheel has no types
 
 
 def availability() -> str | None:
-    """None where FCL can be imported, else the sentence that says why not."""
+    """None if FCL can be imported, else the sentence that gives the reason."""
     try:
         fcl_module()
     except ImportError as error:
@@ -45,7 +45,7 @@ def mesh_object(vertices: Vertices, triangles: Triangles) -> object | None:
     """FCL's object of a mesh, or None where FCL refuses to build it; its status is the only sign of that.
 
     FCL checks nothing: an empty mesh or an index out of range ends the interpreter, and vertices that are not finite
-    make every answer about it meaningless. The caller sees to these.
+    make every answer about it meaningless. The caller must prevent these.
     """
     fcl = fcl_module()
     mesh = fcl.BVHModel()
@@ -74,7 +74,7 @@ Measure = Callable[[Vertices, Triangles], float]
 
 
 class MeshOutcome(Enum):
-    """What a mesh can say of a pair: it has sides only by the sign of F(C), so it names none."""
+    """The answer that a mesh gives about a pair. It names no side: a side follows only from the sign of F(C)."""
 
     CLEAR = "clear"
     CONTACT = "contact"
@@ -83,13 +83,13 @@ class MeshOutcome(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Refinement:
-    """What cutting the surface into cells led to, and the meshes that show it, seen from C in spheroid radii.
+    """The result of cutting the surface into cells, and the meshes that show it, relative to C in spheroid radii.
 
-    The mesh of a clear pair is the near one over all cells within reach, each at the size at which it was settled; that
-    of a contact the far one over cells that were open. Where the surface ends, both count. The distance of each has to
-    be off 1 by more than `slack`; there are none where nothing is decided. `side` is the exact sign of the
-    hyperboloid's equation at C. `levels` counts the rounds of cutting. The distance from C to the surface, in radii, is
-    between `lower` and `upper`; `reason` says why nothing is decided.
+    For a clear pair the mesh is the near mesh over all cells within reach, each at the size at which it was decided;
+    for a contact it is the far mesh over cells that were undecided. If the surface ends, both meshes are given. The
+    distance of each must differ from 1 by more than `slack`; without a decision there are no meshes. `side` is the
+    exact sign of the hyperboloid's equation at C. `levels` counts the rounds of cutting. The distance from C to the
+    surface, in radii, is between `lower` and `upper`; `reason` says why nothing is decided.
     """
 
     outcome: MeshOutcome

@@ -98,7 +98,7 @@ def window_of(meridian: Meridian) -> tuple[int, int] | None:
 
 
 def _e_of_radius(meridian: Meridian, r: int, *, up: bool = False) -> int:
-    """e = X + √(X² − 1), X = r/a, rounded down, or up to more than it; 0 where r is below the waist."""
+    """e = X + √(X² − 1), X = r/a, rounded down, or up to more than it; 0 if r is below the waist's radius."""
     x = _quotient(r, meridian.a, meridian.one, up=up)
     return x + isqrt(x * x - meridian.one**2) + up if x >= meridian.one else 0
 
@@ -183,9 +183,9 @@ def bounds_of(cell: MeridianCell, *, outside: bool) -> Bounds:
     """Proved bounds from one cell; `outside` says that C is not inside the surface (F(C) ≥ 0).
 
     Upper: for a point Y of the far facets (tangents seen from outside, chords from inside) F(C) and F(Y) do not have
-    the same sign, so the segment CY meets the surface. Lower: for any direction n, every X in the triangle has
-    |X| ≥ n·X / |n| ≥ min over its corners v of n·v / |n|; n = the point of the near facets that is nearest to C makes
-    that sharp. Neither asks for more of the computed nearest points than that they are on the facets, up to rounding.
+    the same sign, so the segment CY meets the surface. Lower: for any direction n, every X in the triangle has |X| ≥
+    n·X / |n| ≥ min over its corners v of n·v / |n|; n = the point of the near facets that is nearest to C makes that
+    sharp. Both need only that the computed nearest points are on the facets, up to rounding.
     """
     chord, tangent = _nearest(cell.chord), _nearest(cell.tangents)
     near, far = (chord, tangent) if outside else (tangent, chord)
@@ -193,7 +193,7 @@ def bounds_of(cell: MeridianCell, *, outside: bool) -> Bounds:
 
 
 def _least_along(direction: Point, cell: MeridianCell) -> float:
-    """The least component of the triangle's corners along a direction, or 0 where the direction is too short."""
+    """The least component of the triangle's corners along a direction, or 0 if the direction is too short."""
     length = _length(direction)
     if length < _VANISHING:
         return 0.0
@@ -201,7 +201,7 @@ def _least_along(direction: Point, cell: MeridianCell) -> float:
 
 
 def _nearest(segments: tuple[Segment, ...]) -> Point:
-    """About the point of the segments that is nearest to C."""
+    """Approximately the point of the segments that is nearest to C."""
     return min((_nearest_on(p, q) for p, q in segments), key=_length)
 
 
@@ -234,10 +234,11 @@ MOST_CELLS = 1 << 14
 
 
 def refine(pair: Pair) -> Refinement:
-    """Cut open cells in halves, level by level, until all are beyond one radius, or one proves contact, or neither.
+    """Halve undecided cells, level by level, until all are beyond one radius, one proves contact, or neither can be.
 
-    Ends always: the bounds of a cell are at most 62 u and twice its length apart (u = 2⁻⁵³: 2 SLACK, and what SLACK
-    covers at most), which is below RESOLUTION = 64 u long before the length has shrunk to one step of e, 2⁻⁶³ radii.
+    This always ends: the bounds of a cell are at most 62 u and twice its length apart (u = 2⁻⁵³: 2 SLACK, and what
+    SLACK covers at most), which is below RESOLUTION = 64 u long before the length has shrunk to one step of e, 2⁻⁶³
+    radii.
     """
     meridian = meridian_of(pair)
     outside = meridian.side >= 0

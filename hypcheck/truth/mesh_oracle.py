@@ -1,11 +1,11 @@
 """The mesh oracle: FCL asked about one-sided meshes of the surface (docs/mesh-oracle.md).
 
-It says clear, contact or undecided, and never a wrong word: bounds found without FCL settle the pair, and FCL, asked
-about the very mesh that shows it, must say the same. The one question to FCL (python-fcl) is how far C is from a mesh.
-FCL knows no sides; the side is the exact sign of the hyperboloid's equation at C.
+It answers clear, contact or undecided, and is never wrong: bounds found without FCL decide the pair, and FCL, given the
+mesh that shows the decision, must agree. The only question to FCL (python-fcl) is the distance of C from a mesh. FCL
+knows no sides; the side is the exact sign of the hyperboloid's equation at C.
 
-The bounds of an upright spheroid are proved (mesh_meridian.py), and so are those of any other pair (mesh_wall.py), if
-the library's functions are right within 4 places.
+The bounds for an upright spheroid are proved (mesh_meridian.py). The bounds for other pairs (mesh_wall.py) are proved
+if the math library's functions are right within 4 units in the last place.
 """
 
 from __future__ import annotations
@@ -19,13 +19,13 @@ from hypcheck.truth.mesh import Measure, MeshOutcome, distance_to_mesh, require_
 
 @dataclass(frozen=True, slots=True)
 class MeshVerdict:
-    """What the meshes say of one pair.
+    """The answer of the meshes about one pair.
 
-    `position` is None where undecided, and then `reason` is the sentence why. `lower` and `upper` are bounds on the
-    distance from the spheroid's centre to the surface, in spheroid radii (clearance + 1), proved ones of an upright
-    spheroid and a hyperboloid without ends, else 0 and inf; a clear pair's are seldom tight, and beyond 5/4 radii they
-    are 5/4 and inf. `levels` counts the rounds of cutting, `triangles` what FCL was asked about; both are 0 where
-    nothing is near.
+    `position` is None if undecided, and then `reason` is a sentence with the reason. `lower` and `upper` are bounds of
+    the distance from the spheroid's centre to the surface, in spheroid radii (clearance + 1). They are proved for an
+    upright spheroid and a hyperboloid without ends, else 0 and inf; for a clear pair they are seldom tight, and beyond
+    5/4 radii they are 5/4 and inf. `levels` counts the rounds of cutting, `triangles` the triangles given to FCL; both
+    are 0 if nothing is near.
     """
 
     outcome: MeshOutcome
@@ -38,9 +38,9 @@ class MeshVerdict:
 
 
 def verdict(pair: Pair, measure: Measure = distance_to_mesh) -> MeshVerdict:
-    """The position of any valid pair, or undecided, if what measures the distance to the mesh confirms it.
+    """The position of any valid pair, if `measure`, the distance to the mesh, confirms it; else undecided.
 
-    Raises UnavailableError where FCL cannot be imported.
+    Raises UnavailableError if FCL cannot be imported.
     """
     require_fcl()
     search = (mesh_meridian if pair.is_upright and not pair.has_ends else mesh_wall).refine(pair)
@@ -59,5 +59,5 @@ def verdict(pair: Pair, measure: Measure = distance_to_mesh) -> MeshVerdict:
 
 
 def _side(pair: Pair, sign: int) -> Position:
-    """The side of a spheroid that touches nothing: that of its centre, of whose equation this is the sign."""
+    """The side of a spheroid that touches nothing: its centre's side, given the sign of the equation at the centre."""
     return Position.INTERIOR if sign <= 0 and pair.z_min <= pair.z <= pair.z_max else Position.EXTERIOR

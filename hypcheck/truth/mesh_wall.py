@@ -3,8 +3,8 @@
 A surface is given by cells; each piece of it lies in the convex hull of its cell's corners, seen from C in the space in
 which the spheroid is the unit ball about the origin. Some corners are points of the surface. Cells are cut until each
 is beyond the ball (the corners' least component along their middle is > 1), or a corner that is a point of the surface
-is within it. Then FCL is asked about meshes that show the answer. Nothing is claimed within `slack` of 1, which is what
-roundings may add up to; there, and where cells become too many, nothing is decided.
+is within it. Then FCL is asked about meshes that show the answer. `slack` bounds the sum of all roundings. Nothing is
+decided within `slack` of 1, or if there are too many cells.
 
 The wall is X(s, θ) = (α cosh s cos θ, α cosh s sin θ, γ sinh s). Over a cell s₀ ≤ s ≤ s₁ the meridian lies in the
 triangle of its chord and its two end tangents, which meet where r = α cosh m/cosh δ, z = γ sinh m/cosh δ, m being the
@@ -18,16 +18,16 @@ the sides of a cell, make a closed body of each cell. All of the wall is clear o
 There is contact if the ball reaches both meshes of one cell: what it holds of the slab between the heights is convex,
 so it holds a path from the one to the other, on which F vanishes.
 
-Roundings, in units u = 2⁻⁵³, where functions of the library are right within 4 places (8u), s is a cell's parameter and
-`size` the largest coordinate of its corners and of C: a corner is a quotient of two of them times a quotient of two
-others (36u), with middles of s and of θ that are rounded (7u + 2|s| u), and ends at asinh(z/γ), which moves them by
-9|s| u; less C it is off by (45 + 11|s|) u size in each coordinate, √3 times that in all. Upright, seven lengths over b
-or d add 6u, and the root is 1: 90 + 19|s| in all. Else the root, whose norm is ρ, is off by 42u ρ, its product by
-12u ρ, and the component along the middle by 21u: 184 + 19|s| times ρ, which is 3 times its largest entry at most.
-_slack_of has 160u (1 + |s|/5), which is more than the first, and 4 times that is more than the second.
+Roundings, in units u = 2⁻⁵³, if functions of the library are right within 4 units in the last place (8u), s is a cell's
+parameter and `size` the largest coordinate of its corners and of C: a corner is a quotient of two of them times a
+quotient of two others (36u), with middles of s and of θ that are rounded (7u + 2|s| u), and ends at asinh(z/γ), which
+moves them by 9|s| u; less C it is off by (45 + 11|s|) u size in each coordinate, √3 times that in all. Upright, seven
+lengths over b or d add 6u, and the root is 1: 90 + 19|s| in all. Else the root, whose norm is ρ, is off by 42u ρ, its
+product by 12u ρ, and the component along the middle by 21u: 184 + 19|s| times ρ, which is 3 times its largest entry at
+most. _slack_of has 160u (1 + |s|/5), which is more than the first, and 4 times that is more than the second.
 
-An end disc is cut in the same way, z being the height of the end and r its own parameter. A pair that touches nothing
-has the side of its centre, which is in the body if it is between the heights too.
+An end disc is cut in the same way, z being the height of the end and r its own parameter. A pair without contact has
+the side of its centre; the centre is in the body if it is also between the heights.
 """
 
 from __future__ import annotations
@@ -82,7 +82,7 @@ _ON_SURFACE = (0, 2, 6, 8)
 
 
 class MeshScene:
-    """A pair with the spheroid as the unit ball: corners are seen from C in that space."""
+    """A pair in the space in which the spheroid is the unit ball: corners are relative to C in this space."""
 
     def __init__(self, pair: Pair, seven: list[float], ends: list[float]) -> None:
         alpha, gamma, b, d, x, y, z = seven
@@ -95,7 +95,7 @@ class MeshScene:
         self.low, self.high = max(z - reach, ends[0]), min(z + reach, ends[1])
 
     def whole(self) -> Floats:
-        """Cells (n, 5) that cover what is within reach: what they are part of, s or r from and to, θ from and to."""
+        """Cells (n, 5) that cover all parts within reach: the number of the part, s or r from and to, θ from and to."""
         parts = list(self._parts())
         turns = np.linspace(0, 2 * math.pi, _START + 1)
         rows = [(*part, *turn) for part in parts for turn in pairwise(turns.tolist())]
@@ -112,7 +112,7 @@ class MeshScene:
                     yield side, 0.0, self.alpha * math.hypot(1, end / self.gamma)
 
     def corners(self, cells: Floats) -> tuple[Floats, Floats]:
-        """Corners (n, 9, 3) of cells (n, 5), and what roundings may move each, (n,)."""
+        """Corners (n, 9, 3) of cells (n, 5), and bounds of their rounding errors, (n,)."""
         part, low, high, start, end = cells.T
         middle, half = (low + high) / 2, (high - low) / 2
         wall = part == WALL
@@ -147,14 +147,14 @@ def _lengths(vectors: Floats) -> Floats:
 
 
 def refine(pair: Pair) -> Refinement:
-    """Halve cells, level by level, until all are beyond the ball, or a point is within it, or neither."""
+    """Halve cells, level by level, until all are beyond the ball, a point is within it, or no decision is possible."""
     with np.errstate(all="ignore"):
         scene = scene_of(pair)
         return _undecided(0, 0, f"a size is below {_LEAST:.1e} of the largest length") if scene is None else _cut(scene)
 
 
 def scene_of(pair: Pair) -> MeshScene | None:
-    """The pair with the spheroid as the unit ball; None where roundings would leave nothing."""
+    """The pair with the spheroid as the unit ball; None if roundings would prevent every decision."""
     if pair.is_upright:
         # Theorem 1: lengths across the axis in units of b, those along it in units of d.
         seven = [pair.alpha / pair.b, pair.gamma / pair.d, 1.0, 1.0, pair.x / pair.b, pair.y / pair.b, pair.z / pair.d]
@@ -205,7 +205,7 @@ def _side_of_center(pair: Pair) -> int:
 
 
 def _slack_of(size: Floats, root: Floats) -> Floats:
-    """What roundings may move a corner, (n,): `size` is that of its coordinates, `root` makes the spheroid a ball."""
+    """Bounds of corners' rounding errors, (n,): `size` bounds the coordinates, `root` maps the spheroid to a ball."""
     return np.asarray(80 * _U * (1 + size * np.abs(root).max()))
 
 

@@ -12,9 +12,9 @@ Of an upright pair D(λ) = λ (P/(A + λ) − Q/(B − λ) − 1) with A = (α/b
 
 The enclosures. Where D no longer rises from λ₁ at λ₂, or λ₂ is beyond the end of the interval, the supremum is at least
 D(λ₁) and, D being concave, at most D(λ₁) + D′(λ₁)(λ₂ − λ₁). The precision of λ doubles until that leaves one float64 to
-round to. An interval never tells a tangency from its neighbourhood: then λ is rational, is guessed from its digits, and
-an exact test proves it. Where a tie of the rounding might be hidden in the interval, it is taken for one once the
-interval is narrower than 2⁻²⁵⁶ of the clearance.
+round to. An interval cannot distinguish a tangency from its neighbourhood. At a tangency λ is rational; it is guessed
+from its digits, and an exact test proves it. If a tie of the rounding may be in the interval, the clearance is taken as
+the tie when the interval is narrower than 2⁻²⁵⁶ of the clearance.
 
 Nothing is shared with the other oracles. This module loads no numpy. nearest_rows.py answers many rows.
 """
@@ -40,7 +40,7 @@ _MOST_STEPS = 8  # of Newton's iteration in one precision; the next precision go
 
 
 class NearestStage(IntEnum):
-    """How a clearance was decided; STAGES has the names."""
+    """The stage that decided a clearance; STAGES has the names."""
 
     DOUBLE_DOUBLE = 0
     """In double-double arithmetic, its error bound leaving no doubt."""
@@ -56,7 +56,7 @@ STAGES = ("double-double", "precise", "exact")
 
 @dataclass(frozen=True, slots=True)
 class NearestPoint:
-    """How near the hyperboloid is to the spheroid's centre, in the metric in which the spheroid is a unit ball.
+    """The distance of the hyperboloid from the spheroid's centre, in the metric in which the spheroid is a unit ball.
 
     `clearance` is the factor by which the spheroid, grown about its centre, first touches the hyperboloid, less 1:
     positive when apart, negative when overlapping, 0 exactly when tangent. It is the float64 nearest to the true value
@@ -87,7 +87,7 @@ class Enclosure:
 
     @property
     def rounded(self) -> float | None:
-        """The one float64, never 0, to which the whole interval rounds; None if there are more or 0 is inside."""
+        """The float64, never 0, to which the whole interval rounds; None if there are several, or 0 is inside."""
         if self.low <= 0 <= self.high:
             return None
         unit = 1 << self.bits
@@ -105,9 +105,9 @@ def nearest(pair: Pair) -> NearestPoint:
 
 
 def multiplier(row: Sequence[float | Fraction]) -> Fraction:
-    """About the λ at which D is largest, for ten valid numbers; a hint, of which nothing is proved.
+    """Approximately the λ at which D is largest, for ten valid numbers; a hint without a proof.
 
-    Where that is an end of the interval, it is a little before it: M + λD has to be definite all around.
+    If this is an end of the interval, the hint is a little before it, because M + λD must be definite around it.
     """
     dual = Dual.of(Lengths.of(row))
     side = dual.direction(0, 0)
@@ -165,9 +165,9 @@ def _position(clearance: float, side: int) -> Position:
 def _start(dual: Dual, side: int, bits: int) -> tuple[int, int, bool]:
     """ν = L/2^shift near the optimum, and whether that is at the end of the interval.
 
-    Its distance from 0 has odds, against the distance left to the end, that are right to a factor of 2: they are looked
-    for among powers of 2. No optimum inside the interval is so near to its end as the last of them. The unit is one in
-    which `bits` bits count the distance to the nearer end.
+    The ratio of its distance from 0 to its distance from the end is right within a factor of 2: it is searched among
+    powers of 2. No optimum inside the interval is so near to its end as the last of them. The unit is one in which
+    `bits` bits count the distance to the nearer end.
     """
     size = _bits(dual.slope)
     probe = next(shift for shift in (64, size) if shift == size or dual.end(side, shift))
@@ -204,7 +204,7 @@ def _room(dual: Dual, L: int, shift: int) -> int:
 
 
 def _newton(dual: Dual, L: int, shift: int, bits: int) -> tuple[int, int]:
-    """ν near the optimum by Newton's iteration, and a guess at the error that is left, both in units of 2^-shift.
+    """ν near the optimum by Newton's iteration, and an estimate of its error, both in units of 2^-shift.
 
     From a start good to half of `bits` one step does; each squares the error relative to the nearer end's distance. The
     steps D′/|D″| are computed with twice as many bits as they need, from coefficients cut off: they prove nothing.
@@ -227,7 +227,7 @@ def _newton(dual: Dual, L: int, shift: int, bits: int) -> tuple[int, int]:
 
 
 def _cut(f: Polynomial, exponent: int, bits: int) -> Polynomial:
-    """About f(2^exponent u) as a polynomial in u, up to a factor, the largest coefficient of so many bits."""
+    """Approximately f(2^exponent u) as a polynomial in u, up to a factor, its largest coefficient of `bits` bits."""
     sizes = [
         part.bit_length() + exponent * power for part, power in zip(f, range(len(f) - 1, -1, -1), strict=True) if part
     ]
@@ -244,7 +244,7 @@ def _fixed(f: Polynomial, L: int, bits: int) -> int:
 
 
 def _doubt(dual: Dual, L: int, shift: int, width: int) -> int:
-    """A distance from L within which the sign of D′ proves the optimum; `width` if that suffices, else more."""
+    """A distance from L within which the sign of D′ proves the optimum to be; `width` if this suffices, else more."""
     side = dual.direction(L, shift)
     while dual.direction(L + side * width, shift) * side > 0:
         width <<= 8

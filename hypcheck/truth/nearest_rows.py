@@ -1,7 +1,7 @@
-"""The nearest-point oracle for many rows: in double-double arithmetic as far as that can tell, else exactly.
+"""The nearest-point oracle for many rows: in double-double arithmetic if this can decide, else exactly.
 
-Upright rows are answered by upright_distances.py, others by distances.py; what the error bounds leave open, nearest.py
-answers pair by pair. Both round the clearance to the same float64.
+upright_distances.py answers upright rows, distances.py other rows; nearest.py answers the rows that error bounds leave
+undecided, pair by pair. Both round the clearance to the same float64.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ class NearestBatch:
 def positions(rows: Rows) -> NearestBatch:
     """The positions and tangencies of rows (n, 7) or (n, 10). Raises InputError about the first invalid row.
 
-    Clearances are right to a factor alone, and 0 where tangent.
+    Clearances are only right within a factor, and 0 if tangent.
     """
     return _run(rows, clearances_wanted=False)
 

@@ -1,15 +1,14 @@
-"""How wrong an answer about a sweep is: by the spheroid's size, and by the time of first contact.
+"""The error of an answer about a sweep: by the spheroid's size, and by the time of first contact.
 
-A row is alpha, gamma, b, d, x0, y0, z0, x1, y1, z1, with axis_x, axis_y, axis_z behind it where the spheroid is
-tilted, and z_min, z_max, solid behind these where the hyperboloid ends. The answer is True for contact somewhere on
-the sweep.
+A row is alpha, gamma, b, d, x0, y0, z0, x1, y1, z1, then axis_x, axis_y, axis_z if the spheroid is tilted, and then
+z_min, z_max, solid if the hyperboloid ends. The answer is True for contact somewhere on the sweep.
 
 **Contact is monotone in the size.** At each time the spheroid with b and d multiplied by k, a solid with a fixed
 centre, is part of the one with a larger k; contact says that the solid and the hyperboloid have a point in common. So
-where a spheroid has contact on its sweep, outside, inside or begun in contact, each larger one has it too, no later.
-There is a least factor k* ≥ 0 with contact, for contact is a closed condition. A wrong answer is right for a factor
-just beyond k*: its size error is |k* − 1|, found by bisection on exact decisions. k* is 0 where the centre itself meets
-the surface; no smaller spheroid is clear then.
+if a spheroid has contact on its sweep, outside, inside or from the beginning, each larger one has contact too, no
+later. There is a least factor k* ≥ 0 with contact, for contact is a closed condition. A wrong answer is right for a
+factor just beyond k*: its size error is |k* − 1|, found by bisection on exact decisions. k* is 0 if the centre itself
+meets the surface; then no smaller spheroid is clear.
 """
 
 from __future__ import annotations
@@ -45,7 +44,7 @@ _LARGEST = 1 - Fraction(1, 2**53)
 
 @dataclass(frozen=True, slots=True)
 class SizeError:
-    """The least relative change of b and d together that makes an answer right is between these.
+    """Bounds of the least relative change of b and d together that makes an answer right.
 
     Both are 0 for a right answer and for the limit of right ones, inf where no change below 1 is enough.
     """
@@ -55,7 +54,7 @@ class SizeError:
 
 
 def scaled_passage(row: Sequence[Rational], scale: Rational = 1) -> Passage:
-    """What happens on the row's sweep, with b and d multiplied by `scale` > 0. Raises InputError as `passage` does."""
+    """The passage of the row's sweep, with b and d multiplied by `scale` > 0. Raises InputError as `passage` does."""
     return passage_on(_sweep(row, scale))
 
 
@@ -71,12 +70,12 @@ def _sweep(row: Sequence[Rational], scale: Rational = 1, until: Rational = 1) ->
 
 @lru_cache(_REMEMBERED)
 def passage_of(row: Row) -> Passage:
-    """What happens on a sweep; remembered, since the truth is asked for before and after the answers."""
+    """The passage of a sweep; cached, because the truth is needed before and after the answers."""
     return scaled_passage(row)
 
 
 def first_contact(row: Row) -> tuple[float, float]:
-    """float64 bounds of the time of the first contact, NaN where there is none."""
+    """float64 bounds of the time of the first contact; NaN if there is none."""
     found = passage_of(row)
     return found.first_lower, found.first_upper
 
@@ -123,8 +122,8 @@ def size_error(row: Sequence[Rational], answer: bool) -> SizeError:
 def is_tolerated(row: Sequence[Rational], answer: bool, tolerance: Fraction) -> bool:
     """Whether an answer is right for b and d both multiplied by 1 + tolerance, or for both by 1 − tolerance.
 
-    By monotony one of the two is the one to ask about. From a tolerance of 1 on, nothing is left of the smaller
-    spheroid, so that the answer "no contact" is always tolerated.
+    By monotony it is enough to decide one of the two. If the tolerance is 1 or more, no smaller spheroid is left, so
+    that the answer "no contact" is always tolerated.
     """
     if answer:
         return hits_at_size(row, 1 + tolerance)
@@ -132,7 +131,7 @@ def is_tolerated(row: Sequence[Rational], answer: bool, tolerance: Fraction) -> 
 
 
 def tolerance(row: Sequence[Rational], units: Rational, roundoff: Rational) -> Fraction:
-    """The relative change of b and d that stands for relative changes of `units` roundoffs of each input.
+    """The relative change of b and d that covers relative changes of `units` roundoffs of each input.
 
     δ = units · roundoff, and the tolerance is δ K. Where an answer is right for inputs each of which is changed by δ of
     itself at most (the axis by δ of its length), it is right for b and d both multiplied by 1 + δ K, or both by
@@ -140,8 +139,8 @@ def tolerance(row: Sequence[Rational], units: Rational, roundoff: Rational) -> F
 
         K = 1 + ρ + ζ + (1+δ)/(1−δ) (ρ + ζ + 2);
 
-    docs/motion.md derives it, the one of a tilted spheroid, and what ends add. Infinite changes are not meant: δ
-    counts as 1/2 at most in K.
+    docs/motion.md derives it, the K of a tilted spheroid, and the addition for ends. In K, δ is at most 1/2, so that K
+    is finite.
     """
     change = Fraction(units) * Fraction(roundoff)
     alpha, gamma, b, d, *ends = (Fraction(number) for number in row[: len(SWEEP_COLUMNS)])
@@ -161,11 +160,11 @@ def tolerance(row: Sequence[Rational], units: Rational, roundoff: Rational) -> F
 
 
 def time_is_within(row: Sequence[Rational], time: Rational, change: Rational) -> bool:
-    """Whether a time, from 0 to 1, is right for the first contact of some size that differs by a part `change` at most.
+    """Whether a time, from 0 to 1, is the first contact's for some size that differs by at most the share `change`.
 
     It is too early where the spheroid grown by `change` is clear up to it, and too late where the one that is shrunk
-    has contact before it; with a change of 1 nothing is left to shrink. Both are asked at times that differ from it by
-    2^−60 of itself, in its favour: first contacts are not enclosed more narrowly.
+    has contact before it; with a change of 1 no shrunk spheroid is left. Both are decided at times that differ from the
+    given time by 2^−60 of itself, in its favour, because first contacts are not enclosed more narrowly.
     """
     exact, part = Fraction(time), Fraction(change)
     slack = exact / 2**WIDTH_BITS
@@ -178,7 +177,7 @@ def time_is_within(row: Sequence[Rational], time: Rational, change: Rational) ->
 def time_is_tolerated(row: Row, time: float, units: Rational, roundoff: Rational) -> bool:
     """Whether a time of first contact is right for sizes changed by the `tolerance`, on a sweep with contact.
 
-    Remembered, since likely causes of wrong times ask it again.
+    Cached, because causes of wrong times need it again.
     """
     passage = passage_of(row)
     if passage.first_lower <= time <= passage.first_upper:
@@ -188,13 +187,13 @@ def time_is_tolerated(row: Row, time: float, units: Rational, roundoff: Rational
 
 
 def radii_off(row: Row, time: float) -> float:
-    """The sweep between a time and the first contact, in spheroid radii."""
+    """The length of the sweep between a time and the first contact, in spheroid radii."""
     found = passage_of(row)
     return max(found.first_lower - time, time - found.first_upper, 0.0) * sweep_in_radii(row)
 
 
 def sweep_in_radii(row: Row) -> float:
-    """The length of the sweep in spheroid radii, those along the spheroid's axis and across it each in their own.
+    """The length of the sweep in spheroid radii; lengths along and across the spheroid's axis are in units of d and b.
 
     Of an upright spheroid its square is (Δx² + Δy²)/b² + Δz²/d².
     """

@@ -16,10 +16,10 @@ and with R = x² + y², Z = z², N = x v_y − y v_x, T = (x v_x + y v_y) z v_z 
     p² q² s t V det(S + λH) = F = L G − (q − t) N² λ² (s − q λ)
     G = −(1 + λ) E + λ (R s − Z p) V − λ² (R g2 + Z g1 + 2 (q − t) T).
 
-**A tilted hyperboloid**, along w, is not rotated: all of this depends on squares and products of the centre C and both
-axes, and with W = w·w those along w are Z = (C·w)²/W, c = (v·w)²/W, N² = det(C, v, w)²/W and
-T = (C·v − (C·w)(v·w)/W) (C·w)(v·w)/W; R and V − c are what is left of C·C and v·v. p, s, q, t, R, Z and V, c are
-multiplied by W, N² and T by W², so that all are integers and F keeps its sign.
+**A tilted hyperboloid**, along w, is not rotated: all these terms depend on squares and products of the centre C and
+both axes, and with W = w·w those along w are Z = (C·w)²/W, c = (v·w)²/W, N² = det(C, v, w)²/W and T = (C·v −
+(C·w)(v·w)/W) (C·w)(v·w)/W; R and V − c are the rests of C·C and v·v. p, s, q, t, R, Z and V, c are multiplied by W, N²
+and T by W², so that all are integers and F keeps its sign.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ def cubic(lengths: Lengths) -> Cubic:
 
 
 def cubic_coefficients(sizes: Lengths, x: Number, y: Number, z: Number) -> tuple[Number, ...]:
-    """n3, n2, n1, n0 for these sizes and a centre of any kind of number."""
+    """n3, n2, n1, n0 for these sizes and a centre whose coordinates are any kind of number."""
     p, s, q, t = _squares(sizes)
     radius, height = across_and_along(sizes, x, y, z)
     n2 = (p + q - radius) * t - (s + height) * q
@@ -88,7 +88,7 @@ _VERTICAL = (0, 0, 1)
 
 
 def local_maximum(g: Cubic, bits: int) -> tuple[int, int]:
-    """The place of g's local maximum, which it has, to about so many bits: top/bottom, bottom > 0."""
+    """The place of g's local maximum, which must exist, to about `bits` bits: top/bottom, bottom > 0."""
     h = g.n2 * g.n2 - 3 * g.n3 * g.n1
     shift = max(0, bits + 8 - h.bit_length() // 2)
     root, n2 = math.isqrt(h << 2 * shift), g.n2 << shift
@@ -217,7 +217,7 @@ def slope_of_quotient(F: Quartic) -> tuple[int, ...]:
 
 
 def toward_maximum(F: Quartic) -> Iterator[Fraction]:
-    """Numbers μ > 0 that tend to where φ has its maximum on (0, ℓ], by bisection; not all of them are < ℓ."""
+    """Numbers μ > 0 that tend to the maximum of φ on (0, ℓ], by bisection; not all of them are < ℓ."""
     slope = slope_of_quotient(F)
     largest = max(abs(coefficient) for coefficient in (*F.coefficients, *slope)).bit_length()
     low, high = Fraction(1, 2 << largest), Fraction(2 << largest)

@@ -1,9 +1,9 @@
 """Real roots of integer polynomials, all of them or those between 0 and 1, enclosed by exact arithmetic alone.
 
-A polynomial is as in polynomials.py, its first coefficient not 0. Nothing here is approximated: signs are signs of
-integers, roots are counted by Sturm's theorem, and intervals shrink by bisection.
+A polynomial has the form of polynomials.py, with a first coefficient ≠ 0. Nothing here is approximated: signs are signs
+of integers, roots are counted by Sturm's theorem, and intervals shrink by bisection.
 
-Roots in [0, 1] are counted by Descartes' rule of signs instead: halving a polynomial's interval costs additions alone,
+Roots in [0, 1] are counted by Descartes' rule of signs instead: halving a polynomial's interval costs only additions,
 where Sturm's theorem multiplies long integers.
 """
 
@@ -31,7 +31,7 @@ from hypcheck.truth.rationals import power_near, power_of_two
 Interval = tuple[Fraction, Fraction]
 
 
-@lru_cache(maxsize=16)  # a polynomial is asked for its roots in one interval after another
+@lru_cache(maxsize=16)  # the roots of one polynomial are needed in several intervals
 def sturm_chain(f: Polynomial) -> tuple[Polynomial, ...]:
     """f, f′ and the negated remainders of Euclid's algorithm, each up to a positive factor; the last is gcd(f, f′)."""
     chain, rest = [primitive(f)], primitive(derivative(f))
@@ -58,7 +58,7 @@ def isolate(f: Polynomial) -> list[Interval]:
 
 
 def root_exponents(f: Polynomial) -> tuple[int, int]:
-    """Exponents of two between which those of all roots of f lie, f(0) ≠ 0: 2^near < |root| < 2^far.
+    """Exponents near, far with 2^near < |root| < 2^far for all roots of f, f(0) ≠ 0.
 
     Cauchy: |root| < 1 + max |f_i / f_0| < 2 max(1, max |f_i / f_0|), and the same for 1/root with the order reversed.
     With n bits for the largest coefficient, m for the end one, the quotient is below 2^(n − m + 1).
@@ -88,10 +88,10 @@ def roots_from_0_to_1(f: Polynomial) -> list[Interval]:
 
 
 def _isolated_by_descartes(f: Polynomial) -> tuple[list[Fraction], list[Interval]]:
-    """Roots of a squarefree f in [0, 1]: those that are met, and open intervals with one each of the others.
+    """Roots of a squarefree f in [0, 1]: the exact roots that were met, and open intervals with one other root each.
 
     Intervals are halved until the rule of signs finds one root or none in each (Collins and Akritas), which happens
-    since f has simple roots alone. A root that is met may be the end of an interval.
+    since f has simple roots alone. A met root may be the end of an interval.
     """
     met = [end for end in (Fraction(0), Fraction(1)) if not value(f, end)]
     enclosed: list[Interval] = []
@@ -110,7 +110,7 @@ def _isolated_by_descartes(f: Polynomial) -> tuple[list[Fraction], list[Interval
 
 
 def _isolated(f: Polynomial, low: Fraction, high: Fraction) -> Iterator[Interval]:
-    """Open intervals with one root each of a squarefree f, 0 ≤ low < high no roots; all roots between them are in one.
+    """Open intervals with one root each of a squarefree f, for all roots from low to high; 0 ≤ low < high are no roots.
 
     Sturm's theorem counts them.
     """
@@ -127,7 +127,7 @@ def _isolated(f: Polynomial, low: Fraction, high: Fraction) -> Iterator[Interval
 
 
 def _away(f: Polynomial, low: Fraction, high: Fraction, met: Sequence[Fraction]) -> Interval:
-    """The enclosure of one root, narrowed until none of the roots that are met, which f has no more, is its end."""
+    """The enclosure of a root, narrowed until no end is one of the met roots, which were divided out of f."""
     while low != high and (low in met or high in met):
         low, high = _halved(f, low, high)
     return low, high
@@ -136,7 +136,7 @@ def _away(f: Polynomial, low: Fraction, high: Fraction, met: Sequence[Fraction])
 def _no_root_between(f: Polynomial, low: Fraction, high: Fraction) -> Fraction:
     """A number near the middle, or near the middle of their exponents, that is no root.
 
-    Of as many numbers as f has roots, and one more, one is none.
+    Among more numbers than f has roots, one is no root.
     """
     middle = power_near(low, high) if 0 < 4 * low < high else (low + high) / 2
     step = min(middle - low, high - middle) / 16
@@ -144,15 +144,15 @@ def _no_root_between(f: Polynomial, low: Fraction, high: Fraction) -> Fraction:
 
 
 def _none_by_descartes(f: Polynomial) -> bool:
-    """Whether the rule of signs excludes a root in [0, 1]; it says nothing otherwise."""
+    """Whether the rule of signs excludes a root in [0, 1]; False is undecided."""
     return bool(f[-1]) and bool(sum(f)) and not changes_between(f)
 
 
 def enclosures(f: Polynomial, bits: int) -> Iterator[Interval]:
     """Closed intervals, 2^−bits wide at most and in any order, that hold all roots of f in [0, 1]; f is not 0.
 
-    By Descartes' rule, halving what may hold roots (Collins and Akritas): f need not be squarefree, and a multiple
-    root is never told from several that are near, nor from none.
+    By Descartes' rule, halving intervals that may hold roots (Collins and Akritas): f need not be squarefree. A
+    multiple root is not distinguished from several near roots, or from no root.
     """
     yield from ((end, end) for end in (Fraction(0), Fraction(1)) if not value(f, end))
     pending = [(0, 0, list(f))]  # the interval (place, place + 1)/2^depth, and f on it as a polynomial on (0, 1)

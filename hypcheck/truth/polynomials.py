@@ -1,4 +1,4 @@
-"""Polynomials with integer coefficients: their arithmetic, which decides nothing by itself.
+"""Arithmetic of polynomials with integer coefficients.
 
 A polynomial is a tuple of integers, the highest power first; () is 0.
 """
@@ -101,7 +101,7 @@ def quotient(f: Polynomial, g: Polynomial) -> Polynomial:
     return tuple(quotient)
 
 
-@lru_cache(maxsize=16)  # a polynomial is asked for its roots more than once
+@lru_cache(maxsize=16)  # the roots of a polynomial are needed more than once
 def squarefree(f: Polynomial) -> Polynomial:
     """The primitive polynomial with the roots of f, each of them simple."""
     f = primitive(f)
@@ -154,16 +154,16 @@ def shifted_by_one(f: Sequence[int]) -> list[int]:
 
 
 def changes_of_sign(numbers: Iterable[int]) -> int:
-    """How often the sign changes in a sequence, zeros left out."""
+    """The number of changes of sign in a sequence, without zeros."""
     signs = [number > 0 for number in numbers if number]
     return sum(one != other for one, other in itertools.pairwise(signs))
 
 
 def changes_between(g: Sequence[int]) -> int:
-    """How often the sign changes in the coefficients of (1+s)^n g(1/(1+s)).
+    """The number of changes of sign in the coefficients of (1+s)^n g(1/(1+s)).
 
-    t = 1/(1 + s) takes s in (0, ∞) to t in (0, 1). So by Descartes' rule g has so many roots there, or an even number
-    fewer.
+    t = 1/(1 + s) takes s in (0, ∞) to t in (0, 1). So by Descartes' rule g has this number of roots in (0, 1), or an
+    even number fewer.
     """
     return changes_of_sign(shifted_by_one(g[::-1]))
 

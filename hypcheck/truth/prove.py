@@ -1,14 +1,14 @@
-"""The search for the witness that certificate.py checks, rational and as short as the case allows.
+"""The search for the witness that certificate.py checks, in rational numbers as short as the case allows.
 
 A witness always exists (docs/mathematics.md, "A certificate for every answer"), and every search below doubles its
-precision until the claim holds exactly, so each one ends. λ of a clear pair is near the maximum of the cubic g of an
-upright pair, and of φ(λ) of a tilted one, which is concave between −ℓ′ and ℓ (exact.py) and whose maximum is found by
-bisection with exact signs. Points of a crossing are looked for in crossing.py. Where the hyperboloid ends,
-ended_prove.py takes this search for the whole one, and cuts the heights into pieces where that is not enough.
+precision until the claim holds exactly, so each one ends. For a clear pair λ is near a maximum: of the cubic g if the
+pair is upright, of φ(λ) if it is tilted. φ is concave between −ℓ′ and ℓ (exact.py), and bisection with exact signs
+finds its maximum. crossing.py finds points of a crossing. If the hyperboloid ends, ended_prove.py uses this search for
+the hyperboloid without ends, and cuts the heights into pieces if that is not enough.
 
-The proof about a sweep is pieces of it, and a time with its points, short ones. Bounds of the first contact are
-neighbouring float64 numbers, or 0 twice where the sweep begins in contact. A sweep that only touches at an irrational
-time has no such proof: its contact has no rational time.
+The proof about a sweep has clear pieces of it, and a time of contact with short points. Bounds of the first contact are
+neighbouring float64 numbers, or 0 twice if the sweep begins in contact. A sweep whose only contact is a touch at an
+irrational time has no such proof.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from hypcheck.truth.swept import Passage, by_roots, by_steps, reach, sweep_of
 
 
 def prove(pair: Pair, decision: Decision | None = None) -> Certificate:
-    """A certificate for the exact answer about a pair (`decision`, where the caller has it already)."""
+    """A certificate for the exact answer about a pair; `decision` is this answer, if the caller already has it."""
     lengths = pair.lengths
     decision = decision or exact.decide(lengths)
     if pair.has_ends:
@@ -56,7 +56,7 @@ def double_root(lengths: Lengths) -> Fraction:
 
 
 def _cubic_multiplier(g: Cubic) -> Fraction:
-    """The local maximum of g, rounded to the fewest bits (a power of two of them) at which g is still positive."""
+    """The local maximum of g, rounded to the fewest bits at which g stays positive; their number is a power of two."""
     for bits in precisions():
         at = rounded(Fraction(*local_maximum(g, bits)), bits)
         u, v = at.numerator, at.denominator
@@ -67,7 +67,7 @@ def _cubic_multiplier(g: Cubic) -> Fraction:
 
 
 def _quartic_multiplier(F: Quartic) -> Fraction:
-    """A λ at which F is positive between 0 and ℓ, rounded to the fewest bits (a power of two of them) that will do."""
+    """A λ between 0 and ℓ at which F is positive, rounded to the fewest bits; their number is a power of two."""
     multiplier = next(at for at in toward_maximum(F) if inside(F, at) and sign_at(F.coefficients, at) > 0)
     for bits in precisions():
         at = rounded(multiplier, bits)
@@ -85,9 +85,9 @@ _MOST_BITS = 1 << 12
 
 
 def prove_passage(row: Sequence[float]) -> tuple[Passage, Bounds | None, PassageCertificate]:
-    """What happens on the row's sweep, bounds of the first contact (None without), and the proof of both.
+    """The passage of the row's sweep, bounds of the first contact (None if there is none), and the proof of both.
 
-    Raises ValueError where the only contact is at an irrational time.
+    Raises ValueError if the only contact is at an irrational time.
     """
     sweep = sweep_of(row[:4], row[4:7], row[7:10], row[len(SWEEP_COLUMNS) :] or None)
     passage = by_steps(sweep) or by_roots(sweep)
@@ -105,7 +105,7 @@ def prove_passage(row: Sequence[float]) -> tuple[Passage, Bounds | None, Passage
 
 
 def _time_of_contact(sweep: StraightSweep, passage: Passage) -> Fraction:
-    """A rational time of contact up to first_upper; of a sweep that only touches, the simplest number it can be."""
+    """A rational time of contact up to first_upper; if the sweep only touches, the simplest possible number."""
     low, high = passage.first or (Fraction(0), Fraction(0))
     upper = Fraction(passage.first_upper)
     for time in (upper, high, low, simplest(low, high)):
@@ -139,7 +139,7 @@ def _pieces(sweep: StraightSweep, until: Fraction) -> tuple[tuple[Fraction, Frac
 
 
 def _multiplier(sweep: StraightSweep, time: Fraction) -> tuple[Fraction, Fraction | None]:
-    """The first multiplier that proves a time clear, or the next one where that reaches farther; and how far."""
+    """The first multiplier that proves a time clear, or the next one if it reaches farther; and the time it reaches."""
     best: tuple[Fraction, Fraction | None] | None = None
     for number, multiplier in enumerate(sweep.multipliers(time)):
         if best is not None and number >= _FEW:
@@ -160,7 +160,7 @@ def _multiplier(sweep: StraightSweep, time: Fraction) -> tuple[Fraction, Fractio
 
 
 def _points(row: Sequence[float], sweep: StraightSweep, time: Fraction) -> tuple[Point, ...]:
-    """The centre and a point of the spheroid strictly on the other side, cut to as few bits as will do."""
+    """The centre and a point of the spheroid strictly on the other side, cut to as few bits as possible."""
     here = place(row, time)
     points = crossing.points(here, sweep.at(time))
     if len(points) == 1:

@@ -1,17 +1,16 @@
-"""The exact decision about any ellipsoid and any quadric that takes both signs, round or not, upright or not.
+"""The exact decision about any ellipsoid and any quadric with both signs, of revolution or not, upright or not.
 
 S and H are their symmetric 4×4 matrices, X̃ = (x, y, z, 1). The ellipsoid is the solid s = X̃ᵀSX̃ ≤ 0, the upper 3×3
 part of S positive definite, its inside not empty; the quadric's side of a point is the sign of h = X̃ᵀHX̃, exterior
 where h > 0.
 
-**The S-lemma.** The solid is compact. It meets h = 0 unless S + λH is positive definite for some real λ, and then
-λh > −s ≥ 0 on all of it: the side is the sign of λ. Both signs at once are impossible. The λ that serve are an open
-interval between two real roots of f(λ) = det(S + λH), or from one on; f(0) = det S < 0, so f is not 0. Between two
-neighbouring roots S + λH is definite everywhere or nowhere, so one rational in each gap is enough. The sign of f is
-not: it is positive at signature (2, 2), too. Definite is what has leading minors > 0.
+**The S-lemma.** The solid is compact. It meets h = 0 unless S + λH is positive definite for some real λ, and then λh >
+−s ≥ 0 on all of it: the side is the sign of λ. Both signs at once are impossible. These λ form an open interval between
+two neighbouring real roots of f(λ) = det(S + λH), or beyond the last root; f(0) = det S < 0, so f is not 0. Between two
+neighbouring roots S + λH is definite everywhere or nowhere, so one rational in each gap is enough. The sign of f is not
+enough: f is also positive for signature (2, 2). The test of definiteness is that all leading minors are > 0.
 
-exact.py decides about a spheroid and a circular hyperboloid, of whose f and λ more is known, in a small part of the
-time.
+exact.py decides about a spheroid and a circular hyperboloid much faster, because more is known about their f and λ.
 """
 
 from __future__ import annotations
@@ -36,7 +35,7 @@ def position(S: Matrix, H: Matrix) -> Position:
 
 
 def multiplier(S: Matrix, H: Matrix) -> Fraction | None:
-    """A λ for which S + λH is positive definite: the certificate of a clear pair; None where there is none."""
+    """A λ for which S + λH is positive definite, the certificate of a clear pair; None if there is none."""
     unit = math.lcm(*(Fraction(entry).denominator for form in (S, H) for row in form for entry in row))
     solid, surface = ([[int(entry * unit) for entry in row] for row in form] for form in (S, H))
     pencil: list[list[Polynomial]] = [
@@ -50,7 +49,7 @@ def multiplier(S: Matrix, H: Matrix) -> Fraction | None:
 
 
 def _between_roots(f: Polynomial) -> list[Fraction]:
-    """A rational in each gap between real roots of a squarefree polynomial, before the first and behind the last."""
+    """A rational in each gap between real roots of a squarefree polynomial, before the first and after the last."""
     roots = isolate(f) if len(f) > 1 else []
     ends = [end for root in roots for end in root]
     return [(ends[max(0, i - 1)] + ends[min(i, len(ends) - 1)]) / 2 for i in range(0, len(ends) + 1, 2)] if ends else []

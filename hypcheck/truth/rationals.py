@@ -1,4 +1,4 @@
-"""Arithmetic that is no method of any oracle: rational numbers, and vectors of three.
+"""Arithmetic that belongs to no oracle: rational numbers, and vectors of three numbers.
 
 Rational numbers have roots, are cut to few bits, and become powers of two and floats. Numbers of vectors and of 3×3
 matrices are integers, rationals or intervals.
@@ -17,12 +17,12 @@ if TYPE_CHECKING:
 
 
 def precisions(start: int = 1) -> Iterator[int]:
-    """Numbers of bits, each twice the one before, without end."""
+    """Numbers of bits, each twice the previous one, without end."""
     return (start << doubling for doubling in count())
 
 
 def root_of(value: Fraction, bits: int, *, upward: bool = False) -> Fraction:
-    """√value, exact where that is rational, else to about `bits` bits; with `upward` never less than the root."""
+    """√value, exact if it is rational, else to about `bits` bits; with `upward` never less than the root."""
     root = Fraction(math.isqrt(value.numerator), math.isqrt(value.denominator))
     if root * root == value:
         return root
@@ -55,7 +55,7 @@ def power_near(low: Fraction, high: Fraction) -> Fraction:
 
 
 def last(holds: Callable[[int], bool], low: int, high: int) -> int:
-    """The last number from low to high − 1 for which it holds, as it does for low, and for high no longer."""
+    """The last number from low to high − 1 for which `holds`, by bisection; it holds for low, and not for high."""
     while high - low > 1:
         middle = (low + high) // 2
         low, high = (middle, high) if holds(middle) else (low, middle)
@@ -63,9 +63,9 @@ def last(holds: Callable[[int], bool], low: int, high: int) -> int:
 
 
 def octave(reached: Callable[[Fraction], bool], step: int = 1) -> int:
-    """The exponent k < 0 for which 2^(k + 1) is reached, and 2^k is not; 1 is, and all above what is reached.
+    """The exponent k < 0 with 2^(k + 1) reached and 2^k not; 1 is reached, and so are all numbers above such a one.
 
-    It is looked for from −10 on, in steps that double; the first is `step`.
+    The search begins at −10, in steps that double; the first is `step`.
     """
     low = -10
     while reached(power_of_two(low)):
@@ -78,7 +78,7 @@ def octave(reached: Callable[[Fraction], bool], step: int = 1) -> int:
 
 
 def shortened(top: int, bottom: int, bits: int) -> Fraction:
-    """top/bottom, bottom > 0, cut off after about that many significant bits."""
+    """top/bottom, bottom > 0, cut off after about `bits` significant bits."""
     shift = bits + bottom.bit_length() - abs(top).bit_length()
     whole = (top << shift) // bottom if shift >= 0 else top // (bottom << -shift)
     return Fraction(whole, 1 << shift) if shift >= 0 else Fraction(whole << -shift)

@@ -1,4 +1,4 @@
-"""The tables of the roots oracle: which patterns of roots of det(S + λH) there are, and what they mean (roots.py).
+"""The tables of the roots oracle: the possible patterns of roots of det(S + λH), and their meanings (roots.py).
 
 f(λ) = det(S + λH) and g(λ) = det(M + λD), M and D the upper 3×3 parts of the matrices S and H; L and R are the roots of
 g next to 0, below and above it.
@@ -8,13 +8,13 @@ semidefinite; f > 0 at ±∞. So the number of roots above 0 is odd, 1 or 3, and
 one; the same holds below 0 with L. An upright pair (after [10], re-derived; its text was not consulted) has A + λ as a
 factor of f and twice of g, L = −A and R = B; what is left of f is a multiple of the cubic of equation (12)
 (docs/mathematics.md, "Root patterns and relative position"), and below 0 all these numbers are even. That leaves SIDES,
-for the side of R, and its mirror image, for the side of L: `sides_by_signs` enumerates it anew.
+for the side of R, and its mirror image, for the side of L: `sides_by_signs` enumerates it independently.
 
 **What they mean.** On (0, R) φ begins with −1 and has the sign of f. A simple root there makes φ > 0 beyond it: clear.
-A double one is where φ, being concave, has its maximum 0: tangent. With none, φ < 0 on (0, R), and sup φ is 0 only if φ
-tends to 0 at R: if R is a root of f twice at least, since it is one of g once. Then the pair is tangent, else in
-contact. Of an upright pair both sides together tell the kind: PATTERNS. That table can also be read literally, by the
-roots' signs and multiplicities alone; some patterns then fall together.
+At a double root the concave φ has its maximum 0: tangent. With none, φ < 0 on (0, R), and sup φ is 0 only if φ tends to
+0 at R: if R is at least a double root of f, since it is a simple root of g. Then the pair is tangent, else in contact.
+For an upright pair both sides together give the kind: PATTERNS. That table can also be read literally, by the roots'
+signs and multiplicities alone; some patterns then fall together.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ Roots = list[tuple[str, int]]
 
 
 class Side(Enum):
-    """What the roots on one side of 0 say of that side."""
+    """The meaning of the roots on one side of 0 for this side."""
 
     CLEAR = "clear"
     TANGENT = "tangent"
@@ -113,7 +113,7 @@ def word_of(roots: Iterable[tuple[str, int]]) -> str:
 
 
 def of_both_sides(below: Roots, above: Roots) -> list[tuple[RootPlace, int]]:
-    """The roots of an upright pair in ascending order, from those of both sides."""
+    """The roots of an upright pair in ascending order, from the roots below and above 0."""
     return [(_BELOW[place], times) for place, times in reversed(below)] + [
         (_ABOVE[place], times) for place, times in above
     ]
@@ -126,7 +126,7 @@ _ABOVE = {INNER: RootPlace.OUTER, END: RootPlace.AT_B, BEYOND: RootPlace.ABOVE}
 def sides_by_signs(*numbers: int) -> Iterator[list[tuple[str, int]]]:
     """The roots of one side, outward, that the signs of f allow: exact reasoning, without the table.
 
-    There are so many of them as one of `numbers`, and as many beyond R, but for an even number, unless R is one.
+    The number of roots on a side is one of `numbers`. The number beyond R has the same parity, unless R is a root.
     """
     for number in numbers:
         for places in combinations_with_replacement(_PLACES, number):
@@ -150,7 +150,7 @@ Place = TypeVar("Place")
 
 
 def multiplicities(places: Iterable[Place], points: Container[Place]) -> Iterator[list[tuple[Place, int]]]:
-    """Every grouping of roots in one open interval into multiple ones; those at one of the `points` are one root."""
+    """Every grouping of roots in one open interval into multiple roots; roots at one of the `points` are one root."""
     choices = []
     for place, group in groupby(places):
         count = len(list(group))
@@ -167,7 +167,7 @@ def same_signs(pattern: str, possible: Iterable[Kind]) -> tuple[Kind, ...]:
 
 
 def _signs(pattern: str) -> tuple[str, ...]:
-    """What signs and multiplicities alone keep of a pattern: "(0,B) B²" and "(0,B)² >B" both become ("+", "+²")."""
+    """The signs and multiplicities of a pattern, without places: "(0,B) B²" and "(0,B)² >B" both become ("+", "+²")."""
     signs = []
     for word in pattern.split():
         place = word.rstrip("²³")

@@ -1,16 +1,16 @@
-"""The roots oracle: the places of the roots of det(S + λH) beside 0 and the ends of where M + λD is definite.
+"""The roots oracle: the order of the roots of det(S + λH), 0, and the ends of the interval where M + λD is definite.
 
 M and D are the upper 3×3 parts of the matrices S and H, f(λ) = det(S + λH) and g(λ) = det(M + λD). L and R are the
 roots of g next to 0, below and above it; between them M + λD is positive definite. There φ = f/g is concave; the pair
 is exterior if and only if φ > 0 somewhere on (0, R), interior if and only if it is on (L, 0), and touches from that
 side where sup φ = 0 there.
 
-What patterns there are and what they mean is in root_patterns.py.
+root_patterns.py has the possible patterns and their meanings.
 
 **How they are found.** f and g are integer polynomials from the definitions of the matrices, and no root is
 approximated: the roots of f are counted by Sturm's theorem on either side of R, which is rational or a root of a
-quadratic; there the signs of polynomials are exact. A multiple root of f is one number, and rational. A pattern that a
-table does not list is a fault of this program, never an answer.
+quadratic; there the signs of polynomials are exact. A multiple root of f is one number, and rational. A pattern that is
+not in a table is an error of this program, never an answer.
 """
 
 from __future__ import annotations
@@ -55,11 +55,11 @@ from hypcheck.truth.root_patterns import (
 
 @dataclass(frozen=True, slots=True)
 class RootReport:
-    """What the roots say. `below` and `above` are the patterns of the two sides, outward.
+    """The result of the roots oracle. `below` and `above` are the patterns of the two sides of 0, outward.
 
-    Of an upright pair, `pattern` is the places and multiplicities of the real roots of its cubic as the table writes
-    them. `literal_kinds` is what signs and multiplicities alone leave possible for these sizes, without comparing any
-    root with −A or B; `literal` is the one position they have in common, or None: ambiguous.
+    For an upright pair, `pattern` has the places and multiplicities of the real roots of its cubic in the table's form.
+    `literal_kinds` is what signs and multiplicities alone leave possible for these sizes, without comparing any root
+    with −A or B; `literal` is the position that they have in common, or None if it is ambiguous.
     """
 
     position: Position
@@ -107,7 +107,7 @@ def classify_by_roots(
 ) -> RootReport:
     """The position of a pair by the roots, and the kind of an upright one. `kinds` and `sides` are the tables.
 
-    Raises AssertionError, naming the pair, where the pattern is not in the table: an error of ours.
+    Raises AssertionError, naming the pair, if the pattern is not in the table: an error of this program.
     """
     try:
         if pair.is_upright:
@@ -120,7 +120,7 @@ def classify_by_roots(
 def classify_invariants(
     pair: Invariants, kinds: Mapping[str, Kind] = KIND_OF, sides: Mapping[str, Side] = MEANING
 ) -> RootReport:
-    """The same for an upright pair given by its invariants, which need not be those of float64 numbers."""
+    """As classify_by_roots, for an upright pair given by its invariants, which need not come from float64 numbers."""
     roots = _upright_roots(pair)
     pattern = pattern_of(of_both_sides(*roots))
     occurs = _occurs(pair)
@@ -245,7 +245,7 @@ def _determinant(matrix: list[list[int]]) -> int:
 
 
 def roots_outward(f: Polynomial, below: Polynomial, above: Polynomial) -> tuple[Roots, Roots]:
-    """The real roots of f below 0 and above it, outward, beside L and R.
+    """The real roots of f below and above 0, outward, in order with L and R.
 
     L and R are roots of `below` and of `above`, which are linear, or quadratic with a root on either side of 0.
     """
@@ -254,7 +254,7 @@ def roots_outward(f: Polynomial, below: Polynomial, above: Polynomial) -> tuple[
 
 
 def _side(factors: Sequence[tuple[Polynomial, int]], end: Polynomial, side: int) -> Roots:
-    """The roots on one side of 0, outward, beside the root of `end` on that side.
+    """The roots on one side of 0, outward, in order with the root of `end` on that side.
 
     The changes of sign in a Sturm chain fall by the number of its roots in (low, high], also where high is one.
     """
@@ -275,7 +275,7 @@ def _side(factors: Sequence[tuple[Polynomial, int]], end: Polynomial, side: int)
 
 
 def _sign(f: Polynomial, g: Polynomial, side: int = 1) -> int:
-    """The sign of f at the root of a linear g, or at the root of a quadratic g that is on this side of the other."""
+    """The sign of f at the root of a linear g, or at the quadratic g's root that is on this side of its other root."""
     linear, constant = (0, 0, *remainder(f, g))[-2:]
     if len(g) == 2:
         return sign_of(constant)

@@ -57,7 +57,7 @@ Height = int | None
 
 @dataclass(frozen=True, slots=True)
 class Sections:
-    """What the horizontal planes cut out: polynomials in the height w √U, each up to a positive factor.
+    """The sections by horizontal planes: polynomials in the height w √U, each up to a positive factor.
 
     `cubic` is c3, c2, c1, c0. `above` is the height over the spheroid's centre. `inside` is k, ≥ 0 where the plane
     meets the spheroid. `off` is η² + ξ² − r², ≤ 0 where the ellipse's centre lies in the circle. `unit` is U.
@@ -113,7 +113,7 @@ class Sections:
         return even, odd
 
     def multiplier(self, height: Fraction) -> Fraction:
-        """About the λ at which S + λH is greatest on the plane at this height; U is 1."""
+        """Approximately the λ at which S + λH is greatest on the plane at this height; U is 1."""
         c3, c2, c1, _ = (_value(c, height) for c in self.cubic)
         inner = c2 * c2 - 3 * c3 * c1
         top = (c2 + root_of(inner, 64)) / (-3 * c3) if inner > 0 else c2 / (-3 * c3)
@@ -127,7 +127,7 @@ class Sections:
         return c0 == c1 == 0 or self.sign(discriminant(self.cubic), height) > 0
 
     def disc_misses(self, height: int) -> bool:
-        """Whether the disc within that circle and the spheroid have none."""
+        """Whether the disc within that circle and the spheroid have no point in common."""
         return self.circle_misses(height) and (self.sign(self.inside, height) < 0 or self.sign(self.off, height) > 0)
 
     def disc_crosses(self, height: int) -> bool:
@@ -148,7 +148,7 @@ class Sections:
         return _floor_of_quotient(first, self.unit), -_floor_of_quotient(-last, self.unit)
 
     def between(self, low: Height, high: Height) -> tuple[int, int]:
-        """Values of the variable between which both the spheroid and the wall lie where they may meet."""
+        """Values of the variable, between which all common points of the spheroid and the wall lie."""
         first, last = self.reach
         if low is not None:
             first = max(first, _floor_of_multiple(low, self.unit))
@@ -171,7 +171,7 @@ class Sections:
         roots = self.roots(_chain(f, derivative(f)), low, high)
         if len(apart) <= 1 or not roots:
             return roots == 0
-        apart = squarefree(apart)  # at its roots the circle misses where c2 > 0, though Δ = 0
+        apart = squarefree(apart)  # at its roots with c2 > 0 the circle misses, though Δ = 0
         chains = _chain(apart, derivative(apart)), _chain(apart, polynomial_product(derivative(apart), c2))
         return 2 * roots == sum(self.roots(chain, low, high) for chain in chains)
 
@@ -296,7 +296,7 @@ MOST_HALVINGS = 8
 
 
 def has_root(f: Polynomial, low: int, high: int) -> bool | None:
-    """Whether f has a root between two numbers, `low` < `high`, that are none; None where Descartes' rule cannot tell.
+    """Whether f has a root between two numbers low < high that are no roots; None if Descartes' rule cannot decide.
 
     With x = (low + high t)/(1 + t) the numbers between are those with t > 0: no change of sign among the coefficients
     in t means no root, one change means one.

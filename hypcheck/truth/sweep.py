@@ -1,4 +1,4 @@
-"""A straight sweep in integers: the pair at each time, and what a multiplier λ proves about a whole piece of the sweep.
+"""A sweep in integers: the pair at each time, and the proof by a multiplier λ about a whole piece of the sweep.
 
 The centre is C(t) = C0 + t (C1 − C0). For a fixed λ a positive multiple of det(S + λH) is a polynomial of degree 2 at
 most in t: the centre comes into it by its squares and products alone. Where λ is admissible and that polynomial is
@@ -6,12 +6,12 @@ positive on a piece of the sweep, the spheroid is clear there: outside where λ 
 piece by one quadratic inequality.
 
 F(λ, t), the cubic of an upright pair or the quartic of a tilted one (pencil.py), has coefficients of degree 2 at most
-in t, so that its discriminant is a polynomial of degree 8 or 12 at most. Its roots are all that matters
-(docs/motion.md): the position changes only through a tangency, where F has a multiple root. Where the same clear
-position is on both sides of a root, that root is a tangency, unless the multiple root is the pole ℓ with a simple root
-before it: the ring, which is clear. Upright, the ring needs z = 0. Tilted, ℓ is rational or in Q(√w), and so is the
-time at which F(ℓ, t) = 0; where that is so all along, the times of the ring are roots of a quadratic over Q(√w). Such
-numbers u + v √w have exact signs (`Surd`), also quadratics over them at each other's roots.
+in t, so that its discriminant is a polynomial of degree 8 or 12 at most. Only its roots matter (docs/motion.md): the
+position changes only through a tangency, where F has a multiple root. Where the same clear position is on both sides of
+a root, that root is a tangency, unless the multiple root is the pole ℓ with a simple root before it: the ring, which is
+clear. Upright, the ring needs z = 0. Tilted, ℓ is rational or in Q(√w), and so is the time at which F(ℓ, t) = 0; if
+F(ℓ, t) = 0 at all times, the times of the ring are roots of a quadratic over Q(√w). Such numbers u + v √w have exact
+signs (`Surd`), also quadratics over them at each other's roots.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ def piece(pencil: Sequence[Polynomial], multiplier: Fraction) -> Polynomial:
 
 
 class _InTime:
-    """A polynomial in t, among its kind and with integers: what takes the place of the centre's coordinates."""
+    """A polynomial in t in place of a centre's coordinate; it can be combined with such polynomials and integers."""
 
     __slots__ = ("f",)
 
@@ -85,7 +85,7 @@ def _polynomial(number: _InTime | int) -> Polynomial:
 
 @dataclass(frozen=True)
 class StraightSweep:
-    """The pair at the start, and the changes of x, y, z over the sweep in their units."""
+    """A sweep: the pair at the start, and the changes of x, y, z over the sweep in their units."""
 
     start: Lengths
     step: Vector
@@ -134,14 +134,14 @@ class StraightSweep:
         return tuple(map(_polynomial, coefficients(here, *centre)))
 
     def multipliers(self, time: Fraction) -> Iterator[Fraction]:
-        """Ever better λ for a time at which the spheroid is clear; sooner or later all prove it."""
+        """Better and better λ for a time at which the spheroid is clear; from some λ on all prove it."""
         return _at_local_maximum(self.at(time)) if self.is_upright else _at_maximum(quartic(self.at(time)))
 
     def critical(self) -> Polynomial:
         """A polynomial in t, not 0, with a root wherever the position beside the whole hyperboloid changes, primitive.
 
-        The discriminant of F. That of an upright sweep is not 0 for every t (docs/motion.md); where that of a tilted
-        one is, another polynomial takes its place.
+        It is the discriminant of F. For an upright sweep this is not 0 for every t (docs/motion.md); if it is for a
+        tilted sweep, another polynomial replaces it.
         """
         return self.discriminant() or self._where_always_double()
 
@@ -153,7 +153,8 @@ class StraightSweep:
     def root_changes(self) -> Polynomial:
         """A polynomial in t, not 0, that is 0 wherever F has fewer different roots than at most times, primitive.
 
-        The discriminant; where F always has a multiple root, the next subresultant of F and F′ that is not always 0.
+        It is the discriminant; if F always has a multiple root, it is the next subresultant of F and F′ that is not
+        always 0.
         """
         f = self.discriminant()
         if f or self.is_upright:
@@ -169,9 +170,9 @@ class StraightSweep:
     def touches(self, critical: Polynomial, time: Interval, side: Position) -> bool:
         """Whether a root of the critical polynomial is a contact, where both its sides have the same clear position.
 
-        The ring of an upright spheroid needs the height 0. Where the height varies that is one rational time. Where it
-        is 0 all along, the position depends on the distance from the axis alone, monotonically, so that only the root
-        where it is least can be a contact: a rational time again.
+        The ring of an upright spheroid needs the height 0. If the height varies, this is one rational time. If it is
+        always 0, the position depends monotonically on the distance from the axis only, so that only the root at the
+        least distance can be a contact: again a rational time.
         """
         low, high = time
         if low == high:
@@ -190,7 +191,8 @@ class StraightSweep:
         """The times at which the position changes where F always has a multiple root.
 
         Where some position is clear, that root is ℓ towards interior all along, and the position is interior where
-        F″(ℓ) > 0, else a tangency. The polynomial is F″(ℓ) times its conjugate. It is all contact otherwise.
+        F″(ℓ) > 0, else a tangency. The polynomial is F″(ℓ) times its conjugate. If no position is clear, all is
+        contact.
         """
         curvature = self._at_pole(-1)[2]
         if not any(part.sign for part in curvature):
@@ -237,7 +239,7 @@ def _at_local_maximum(lengths: Lengths) -> Iterator[Fraction]:
 
 
 def _at_maximum(F: Quartic) -> Iterator[Fraction]:
-    """Numbers that tend to where φ has its maximum, by bisection with exact signs."""
+    """Numbers that tend to the maximum of φ, by bisection with exact signs."""
     if F.side == 0:
         return
     slope = slope_of_quotient(F)
@@ -323,7 +325,7 @@ Quadratic = Sequence[Surd]
 
 
 def value_of(f: Quadratic, at: Surd | Fraction) -> Surd:
-    """f there."""
+    """The value of f at a number."""
     return (f[0] * at + f[1]) * at + f[2]
 
 
@@ -342,7 +344,7 @@ def sign_at_root(f: Quadratic, g: Quadratic, low: Fraction, high: Fraction) -> i
 
 
 def _sign_at_simple_root(f: Quadratic, g: Quadratic, low: Fraction, high: Fraction) -> int:
-    """The same where f has degree 2 and two different roots, by the remainder of g, which is linear."""
+    """As sign_at_root, if f has degree 2 and two different roots: by the remainder of g, which is linear."""
     start = value_of(f, low).sign
     if start * value_of(f, high).sign >= 0:
         return 0

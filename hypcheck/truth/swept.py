@@ -1,14 +1,14 @@
 """The sweep between two positions: whether a spheroid moved along a segment meets contact, exactly, and when first.
 
 The centre is C(t) = C0 + t (C1 − C0), 0 ≤ t ≤ 1; the axis keeps its direction. Steps (`steps`) decide most sweeps: each
-is a piece that one multiplier proves clear, and a contact behind the last piece is asked for by the exact decision. The
+step is a piece that one multiplier proves clear, and the exact decision looks for contact after the last piece. The
 roots of a critical polynomial in t decide every sweep (docs/motion.md). Of an upright spheroid it is the discriminant Δ
 of the cubic, of degree 8 at most; of a tilted one that of the quartic, of degree 12:
 
 - the position changes only through a tangency, and a tangency has Δ = 0. So between two neighbouring roots of Δ the
   position is constant, and one exact decision between them finds it;
 - at a root with the same clear position on both sides there is a tangency (the spheroid grazes the surface), unless the
-  multiple root is the ring's. Where the ring can be is known exactly (`touches` of a sweep);
+  multiple root is the ring's. The possible places of the ring are known exactly (`touches` of a sweep);
 - Δ of an upright sweep is not 0 for every t unless nothing moves; of a tilted one another polynomial takes its place.
 
 Roots are isolated by Descartes' rule of signs in integers; nothing is rounded.
@@ -66,9 +66,10 @@ Piece = tuple[Fraction, Fraction]
 
 @dataclass(frozen=True, slots=True)
 class Steps:
-    """Pieces of a sweep that begins clear, without gap from 0; `contact` is a time of contact that is no tangency.
+    """Pieces of a sweep that begins clear, without gaps from 0; `contact` is a time of contact that is no tangency.
 
-    None where the sweep is clear up to 1. The first contact lies between the end of the last piece and `contact`.
+    `contact` is None if the sweep is clear up to 1. The first contact lies between the end of the last piece and
+    `contact`.
     """
 
     pieces: tuple[Piece, ...]
@@ -81,7 +82,7 @@ class Steps:
 
 
 def steps(sweep: StraightSweep, bits: int | None = WIDTH_BITS) -> Steps | None:
-    """The steps of a sweep that begins clear, or None where they decide nothing.
+    """The steps of a sweep that begins clear, or None if they do not decide it.
 
     The first contact is enclosed to 2^−bits of itself; without `bits` any contact ends the search.
     """
@@ -113,9 +114,10 @@ def _crosses(sweep: StraightSweep, time: Fraction) -> bool:
 
 
 def _step(sweep: StraightSweep, pencil: Sequence[Polynomial], time: Fraction) -> tuple[Fraction, Fraction | None]:
-    """A multiplier that proves the clear position at a time, and how far beyond it does; None without end.
+    """A multiplier that proves the clear position at a time, and how far beyond it proves; None if without limit.
 
-    The first that proves it may do so barely; the next, of twice as many bits, does it as well as any.
+    The first multiplier that proves it may not reach far; the next one, with twice as many bits, reaches nearly as far
+    as any.
     """
     proved = False
     for multiplier in sweep.multipliers(time):
@@ -128,7 +130,7 @@ def _step(sweep: StraightSweep, pencil: Sequence[Polynomial], time: Fraction) ->
 
 
 def reach(proof: Polynomial, time: Fraction) -> Fraction | None:
-    """A number below the distance to the next root of a quadratic that is positive at a time; None without one."""
+    """A lower bound of the distance to the next root of a quadratic that is positive at a time; None if no root."""
     a, b, c = proof
     n, m = time.numerator, time.denominator
     here, slope, bend = (a * n + b * m) * n + c * m * m, (2 * a * n + b * m) * m, a * m * m
@@ -146,11 +148,10 @@ Rational = float | Fraction
 
 @dataclass(frozen=True, slots=True)
 class Passage:
-    """What happens on the sweep: the positions at both ends, and the first contact.
+    """The result about a sweep: the positions at both ends, and the first contact.
 
     `first` encloses the time t of the first contact, 0 ≤ t ≤ 1, in an open interval or as a single number (twice); None
-    where the sweep is clear. `grazes`: all contact is tangency, from one and the same side; a spheroid that is smaller
-    by any part at all is clear.
+    if the sweep is clear. `grazes`: all contact is tangency, from the same side; every smaller spheroid is clear.
     """
 
     start: Position
@@ -176,13 +177,13 @@ class Passage:
     @property
     @in_default_environment
     def first_lower(self) -> float:
-        """The largest float64 that is not above the time of first contact's enclosure; NaN where there is none."""
+        """The largest float64 that is not above the enclosure of the first contact; NaN if there is no contact."""
         return math.nan if self.first is None else rounded_toward(self.first[0], -math.inf)
 
     @property
     @in_default_environment
     def first_upper(self) -> float:
-        """The least float64 that is not below the enclosure; NaN where there is none."""
+        """The least float64 that is not below the enclosure of the first contact; NaN if there is no contact."""
         return math.nan if self.first is None else rounded_toward(self.first[1], math.inf)
 
 
@@ -211,14 +212,14 @@ def passage(
 
 
 def passage_on(sweep: StraightSweep) -> Passage:
-    """What happens on a sweep."""
+    """The passage of a sweep."""
     if sweep.start.has_ends:
         return beside_ends(sweep)
     return by_steps(sweep) or by_roots(sweep)
 
 
 def meets(sweep: StraightSweep) -> bool:
-    """Whether there is contact somewhere on a sweep: what its passage says, but sooner, since no time is enclosed."""
+    """Whether there is contact on a sweep; this is faster than its passage, because no time is enclosed."""
     if sweep.start.has_ends:
         return ended_sweeps.meets(EndedSweep(sweep))
     here, there = sweep.position(Fraction(0)), sweep.position(Fraction(1))
@@ -231,14 +232,14 @@ def meets(sweep: StraightSweep) -> bool:
 
 
 def beside_ends(sweep: StraightSweep) -> Passage:
-    """What happens on a sweep beside a hyperboloid that ends."""
+    """The passage of a sweep beside a hyperboloid that ends."""
     here, there = sweep.position(Fraction(0)), sweep.position(Fraction(1))
     first = first_contact(EndedSweep(sweep))
     return Passage(here, there, first, first is not None and grazes(sweep))
 
 
 def by_steps(sweep: StraightSweep) -> Passage | None:
-    """What happens on a sweep, by steps; None where they decide nothing, or where it begins with a tangency."""
+    """The passage of a sweep, by steps; None if they do not decide it, or if it begins with a tangency."""
     here, there = sweep.position(Fraction(0)), sweep.position(Fraction(1))
     if not sweep.moves:
         return None
@@ -251,7 +252,7 @@ def by_steps(sweep: StraightSweep) -> Passage | None:
 
 
 def by_roots(sweep: StraightSweep) -> Passage:
-    """What happens on a sweep, by the roots of the critical polynomial: always decides."""
+    """The passage of a sweep, by the roots of the critical polynomial, which always decide."""
     here, there = sweep.position(Fraction(0)), sweep.position(Fraction(1))
     if not sweep.moves:
         met = (Fraction(0), Fraction(0)) if here is Position.CONTACT else None
@@ -275,9 +276,9 @@ def by_roots(sweep: StraightSweep) -> Passage:
 
 
 def _between(times: Sequence[Interval]) -> Iterator[Fraction | None]:
-    """A time before the first root, one between each root and the next, one after the last; None where there is none.
+    """A time before the first root, between each root and the next, and after the last; None if there is no such time.
 
-    None comes at an end alone, where 0 or 1 is a root.
+    None occurs only at an end, if 0 or 1 is a root.
     """
     last = Fraction(0)
     for low, high in times:
@@ -294,7 +295,7 @@ def sweep_of(
     upward: Sequence[Rational] | None = None,
     heights: Sequence[float] = WITHOUT_ENDS,
 ) -> StraightSweep:
-    """The sweep of these numbers, upright wherever that is the same. Raises InputError as `passage` does."""
+    """The sweep of these numbers, as an upright one if this is equivalent. Raises InputError as `passage` does."""
     trouble = trouble_with_heights(heights)
     if trouble is not None:
         raise InputError(trouble)

@@ -1,15 +1,16 @@
-"""Turning in place: the position of a part on an arm relative to the hyperboloid all through a turn, by a proved bound.
+"""Turning in place: the position of an arm's part relative to the hyperboloid during a whole turn, by proved bounds.
 
 The part's centre goes along an arc of radius l about the mover's centre (x0, y0, z0), at one height. Only its squared
 distance from the axis changes, R(t) = x0² + y0² + l² + 2 l e(t), with
 
     e(t) = x0 cos(θ + t) + y0 sin(θ + t),  t from 0 to the angle of the turn.
 
-At one height a spheroid that is exterior stays so where R grows, and one that is interior where R falls
-(docs/mathematics.md, "Monotone in every input"). So the least R of the turn decides about exterior, the largest about
-interior, and if neither holds there is contact on the turn. e(t) is ρ cos(t − t*), ρ² = x0² + y0²: over less than half
-a turn its extremes are at the ends, or ±ρ where its slope has changed its sign in between. Sines, cosines and roots are
-enclosed between rationals, and so is R; the answer is given where it is the same at both ends of the enclosures.
+At a fixed height an exterior spheroid stays exterior if R grows, and an interior one stays interior if R falls
+(docs/mathematics.md, "Monotone in every input"). So the least R of the turn decides whether the part is always
+exterior, the largest R whether it is always interior; otherwise there is contact on the turn. e(t) is ρ cos(t − t*), ρ²
+= x0² + y0²: over less than half a turn its extremes are at the ends, or ±ρ where its slope has changed its sign in
+between. Sines, cosines and roots are enclosed between rationals, and so is R; the answer is given if it is the same at
+both ends of the enclosures.
 """
 
 from __future__ import annotations
@@ -47,7 +48,7 @@ def turning(
     direction: Sequence[Rational],
     angle: float,
 ) -> Position | None:
-    """Where a part stands while it turns: EXTERIOR or INTERIOR all the time, or CONTACT where it meets it.
+    """The position of a part during a turn: EXTERIOR or INTERIOR at all times, or CONTACT if there is contact.
 
     `sizes` are α, γ and the part's b, d; `center` is the mover's, from the hyperboloid's; the arm points into the
     `direction` (x, y) ≠ (0, 0) of any length at first, and turns by `angle` (radians, counterclockwise, finite). None

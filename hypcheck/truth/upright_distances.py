@@ -1,20 +1,20 @@
 """The nearest point for arrays of upright pairs: the position from the distance of the centre to the hyperboloid.
 
-In space scaled so that the spheroid is a unit ball, the pair is apart if the distance from its centre to the
-hyperboloid is over 1, on the side where the centre is; else in contact (docs/mathematics.md, "Nearest point and
-clearance"). The distance comes from its Lagrange dual, which has no duality gap: every value of the dual is a lower
-bound, so no answer rests on an iteration having converged. Nothing is shared with the other oracles.
+In space scaled so that the spheroid is a unit ball, the pair is clear, on the side of the centre, if the distance from
+the centre to the hyperboloid is over 1; else it is in contact (docs/mathematics.md, "Nearest point and clearance"). The
+distance comes from its Lagrange dual, which has no duality gap: every value of the dual is a lower bound, so no answer
+rests on an iteration having converged. Nothing is shared with the other oracles.
 
-Here arrays are answered in double-double arithmetic, with a bound that says where it may be believed; exact enclosures
-answer for the other rows (nearest.py).
+Here arrays are decided in double-double arithmetic, with an error bound that shows which answers are certain; exact
+enclosures decide the other rows (nearest.py).
 
 The dual function: on (−A, B)
 
     D(λ) = S(λ) + λ F(λ),   S = λ² (P/(A+λ)² + Q/(B−λ)²),   F = A P/(A+λ)² − B Q/(B−λ)² − 1 = D′(λ)
 
-is concave, its supremum is the squared distance from the spheroid's centre to the hyperboloid, and the clearance is
-its square root less 1. A λ is found in float64 and taken as given from there on: any λ gives D(λ) ≤ distance², and what
-is missing is F²/(2|F′|), up to a factor that is known, as F′ changes by much only over the distance to a pole. The
+is concave, its supremum is the squared distance from the spheroid's centre to the hyperboloid, and the clearance is its
+square root less 1. A λ is found in float64 and then taken as exact: any λ gives D(λ) ≤ distance², and the difference is
+F²/(2|F′|), up to a known factor, because F′ changes little over distances much smaller than the distance to a pole. The
 unknown is u, the distance from λ to the nearer pole; with C = A or B, λ = ±(u − C), and A + B − u ≥ u is the other one.
 
 Rounding (η = double_double.ERROR bounds an operation; relative errors unless said otherwise):
@@ -63,9 +63,9 @@ class ScaledArrays:
 
 @dataclass(frozen=True, slots=True)
 class DualArrays:
-    """D at a λ and a bound of its error; what D's supremum has more, and how surely; the sign of λ, 0 if unsure.
+    """D at a λ and its error bound; the gap to D's supremum and its error bound; the sign of λ, 0 if uncertain.
 
-    All (n,); gap_error is inf where nothing is known of the supremum but that it is not below D.
+    All (n,); gap_error is inf if it is only known that the supremum is not below D.
     """
 
     value: DoubleDouble
@@ -76,7 +76,7 @@ class DualArrays:
 
 
 def decide(rows: Rows) -> Decided:
-    """Clearance and position of valid rows (n, 7) as far as double-double arithmetic can tell; n ~ 4096 is fastest."""
+    """Clearance and position of valid rows (n, 7) if double-double arithmetic can decide them; n ~ 4096 is fastest."""
     with np.errstate(all="ignore"):
         scaled = _scale(rows)
         return _judge(scaled.inside, _evaluate(scaled, *_solve(scaled)))
@@ -198,9 +198,9 @@ def _swapped(straight: Mask, first: DoubleDouble, second: DoubleDouble) -> tuple
 
 
 def _judge(inside: Mask, dual: DualArrays) -> Decided:
-    """The clearance by the dual, and what the error bounds leave certain.
+    """The clearance and position by the dual, and masks of those that the error bounds make certain.
 
-    Clear is claimed on the evidence of the one λ alone, D(λ) > 1, and on the side that its sign shows.
+    A row is called clear only by its own λ with D(λ) > 1, on the side of the sign of λ.
     """
     squared = double_double.add_float(dual.value, dual.gap)
     (high, low), error = _clearance(squared, dual.error + dual.gap_error)
