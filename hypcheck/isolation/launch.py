@@ -18,7 +18,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import lru_cache
@@ -202,18 +202,22 @@ def masked(text: str) -> str:
     These are values of variables of this process that are not in VARIABLES and look like secrets, passwords in
     addresses, and keys or tokens of a known form. A program can still reveal a secret if it writes it in another form.
     """
-    for secret in sorted(_secrets(os.environ), key=len, reverse=True):
+    for secret in _secrets(tuple(os.environ.items())):
         text = text.replace(secret, MASK)
     return _KNOWN.sub(MASK, _IN_ADDRESS.sub(MASK, text))
 
 
-def _secrets(environment: Mapping[str, str]) -> Iterator[str]:
-    for name, value in environment.items():
+@lru_cache(maxsize=1)  # a program may say something of every row
+def _secrets(variables: tuple[tuple[str, str], ...]) -> tuple[str, ...]:
+    """The secrets in the values of variables, the longest first, since it may contain another."""
+    secrets: set[str] = set()
+    for name, value in variables:
         if name in VARIABLES or MARK.fullmatch(name):
             continue
-        yield from _IN_ADDRESS.findall(value)
+        secrets.update(_IN_ADDRESS.findall(value))
         if _looks_secret(name, value) and not os.path.exists(value):
-            yield value
+            secrets.add(value)
+    return tuple(sorted(secrets, key=lambda secret: (-len(secret), secret)))
 
 
 def _looks_secret(name: str, value: str) -> bool:
