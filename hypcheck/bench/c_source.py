@@ -45,15 +45,15 @@ def _both() -> Iterator[str]:
 
 def _before(name: str, program: Program) -> str:
     """The steps that depend only on the craft, stored in an array; a real program would store them in a structure."""
-    kept = [step.name for step in program.steps]
-    stored = "\n".join(f"    k[{place}] = {name};" for place, name in enumerate(kept))
-    statements = "\n".join(f"    {line}" for line in c_statements(program, tuple(kept)))
+    names = [step.name for step in program.steps]
+    stored = "\n".join(f"    k[{place}] = {name};" for place, name in enumerate(names))
+    statements = "\n".join(f"    {line}" for line in c_statements(program, tuple(names)))
     return f"\nstatic void {name}_before(const double *craft, double *k)\n{{\n{_craft()}\n{statements}\n{stored}\n}}\n"
 
 
 def _asked(name: str, before: Program, program: Program, wanted: tuple[str, ...], end: str) -> str:
     read = {name for step in program.steps for name in step.reads}
-    kept = "\n".join(
+    constants = "\n".join(
         f"    const double {step.name} = k[{place}];" for place, step in enumerate(before.steps) if step.name in read
     )
     inputs = _craft(read)
@@ -62,14 +62,14 @@ def _asked(name: str, before: Program, program: Program, wanted: tuple[str, ...]
     unused = "".join(f"    (void){name};\n" for name in procedures.MOVING if name not in read)
     return (
         f"\nstatic int {name}_asked(const double *craft, const double *k, {moving})\n"
-        f"{{\n    (void)craft;\n{unused}{inputs}\n{kept}\n{statements}\n    {end}\n}}\n"
+        f"{{\n    (void)craft;\n{unused}{inputs}\n{constants}\n{statements}\n    {end}\n}}\n"
     )
 
 
 def _craft(read: set[str] | None = None) -> str:
     named = [(place, name) for place, name in enumerate(procedures.CRAFT) if read is None or name in read]
-    taken = "\n".join(f"    const double {name} = craft[{place}];" for place, name in named)
-    return taken + "".join(f"\n    (void){name};" for _, name in named)
+    fields = "\n".join(f"    const double {name} = craft[{place}];" for place, name in named)
+    return fields + "".join(f"\n    (void){name};" for _, name in named)
 
 
 _PROCEDURES = """

@@ -79,9 +79,9 @@ def batch(folder: Path, count: int, rounds: int) -> Iterator[KernelLine]:
     for work, name in BATCH_TARGETS.items():
         if work in samples:
             least = samples["rows in C" if work.startswith("rows") else "in C"]
-            made = samples["array"].samples_ns if work in ("fresh", "rows") else [0.0] * len(least.samples_ns)
+            array_ns = samples["array"].samples_ns if work in ("fresh", "rows") else [0.0] * len(least.samples_ns)
             sample_times = zip(
-                samples[work].samples_ns, least.samples_ns, samples["empty"].samples_ns, made, strict=True
+                samples[work].samples_ns, least.samples_ns, samples["empty"].samples_ns, array_ns, strict=True
             )
             says = (
                 f"{timing.rate_text(samples[work])}; in C: {timing.rate_text(least)}"

@@ -257,10 +257,12 @@ def found_row() -> Rows:
     """The slowest row among the families and the rows derived from their slowest; the same rows are tried each time."""
     random = np.random.Generator(np.random.PCG64(SEED))
     rows = _of_a_scene(np.concatenate([FAMILIES[name].rows(SEED, EACH) for name in SLOW_FAMILIES]))
-    kept = _slowest(rows)
+    slowest = _slowest(rows)
     for _ in range(TURNS):
-        kept = _slowest(_of_a_scene(np.concatenate([kept, *(_moved(random, kept) for _ in range(NEIGHBOURS))])))
-    return np.asarray(kept[0])
+        slowest = _slowest(
+            _of_a_scene(np.concatenate([slowest, *(_moved(random, slowest) for _ in range(NEIGHBOURS))]))
+        )
+    return np.asarray(slowest[0])
 
 
 def cost(row: Rows) -> float:

@@ -279,8 +279,8 @@ class Contender(MethodClaims):
 
 def of_method(method: Method, tier: str, kind: str, **fields: Any) -> Contender:  # noqa: ANN401 - of a contender
     """A built-in method as a contender; `fields` replace the method's values and the defaults."""
-    given: dict[str, Any] = {claim.name: getattr(method, claim.name) for claim in dataclasses.fields(MethodClaims)}
-    return Contender(tier=tier, kind=kind, **{"load": partial(in_python, method), **given, **fields})
+    claims: dict[str, Any] = {claim.name: getattr(method, claim.name) for claim in dataclasses.fields(MethodClaims)}
+    return Contender(tier=tier, kind=kind, **{"load": partial(in_python, method), **claims, **fields})
 
 
 def in_python(method: Method) -> InPython:

@@ -228,12 +228,14 @@ def _lines(
     centres = walk(Scene(forest.model), forest, steps, seed)
     truth = [int(forest.clear(centre)) for centre in centres]
     walkers = {name: candidate for name, candidate in candidates.items() if name == OURS or FCL.trouble() is None}
-    made = {name: _made(walker, forest) for name, walker in walkers.items()}
+    functions = {name: _made(walker, forest) for name, walker in walkers.items()}
     wrong = {
         name: sum(clear(*centre) != true for centre, true in zip(centres, truth, strict=True))
-        for name, (clear, _) in made.items()
+        for name, (clear, _) in functions.items()
     }
-    samples = measure([TimingEntry(name, steps, clocked_calls(made[name][0], centres)) for name in made], rounds)
+    samples = measure(
+        [TimingEntry(name, steps, clocked_calls(functions[name][0], centres)) for name in functions], rounds
+    )
     for timed in samples:
         step = estimate([timed.samples_ns])
         ratio = estimate(ratios([timed.samples_ns], [samples[0].samples_ns]))
@@ -245,7 +247,7 @@ def _lines(
             triangles=walkers[timed.name].triangles,
             asked=steps,
             wrong=wrong[timed.name],
-            build_s=made[timed.name][1],
+            build_s=functions[timed.name][1],
             step_ns=step.median,
             ci95_ns=(step.low, step.high),
             ratio=ratio.median,

@@ -107,8 +107,8 @@ class BenchPlan:
 
     def __post_init__(self) -> None:
         whats = {"--kernel": "the fast path", "--forest": "a walker's step", "--scene": "scenes"}
-        given = (self.kernel, self.forest, bool(self.scenes))
-        alone = [name for name, is_given in zip(whats, given, strict=True) if is_given]
+        choices = (self.kernel, self.forest, bool(self.scenes))
+        alone = [name for name, is_given in zip(whats, choices, strict=True) if is_given]
         more = len(alone) > 1 or ((self.kernel or self.forest) and (self.chosen or self.tilted))
         if more:
             raise InputError(f"{alone[0]} measures only {whats[alone[0]]}; leave out the other choices")

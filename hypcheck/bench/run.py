@@ -103,9 +103,9 @@ def plan_with_specs(plan: BenchPlan, recorder: Recorder) -> BenchPlan:
     methods: list[foreign.ForeignMethod] = []
     for spec in plan.specs:
         try:
-            taken = [*contenders(plan), *(method.name for method in methods)]
+            used_names = [*contenders(plan), *(method.name for method in methods)]
             layout = QUESTIONS[plan.question].layout
-            methods.append(foreign.foreign_method(spec, plan.limits, taken, tilted=plan.tilted, layout=layout))
+            methods.append(foreign.foreign_method(spec, plan.limits, used_names, tilted=plan.tilted, layout=layout))
         except StartError as error:  # noqa: PERF203 - a process is started in each turn
             recorder.add(NotStartedLine(spec=spec, name=spec, trouble=str(error)))
     return replace(plan, foreign=tuple(methods))

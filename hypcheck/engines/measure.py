@@ -196,7 +196,7 @@ def _own(
 
 
 def hulled(engine: Engine, placed: Placed) -> bool:
-    """Whether the engine has a hull in the place of these spheroids."""
+    """Whether the engine replaces these spheroids by a convex hull."""
     return engine.body == "hull" and placed.family.b != placed.family.d
 
 

@@ -233,7 +233,7 @@ class Asked(Protocol):
 
     @property
     def model(self) -> SceneModel:
-        """The scene's file."""
+        """The content of the scene's file."""
 
     def passage(
         self, start: ArrayLike, end: ArrayLike, heading: ArrayLike = 0.0, *, axis: ArrayLike | None = None

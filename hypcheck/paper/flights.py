@@ -214,8 +214,8 @@ def _advance(
     turn = np.where(refused, chosen.refused_turn, chosen.turn)
     state.at = _where(accepted, end, start)
     undone = refused & chosen.turning
-    kept = np.where(undone, before[0], heading[0]), np.where(undone, before[1], heading[1])
-    state.heading = _turned(kept, np.where(refused, chosen.refused_turn, 0.0))
+    new_heading = np.where(undone, before[0], heading[0]), np.where(undone, before[1], heading[1])
+    state.heading = _turned(new_heading, np.where(refused, chosen.refused_turn, 0.0))
     state.due = chosen.turning & ~refused & (flight.turn != "free")
     state.left = state.left - accepted
     state.idle = np.where(accepted, 0, state.idle + 1)

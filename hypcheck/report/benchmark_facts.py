@@ -377,8 +377,8 @@ def benchmark_failures(record: Record) -> Iterator[Failure]:
         yield from line_facts.failures()
     for kind in (RefusedLine, ForestLine, SceneLine):
         yield from failures_of(record, kind)
-    held = [*_without_baseline(record), *failures_of(record, ComparisonLine), *failures_of(record, KernelLine)]
-    yield from sorted(held, key=lambda failure: failure.kind != SLOWER)
+    failures = [*_without_baseline(record), *failures_of(record, ComparisonLine), *failures_of(record, KernelLine)]
+    yield from sorted(failures, key=lambda failure: failure.kind != SLOWER)
 
 
 def accuracy_facts(record: Record) -> list[LineFacts[Any]]:

@@ -154,16 +154,16 @@ def render_sarif(record: Record) -> bytes:
 
     A note for each cause of wrong answers follows; its rule has the id that `hypcheck explain` takes.
     """
-    placed = placed_failures(record)
-    causes = cause_facts(record) if placed else []
-    known = dict.fromkeys(failure.rule for failure in placed)
+    failures = placed_failures(record)
+    causes = cause_facts(record) if failures else []
+    known = dict.fromkeys(failure.rule for failure in failures)
     rules = [_rule(rule) for rule in known]
     rules += {sentence(facts.name): _cause_rule(facts) for facts in causes}.values()
     number = {rule["id"]: place for place, rule in enumerate(rules)}
     places, names = dict(_places(record)), {tested.line.spec: tested.name for tested in under_test(record)}
     ended, footer = verdict(record), record.footer
     invocation = {
-        "executionSuccessful": footer is not None and not any(failure.failure.subject == "run" for failure in placed),
+        "executionSuccessful": footer is not None and not any(failure.failure.subject == "run" for failure in failures),
         **({} if footer is None else {"exitCode": footer.exit_code}),
         "exitCodeDescription": sentence(ended.sentence),
     }
@@ -178,7 +178,7 @@ def render_sarif(record: Record) -> bytes:
         "invocations": [invocation],
         "columnKind": "unicodeCodePoints",
         "results": [
-            *(_result(failure, number[failure.rule]) for failure in placed),
+            *(_result(failure, number[failure.rule]) for failure in failures),
             *(
                 _cause_result(facts, number[sentence(facts.name)], places.get(names.get(facts.line.spec, ""), UNKNOWN))
                 for facts in causes

@@ -196,8 +196,8 @@ def ask_search(step: SearchStep, implementation: Implementation | Crashed, rules
         chosen = np.ascontiguousarray(rows[inside])
         answered = implementation.classify(chosen)
         scored = score(chosen, truth_of(chosen, rules.criterion.layout), answered, rules.criterion)
-        made = ChunkCases(step.chunk, chosen, np.ascontiguousarray(chosen.T), scored.truth)
-        result = result_of_final(made, places[inside], scored, rules, left_out=left_out)
+        cases = ChunkCases(step.chunk, chosen, np.ascontiguousarray(chosen.T), scored.truth)
+        result = result_of_final(cases, places[inside], scored, rules, left_out=left_out)
         parts.append(replace(result, outcomes=answered.outcomes))
         status = np.full(len(places), STATUS_CODES[Status.SKIPPED], dtype=np.int8)
         status[inside] = scored.status

@@ -140,8 +140,8 @@ class DaskExecutor(Executor):
 
     def lost(self, why: str) -> InputError:
         """The error that the cluster is lost."""
-        kept = "the record holds the finished part"
-        return InputError(f"--cluster {self._address}: the cluster was lost: {why}; {kept}")
+        remark = "the record holds the finished part"
+        return InputError(f"--cluster {self._address}: the cluster was lost: {why}; {remark}")
 
     def _forget(self, future: Future[Any]) -> None:
         there = self._running.pop(future, None)

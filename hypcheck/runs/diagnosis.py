@@ -299,8 +299,8 @@ def _right_answers(clean: Sequence[str], criterion: Criterion, domain: Domain) -
             np.ascontiguousarray(np.vstack([one for one, _ in some])),
             np.concatenate([one for _, one in some]),
         )
-        given = judge.expected(truth, criterion.question)
-        yield AnsweredRows(rows, truth, given, criterion)
+        right_answers = judge.expected(truth, criterion.question)
+        yield AnsweredRows(rows, truth, right_answers, criterion)
 
 
 def _in_all_families(some: list[CountedCause]) -> CountedCause:

@@ -114,10 +114,10 @@ def mathematical_findings(formula: Formula, batch: Batch, plan: SelfCheckPlan) -
     """
     head = batch.head(plan.exact_formulas)
     answer = answering(formula, EXACT)
-    given = [answer(dict(zip(COLUMNS, row, strict=True))) for row in head.rows.tolist()]
+    answers = [answer(dict(zip(COLUMNS, row, strict=True))) for row in head.rows.tolist()]
     inside = replace(EVERYWHERE, regimes=formula.regimes).holds(head.rows)
     wrong: dict[tuple[bool, str], list[int]] = {}
-    for place in np.flatnonzero(judge.is_wrong(head.positions, np.array(given), formula.question)).tolist():
+    for place in np.flatnonzero(judge.is_wrong(head.positions, np.array(answers), formula.question)).tolist():
         wrong.setdefault((bool(inside[place]), cause(batch, place)), []).append(place)
     return [
         FindingLine(

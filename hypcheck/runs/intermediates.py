@@ -306,11 +306,11 @@ def _nearest(
     comparisons = [compared for formula in comparable if (compared := compare_formula(formula, format_name, row))]
     if answer is None:
         return FormulaChoice(comparisons[0], f"there being no answer to compare formulas with{instead}")
-    meant = _positions(answer, used.question)
-    errs = truth not in meant
+    right = _positions(answer, used.question)
+    errs = truth not in right
     for compared in comparisons:
         left = _positions(compared.answer, compared.formula.question)
-        if meant & left and (truth not in left) is errs:
+        if right & left and (truth not in left) is errs:
             return FormulaChoice(compared, f"which in {format_name} answers as {used.name} does{instead}")
     return FormulaChoice(comparisons[0], f"though no formula in {format_name} answers as {used.name} does{instead}")
 

@@ -185,12 +185,13 @@ def _judged_positions(
     """Judge positions: by float64 where this proves an error beyond the tolerance, elsewhere with more bits."""
     pairs = [Pair.from_row(row) for row in rows[wrong].tolist()]
     truths = [exact.decide(pair.lengths) for pair in pairs]
-    given = [int(answers[index]) for index in wrong.tolist()]
+    given_answers = [int(answers[index]) for index in wrong.tolist()]
     targets = [
-        right_positions(truth.position, answer, criterion.question) for truth, answer in zip(truths, given, strict=True)
+        right_positions(truth.position, answer, criterion.question)
+        for truth, answer in zip(truths, given_answers, strict=True)
     ]
     ends = backward_error.lower_ends(pairs, truths, targets)
-    for index, pair, truth, answer, end in zip(wrong.tolist(), pairs, truths, given, ends, strict=True):
+    for index, pair, truth, answer, end in zip(wrong.tolist(), pairs, truths, given_answers, ends, strict=True):
         if end > criterion.tolerance * criterion.unit:
             mistake, exponent = mistake_of(truth.position, answer, criterion.question), math.log2(end)
             case = WrongCase(index, pair.row, truth.position, answer, mistake, Status.WRONG, exponent, least=end)

@@ -91,11 +91,11 @@ def case_of(text: str) -> ReplayCase:
 
 
 def _from_record(path: Path, number: int) -> ReplayCase:
-    kept = recorded_cases(read(file_of(path)))
-    if not 1 <= number <= len(kept):
-        there = f"they are 1 to {len(kept)}" if kept else "it has none"
+    cases = recorded_cases(read(file_of(path)))
+    if not 1 <= number <= len(cases):
+        there = f"they are 1 to {len(cases)}" if cases else "it has none"
         raise InputError(f"{path} has no case {number}; {there}")
-    case = kept[number - 1].case
+    case = cases[number - 1].case
     try:
         row = tuple(map(float.fromhex, numbers_of(case)))
     except OverflowError:

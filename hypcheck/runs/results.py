@@ -163,19 +163,19 @@ class InvalidRows:
 
 def ask_chunk(chunk: CaseChunk, implementation: Implementation | Crashed, rules: JudgingRules) -> CasesResult:
     """Test the cases of a chunk that lie in the domain. Most are judged; the last ones stay pending."""
-    made = cases_of_chunk(chunk)
-    inside, left_out = rules.asked_of(chunk.family, made.by_column)
+    cases = cases_of_chunk(chunk)
+    inside, left_out = rules.asked_of(chunk.family, cases.by_column)
     indices = inside[: implementation.max_rows]
     left_out |= {"slow": len(inside) - len(indices)} if len(indices) < len(inside) else {}
-    rows = made.rows if len(indices) == len(made.rows) else made.rows[indices]
+    rows = cases.rows if len(indices) == len(cases.rows) else cases.rows[indices]
     answered = implementation.classify(rows)
     part = as_slice(indices)
-    scored = score(made.by_column[part], made.positions[part], answered, rules.criterion)
+    scored = score(cases.by_column[part], cases.positions[part], answered, rules.criterion)
     cut = _first_pending(chunk, indices)
     tail = scored.answered[cut:]
     kept = cut + np.flatnonzero(tail)
     settled = np.append(np.arange(cut), cut + np.flatnonzero(~tail))
-    result = result_of_final(made, indices[settled], scored.part(settled), rules, left_out=left_out)
+    result = result_of_final(cases, indices[settled], scored.part(settled), rules, left_out=left_out)
     return replace(result, pending=_pending(chunk, indices[kept], scored.part(kept)), outcomes=answered.outcomes)
 
 

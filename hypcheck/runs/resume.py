@@ -179,8 +179,8 @@ def finished_part(record: Record) -> tuple[tuple[RecordLine, ...], ProgressLine 
         if isinstance(line, NotStartedLine) or (isinstance(line, ImplementationLine) and line.finished is not False)
     ]
     before = record.lines[: ends[-1] + 1] if ends else ()
-    kept = [line for line in record.of(ProgressLine) if line.number == len(ends)]
-    return tuple(line for line in before if not isinstance(line, ProgressLine)), kept[-1] if kept else None
+    progress = [line for line in record.of(ProgressLine) if line.number == len(ends)]
+    return tuple(line for line in before if not isinstance(line, ProgressLine)), progress[-1] if progress else None
 
 
 def _compared(header: HeaderLine) -> Json:

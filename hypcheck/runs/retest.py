@@ -138,10 +138,10 @@ def result_without_retest(some: tuple[PendingRetest, ...], rules: JudgingRules) 
 
 
 def _sample(some: tuple[PendingRetest, ...], criterion: Criterion) -> _Sample:
-    made = tuple(cases_of_chunk(pending.chunk) for pending in some)
-    both = tuple(zip(made, some, strict=True))
+    cases = tuple(cases_of_chunk(pending.chunk) for pending in some)
+    both = tuple(zip(cases, some, strict=True))
     return _Sample(
-        made,
+        cases,
         _stacked([part.rows[pending.indices] for part, pending in both], criterion.layout),
         np.concatenate([part.positions[pending.indices] for part, pending in both]),
         _first_answers(some),

@@ -132,8 +132,8 @@ def quick_bracket(pair: Pair, truth: Decision, answer: Position) -> Bracket:
     steps = steps[(steps < 1) & (steps >= 2.0**float_boxes.LEAST)]
     if high > RATIO * Fraction(low) and len(steps):
         rows = np.array([[*pair.row[:7], *pair.axis]] * len(steps))
-        held = float_boxes.excluded(rows, [flip.goal] * len(steps), steps, cuts=_QUICK_CUTS)
-        low = float(steps[held].max(initial=low))
+        proved = float_boxes.excluded(rows, [flip.goal] * len(steps), steps, cuts=_QUICK_CUTS)
+        low = float(steps[proved].max(initial=low))
     return Bracket(low, rounded_toward(high, math.inf))
 
 

@@ -217,9 +217,9 @@ def stays_off(place: Place, side: Number, direction: Vector, shares: Iterable[Nu
     kind, form, (_, v0), (C, v) = place.kind, place.form, place.middle, place.whole
     zero = [kind.exactly(0 * radius) for radius in place.radii[:3]]
     q = [kind.exactly(part) for part in direction]
-    held = _crosses(place, side, zero, zero, zero)
+    proved = _crosses(place, side, zero, zero, zero)
     for share in shares:
-        if np.all(held):
+        if np.all(proved):
             break
         rho = kind.exactly(share)
         scale0, scale = (rho / form.width(axis, q) for axis in (v0, v))
@@ -228,8 +228,8 @@ def stays_off(place: Place, side: Number, direction: Vector, shares: Iterable[Nu
         n = form.gradient([a + b for a, b in zip(C, offset, strict=True)])
         fall = dot(n, offset) * (scale / rho) ** 2 / 2
         by_axis = zip(form.by_axis(v, q, n), form.by_axis(v, q, q), strict=True)
-        held = held | _crosses(place, side, offset0, offset, [scale * a - fall * b for a, b in by_axis])
-    return held
+        proved = proved | _crosses(place, side, offset0, offset, [scale * a - fall * b for a, b in by_axis])
+    return proved
 
 
 def _crosses(place: Place, side: Number, offset0: Vector, offset: Vector, by_axis: Vector) -> Any:  # noqa: ANN401

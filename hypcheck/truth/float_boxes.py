@@ -165,10 +165,10 @@ def _lower_ends(rows: Rows, goals: Sequence[Goal]) -> Floats:
         tried = low[active, None] + between * (high - low)[active, None] // (between[-1] + 1)
         tried = np.clip(tried, low[active, None] + 1, high[active, None] - 1)
         owners = np.repeat(active, len(between))
-        held = excluded(rows[owners], [goals[owner] for owner in owners.tolist()], _LADDER[tried.ravel()])
-        held = held.reshape(tried.shape)
-        low[active] = np.where(held, tried, low[active, None]).max(axis=1)
-        above = (tried > low[active, None]) & ~held
+        proved = excluded(rows[owners], [goals[owner] for owner in owners.tolist()], _LADDER[tried.ravel()])
+        proved = proved.reshape(tried.shape)
+        low[active] = np.where(proved, tried, low[active, None]).max(axis=1)
+        above = (tried > low[active, None]) & ~proved
         high[active] = np.where(above, tried, high[active, None]).min(axis=1)
         active = active[high[active] - low[active] > 1]
     return np.where(low >= 0, _LADDER[np.maximum(low, 0)], 0.0)
@@ -236,11 +236,11 @@ def _held(boxes: Boxes) -> tuple[Mask, Floats]:
     sign = np.where(boxes.leave, -1.0, 1.0)
     pull = sign * np.stack(_Margin(boxes.sizes, boxes.middle, boxes.side).derivatives())
     worst = _Margin(boxes.sizes, np.where(pull > 0, boxes.high, boxes.low), boxes.side)
-    held = np.zeros(len(sign), dtype=np.bool_)
+    proved = np.zeros(len(sign), dtype=np.bool_)
     for chosen in (np.flatnonzero(boxes.leave), np.flatnonzero(~boxes.leave)):
         if len(chosen):
-            held[chosen] = _proved(boxes[chosen], worst.at[chosen], worst.X[:, chosen], worst.C[:, chosen])
-    return held, pull
+            proved[chosen] = _proved(boxes[chosen], worst.at[chosen], worst.X[:, chosen], worst.C[:, chosen])
+    return proved, pull
 
 
 _SHARES = (1.0, 1 - 2.0**-20, 0.5)

@@ -76,8 +76,8 @@ def passage_of(row: Row) -> Passage:
 
 def first_contact(row: Row) -> tuple[float, float]:
     """float64 bounds of the time of the first contact; NaN if there is none."""
-    found = passage_of(row)
-    return found.first_lower, found.first_upper
+    result = passage_of(row)
+    return result.first_lower, result.first_upper
 
 
 def hits(rows: Rows) -> Positions:
@@ -188,8 +188,8 @@ def time_is_tolerated(row: Row, time: float, units: Rational, roundoff: Rational
 
 def radii_off(row: Row, time: float) -> float:
     """The length of the sweep between a time and the first contact, in spheroid radii."""
-    found = passage_of(row)
-    return max(found.first_lower - time, time - found.first_upper, 0.0) * sweep_in_radii(row)
+    result = passage_of(row)
+    return max(result.first_lower - time, time - result.first_upper, 0.0) * sweep_in_radii(row)
 
 
 def sweep_in_radii(row: Row) -> float:
@@ -199,9 +199,9 @@ def sweep_in_radii(row: Row) -> float:
     """
     b, d = row[2:4]
     step = [end - start for start, end in zip(row[4:7], row[7:10], strict=True)]
-    given = row[len(SWEEP_COLUMNS) : len(TILTED_SWEEP_COLUMNS)]
-    largest = max(map(abs, given), default=0.0)
-    axis = [component / largest for component in given] or UPRIGHT
+    axis_numbers = row[len(SWEEP_COLUMNS) : len(TILTED_SWEEP_COLUMNS)]
+    largest = max(map(abs, axis_numbers), default=0.0)
+    axis = [component / largest for component in axis_numbers] or UPRIGHT
     length = math.hypot(*axis)
     along = sum(component / length * part for component, part in zip(axis, step, strict=True))
     across = [part - along * component / length for component, part in zip(axis, step, strict=True)]

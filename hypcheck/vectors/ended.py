@@ -28,13 +28,13 @@ def _rows(draw: Draw, rows: Rows, low: Floats, high: Floats, *, solid: Integers 
     n = len(rows)
     axis = rows[:, 7:10] if PAIRS.has_axis(rows) else np.tile(np.asarray(UPRIGHT), (n, 1))
     heights = np.stack([low, high, turns(n, 0, 1) if solid is None else solid], axis=1)
-    made = np.concatenate([rows[:, :7], axis, heights], axis=1)
+    ended_rows = np.concatenate([rows[:, :7], axis, heights], axis=1)
     down = draw.signs(n) < 0
-    made[down, 6] *= -1
+    ended_rows[down, 6] *= -1
     if axis[:, :2].any():
-        made[down, 9] *= -1
-    made[down, 10], made[down, 11] = -made[down, 11], -made[down, 10]
-    return np.asarray(made + 0.0)
+        ended_rows[down, 9] *= -1
+    ended_rows[down, 10], ended_rows[down, 11] = -ended_rows[down, 11], -ended_rows[down, 10]
+    return np.asarray(ended_rows + 0.0)
 
 
 def _lower(draw: Draw, high: Floats, unit: Floats) -> Floats:

@@ -106,9 +106,9 @@ class Family:
         together = TOGETHER if self.by_place else 1
         for first in range(start // BLOCK, -(-stop // BLOCK), together):
             last = min(first + together, -(-stop // BLOCK))
-            made = self._blocks(seed, first, last).T
+            by_column = self._blocks(seed, first, last).T
             begin, end = max(start, first * BLOCK), min(stop, last * BLOCK)
-            columns[:, begin - start : end - start] = made[:, begin - first * BLOCK : end - first * BLOCK]
+            columns[:, begin - start : end - start] = by_column[:, begin - first * BLOCK : end - first * BLOCK]
         return columns
 
     def row(self, seed: int, index: int) -> Row:

@@ -29,8 +29,8 @@ from hypcheck.vectors.family import Row, rows_of
 
 def exactly_right(formula: str, row: Row, truth: Position) -> bool:
     """Whether the formula, evaluated in rationals, gives the right answer to its question about the row."""
-    given = answers(FORMULAS[formula], EXACT, dict(zip(COLUMNS, row, strict=True)))
-    return int(given) == _right_answer(formula, truth)
+    answer = answers(FORMULAS[formula], EXACT, dict(zip(COLUMNS, row, strict=True)))
+    return int(answer) == _right_answer(formula, truth)
 
 
 def wrong_answers(formula: str, precision: str, rows: Rows, truths: Sequence[Position]) -> dict[int, Position]:
@@ -39,12 +39,12 @@ def wrong_answers(formula: str, precision: str, rows: Rows, truths: Sequence[Pos
     An excuse is a position for which the answer would be right: the answer itself; if the formula answers "no" for a
     clear position, contact, which is nearer than the other clear position.
     """
-    given: NDArray[np.int8] = answers(
+    given_answers: NDArray[np.int8] = answers(
         FORMULAS[formula], float_arithmetic(precision), dict(zip(COLUMNS, rows.T, strict=True))
     )
     right = np.asarray([_right_answer(formula, truth) for truth in truths], dtype=np.int8)
-    places: list[int] = np.flatnonzero(in_range(rows, precision) & (given != right)).tolist()
-    return {place: _excuse(formula, int(given[place])) for place in places}
+    places: list[int] = np.flatnonzero(in_range(rows, precision) & (given_answers != right)).tolist()
+    return {place: _excuse(formula, int(given_answers[place])) for place in places}
 
 
 def in_range(rows: Rows, precision: str) -> Mask:

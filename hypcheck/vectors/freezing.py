@@ -94,8 +94,8 @@ def frozen(name: str, before: CaseFile[Any] | None = None) -> CaseFile[Any]:
     content = _content_of(name)
     old = before.cases if before else ()
     cases = extended(name, _named(old), [tuple(row) for row in planned(name).tolist()])
-    kept = () if content is content_with() else old
-    return assembled(head_of(name), content, (*kept, *labelled(content, cases[len(kept) :])))
+    kept_cases = () if content is content_with() else old
+    return assembled(head_of(name), content, (*kept_cases, *labelled(content, cases[len(kept_cases) :])))
 
 
 def assembled(head: Metadata, content: Content, cases: Sequence[AnyVector]) -> CaseFile[Any]:
@@ -152,13 +152,13 @@ def generated_text(family: Family, seed: int, count: int) -> str:
 
 def frozen_invalid_rows(name: str, before: CaseFile[Any] | None = None) -> InvalidRowFile:
     """The file of rows that must be refused; rows of an earlier file keep their ids and places."""
-    kept: tuple[InvalidRow, ...] = before.cases if before else ()
-    known = {case.bits for case in kept}
-    number = _next_number(case.id for case in kept)
-    made = invalid_rows(name)
-    added = [case for case in made.cases if case.bits not in known]
+    old_cases: tuple[InvalidRow, ...] = before.cases if before else ()
+    known = {case.bits for case in old_cases}
+    number = _next_number(case.id for case in old_cases)
+    file = invalid_rows(name)
+    added = [case for case in file.cases if case.bits not in known]
     renamed = (replace(case, id=f"{name}-{number + place:04d}") for place, case in enumerate(added))
-    return InvalidRowFile(made.head, made.content, (*kept, *renamed))
+    return InvalidRowFile(file.head, file.content, (*old_cases, *renamed))
 
 
 def _bits(row: Row) -> bytes:

@@ -109,7 +109,7 @@ def _runs(tokens: list[Run], edge: str) -> list[Run]:
 
 
 def _tokens(text: str, *, articles: bool = False) -> list[Run]:
-    """The tokens; in sentences, where there are `articles`, "a" before a word is one, and a cosine is a word."""
+    """The tokens. In sentences (`articles`), "a" before a word is text and not a symbol, and "cosine" is a word."""
     return [
         (match[0], "text")
         if articles and (match[0] in _OF_ROTORS or _ARTICLE.match(text, match.start()))

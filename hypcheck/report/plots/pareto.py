@@ -77,10 +77,10 @@ def place_labels(
     inside = axes.get_window_extent(renderer)
     centres = [axes.transData.transform(point) for point in points]
     half = _MARK * scale
-    taken = [Bbox.from_extents(x - half, y - half, x + half, y + half) for x, y in centres]
+    occupied = [Bbox.from_extents(x - half, y - half, x + half, y + half) for x, y in centres]
     for start, end in lines:
         (x0, y0), (x1, y1) = (axes.transData.transform(point) for point in (start, end))
-        taken.append(Bbox.from_extents(min(x0, x1) - 1, min(y0, y1) - 1, max(x0, x1) + 1, max(y0, y1) + 1))
+        occupied.append(Bbox.from_extents(min(x0, x1) - 1, min(y0, y1) - 1, max(x0, x1) + 1, max(y0, y1) + 1))
     for rank, (point, name) in enumerate(zip(points, names, strict=True)):
         if name is None:
             continue
@@ -98,8 +98,8 @@ def place_labels(
             )
             text.update_positions(renderer)
             box = Text.get_window_extent(text, renderer).padded(_BETWEEN * scale, 0)  # without the line to the point
-            if _within(box, inside) and not any(box.overlaps(other) for other in taken):
-                taken.append(box)
+            if _within(box, inside) and not any(box.overlaps(other) for other in occupied):
+                occupied.append(box)
                 break
             text.remove()
 

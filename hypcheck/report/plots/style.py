@@ -156,9 +156,9 @@ def styled() -> Iterator[None]:
 
 def new_figure(width: float, height: float) -> Figure:
     """A figure of this width and height in points, with a layout that leaves room for labels."""
-    made = Figure(figsize=(width / 72, height / 72), layout="constrained")
-    FigureCanvasAgg(made)  # the layout measures texts
-    return made
+    figure = Figure(figsize=(width / 72, height / 72), layout="constrained")
+    FigureCanvasAgg(figure)  # the layout measures texts
+    return figure
 
 
 def share_layout(figure: Figure, first: Figure | None) -> Figure:
