@@ -35,6 +35,7 @@ from __future__ import annotations
 
 import importlib
 import importlib.util
+import inspect
 import json
 import os
 import sys
@@ -120,6 +121,7 @@ class PythonFunction:
         if not callable(function):
             has = "nothing with that name" if function is None else f"a {type(function).__name__}"
             raise LoadError(f"{target!r} has no function {name!r}; it has {has}")
+        _require_one_argument(function, target, name)
         self._function: Callable[[Rows], Any] = function
         given = getattr(module, "hypcheck", None)  # a module after `import hypcheck`
         self.description = "" if given is None or isinstance(given, ModuleType) else description_as_json(given)
@@ -180,6 +182,22 @@ def _missing_folders() -> Iterator[str]:
 def _of_name(name: str) -> ModuleType:
     sys.path.insert(0, os.getcwd())
     return importlib.import_module(name)
+
+
+def _require_one_argument(function: Callable[..., Any], target: str, name: str) -> None:
+    """Raise LoadError if the function's parameters show that it cannot be called with the rows and nothing else."""
+    try:
+        signature = inspect.signature(function)
+        parameters = ", ".join(signature.parameters)
+    except BaseException:  # noqa: BLE001 - a builtin has no signature, and foreign code may raise anything
+        return
+    try:
+        signature.bind(None)
+    except TypeError:
+        raise LoadError(
+            f"{target!r} has {name}({parameters}), which cannot be called with one argument; it must be {name}(rows) "
+            "for all rows at once, a float64 array (n, 7) unless its description asks for more columns"
+        ) from None
 
 
 def _of_file(path: str) -> ModuleType:

@@ -236,6 +236,13 @@ def test_a_slow_function_gets_smaller_batches_and_no_timeout():
             "has no function 'clasify'; it has nothing with that name",
         ),
         (f"python:{HERE / 'functions' / 'right.py'}:hypcheck", "has no function 'hypcheck'; it has a dict"),
+        (
+            function("seven_numbers"),
+            (
+                r"has classify\(alpha, gamma, b, d, x, y, z\), which cannot be called with one argument; it must be "
+                r"classify\(rows\) for all rows at once"
+            ),
+        ),
         ("python:no.such.module:f", r"raised ModuleNotFoundError: No module named 'no'( \(.*\.py, line \d+\))?$"),
     ],
 )
