@@ -167,14 +167,14 @@ class MemoryWatch:
         children: dict[int, list[_ProcessMemory]] = {}
         for candidate in processes:
             children.setdefault(candidate.parent, []).append(candidate)
-        todo = [process for process in processes if self._is_ours(process)]
-        while todo:
-            candidate = todo.pop()
+        candidates = [process for process in processes if self._is_ours(process)]
+        while candidates:
+            candidate = candidates.pop()
             yield candidate
             for child in children.pop(candidate.number, ()):
                 if not self._known[child.identity]:
                     self._known[child.identity] = True
-                    todo.append(child)
+                    candidates.append(child)
 
     def _is_ours(self, process: _ProcessMemory) -> bool:
         """Whether a process belongs to the program by its group, session or mark; checked once for each process."""

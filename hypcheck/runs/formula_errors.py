@@ -350,9 +350,6 @@ TILTED_FORMULA_ERRORS = _errors(
 SAME_TIME = 1e-9
 """Two times of a sweep, from 0 to 1, that a rule and an implementation may compute differently."""
 
-_FAR_OFF = 1e-3
-"""Times that differ by more are different times, whatever the tolerance."""
-
 _MOST_SWEEPS = 512
 """Where bounds do not decide a sweep, it costs milliseconds, so only so many sweeps of a chunk are asked again."""
 
@@ -412,12 +409,7 @@ def _where_time(answered: AnsweredRows, holds: Callable[[tuple[float, ...], floa
 
 def _times_from_the_end(answered: AnsweredRows) -> Answers:
     """The given answer where its time is right if it is counted from the sweep's end."""
-
-    def counted_back(row: tuple[float, ...], time: float) -> bool:
-        near = abs(1 - time - passage_of(row).first_lower) < _FAR_OFF
-        return near and time_is_right(row, 1 - time, answered.criterion)
-
-    return _where_time(answered, counted_back)
+    return _where_time(answered, lambda row, time: time_is_right(row, 1 - time, answered.criterion))
 
 
 def _times_off(answered: AnsweredRows, *, late: bool) -> Answers:
@@ -425,7 +417,7 @@ def _times_off(answered: AnsweredRows, *, late: bool) -> Answers:
 
     def is_off(row: tuple[float, ...], time: float) -> bool:
         off = time - passage_of(row).first_lower
-        return 0 < abs(off) < _FAR_OFF and (off > 0) is late and not time_is_right(row, time, answered.criterion)
+        return 0 < abs(off) < 1e-3 and (off > 0) is late and not time_is_right(row, time, answered.criterion)
 
     return _where_time(answered, is_off)
 

@@ -310,17 +310,16 @@ def _judged_sweeps(
     rows: Rows, answers: NDArray[np.int8], wrong: Indices, criterion: Criterion, times: Floats | None
 ) -> Iterator[WrongCase]:
     for start in range(0, len(wrong), _TOGETHER):
-        part = wrong[start : start + _TOGETHER].tolist()
-        right = [
-            times is not None and passage_of(tuple(rows[index].tolist())).hit == bool(answers[index]) for index in part
+        some = {index: tuple(rows[index].tolist()) for index in wrong[start : start + _TOGETHER].tolist()}
+        wrong_hits = [
+            index for index, row in some.items() if times is None or passage_of(row).hit != bool(answers[index])
         ]
-        near = iter(rough_exponents(rows[[index for index, hit in zip(part, right, strict=True) if not hit]]).tolist())
-        for index, only_late in zip(part, right, strict=True):
-            row = tuple(rows[index].tolist())
-            if times is not None and only_late:
-                yield _wrong_time(index, row, float(times[index]))
+        near = dict(zip(wrong_hits, rough_exponents(rows[wrong_hits]).tolist(), strict=True))
+        for index, row in some.items():
+            if times is None or index in near:
+                yield _wrong_hit(index, row, int(answers[index]), criterion, near[index])
             else:
-                yield _wrong_hit(index, row, int(answers[index]), criterion, next(near))
+                yield _wrong_time(index, row, float(times[index]))
 
 
 def _wrong_time(index: int, row: tuple[float, ...], time: float) -> WrongCase:

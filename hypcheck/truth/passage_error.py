@@ -160,11 +160,11 @@ def tolerance(row: Sequence[Rational], units: Rational, roundoff: Rational) -> F
 
 
 def time_is_within(row: Sequence[Rational], time: Rational, change: Rational) -> bool:
-    """Whether a time, from 0 to 1, is the first contact's for some size that differs by at most the share `change`.
+    """Whether a spheroid whose size differs by at most the share `change` can have its first contact at this time.
 
-    It is too early where the spheroid grown by `change` is clear up to it, and too late where the one that is shrunk
-    has contact before it; with a change of 1 no shrunk spheroid is left. Both are decided at times that differ from the
-    given time by 2^−60 of itself, in its favour, because first contacts are not enclosed more narrowly.
+    The time, from 0 to 1, is too early if the spheroid grown by `change` is clear up to it, and too late if the shrunk
+    spheroid has contact before it; with a change of 1 no shrunk spheroid is left. Both are decided at times that differ
+    from the given time by 2^−60 of itself, in its favour, because first contacts are not enclosed more narrowly.
     """
     exact, part = Fraction(time), Fraction(change)
     slack = exact / 2**WIDTH_BITS
