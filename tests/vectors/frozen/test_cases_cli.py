@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import io
 import json
-import os
 import subprocess
 import sys
 
@@ -18,11 +17,6 @@ from hypcheck.vectors.cases import read_cases
 from hypcheck.vectors.checking import faults_of
 from hypcheck.vectors.families import FAMILIES
 from hypcheck.vectors.invalid_rows import INVALID_CONTENTS
-
-try:
-    from numpy._core import _multiarray_umath as numpy_core
-except ImportError:  # numpy 1
-    from numpy.core import _multiarray_umath as numpy_core  # type: ignore[no-redef]
 
 
 def printed(capsys, *arguments, code=0):
@@ -183,22 +177,6 @@ def test_rows_of_a_family_for_given_sizes_are_generated_checked_and_classified(c
 )
 def test_cases_generate_refuses_invalid_arguments(capsys, arguments, message):
     assert message in refused(capsys, "generate", *arguments)
-
-
-def test_generated_files_do_not_depend_on_the_instruction_set():
-    """The same bytes, labels and flags of floats included, with all beyond numpy's baseline turned off."""
-    optional = [name for name in numpy_core.__cpu_dispatch__ if numpy_core.__cpu_features__[name]]
-    if not optional:
-        pytest.skip("this processor has nothing beyond numpy's baseline to turn off")
-
-    def generated(disabled):
-        environment = os.environ | {"NPY_DISABLE_CPU_FEATURES": " ".join(disabled)}
-        command = [sys.executable, "-m", "hypcheck", "cases", "generate", "osculation", "--count", "60"]
-        return subprocess.run(command, env=environment, capture_output=True, check=True).stdout
-
-    plain = generated(optional)
-    assert plain == generated([])
-    assert json.loads(plain)["count"] == 60
 
 
 def test_freeze_prints_the_names_of_the_files_that_it_wrote(capsys, tmp_path):
