@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import importlib
+import sys
 from functools import cache
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 from hypcheck.geometry.rows import PAIRS
@@ -59,11 +62,31 @@ def resealed(lines):
 
 
 @cache
+def load_jsonschema() -> None:
+    """Load jsonschema without the grammars of internationalised addresses: they take two seconds, and few ask for them.
+
+    Whatever asks loads them then.
+    """
+
+    def is_valid_syntax(rule: str, text: str) -> bool:
+        return importlib.import_module(grammars).is_valid_syntax(rule, text)
+
+    grammars = "rfc3987_syntax"
+    if grammars not in sys.modules:
+        sys.modules[grammars] = SimpleNamespace(is_valid_syntax=is_valid_syntax)
+        try:
+            import jsonschema  # noqa: F401
+        finally:
+            del sys.modules[grammars]
+
+
+@cache
 def _checker() -> Any:
     """The class of validators that takes 500.0 for no integer, as whatever reads JSON or TOML here does.
 
-    The library takes two seconds to load, so that tests without a schema do not load it.
+    The library takes long to load, so that tests without a schema do not load it.
     """
+    load_jsonschema()
     from jsonschema import Draft202012Validator
     from jsonschema.validators import extend
 
