@@ -209,6 +209,9 @@ class GivenUpError(Exception):
 MAX_HANGS = 3
 """An implementation that has never answered is given up after so many timeouts in a row."""
 
+MAX_UNANSWERED = 1024
+"""An implementation that has never answered is given up after so many rows at fault: it fails alike on all of them."""
+
 
 @dataclass(frozen=True, slots=True)
 class Allowance:
@@ -232,12 +235,22 @@ class Allowance:
         """
         restarts = self.restarts - (limits.restarts - task.restarts)
         faults = self.faults - (limits.faults - task.faults)
+        hangs = None if self.hangs is None else task.hangs
         over = self.over or task.over
         if not over and restarts < 0:
             over = f"not asked: {_used_up(limits.restarts)}; the last row at fault: {task.last}"
-        if not over and faults < 1:
-            over = f"not asked: {limits.faults - faults:,} rows before were at fault; the last: {task.last}"
-        return Allowance(max(0, restarts), max(0, faults), over, None if self.hangs is None else task.hangs)
+        if not over and faults <= limits.faults - limits.most_faults(answered=hangs is None):
+            over = _too_many_faults(limits.faults - faults, task.last, answered=hangs is None)
+        return Allowance(max(0, restarts), max(0, faults), over, hangs)
+
+    def most_faults(self, *, answered: bool) -> int:
+        """The rows at fault at which it is given up, where these are the limits and it has or has never answered."""
+        return self.faults if answered else min(self.faults, MAX_UNANSWERED)
+
+
+def _too_many_faults(faults: int, last: str, *, answered: bool) -> str:
+    were = "row before was" if faults == 1 else "rows before were"
+    return f"not asked: {faults:,} {were} at fault{'' if answered else ' and none was answered'}; the last: {last}"
 
 
 class Supervisor:
@@ -320,11 +333,15 @@ class Supervisor:
             self.left = replace(self.left, restarts=self.left.restarts - 1, last=reason)
         elif fault.fatal:
             self._end(f"not asked: {_used_up(self._most.restarts)}; the last process: {reason}")
-        elif self.left.faults > 1:
-            self.left = replace(self.left, faults=self.left.faults - 1, last=reason)
         else:
-            were = "row before was" if self._most.faults == 1 else "rows before were"
-            self._end(f"not asked: {self._most.faults:,} {were} at fault; the last: {reason}")
+            self._count_fault(reason)
+
+    def _count_fault(self, reason: str) -> None:
+        answered = self.left.hangs is None
+        self.left = replace(self.left, faults=max(0, self.left.faults - 1), last=reason)
+        faults = self._most.faults - self.left.faults
+        if faults >= self._most.most_faults(answered=answered):
+            self._end(_too_many_faults(faults, reason, answered=answered))
 
     def close(self) -> None:
         """Let the process end. The next question starts another, which does not count as a restart."""

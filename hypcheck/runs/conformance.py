@@ -201,6 +201,7 @@ class ImplementationLines:
                 self.rules.known, total.excusing, {*total.tallies, *total.named}, self._subjects()
             ):
                 recorder.add(DriftLine(sentence=f"{self.used.name}: {sentence}"))
+        all_asked = finished and not state.left.over
         recorder.add(
             ImplementationLine(
                 spec=self.spec,
@@ -212,8 +213,8 @@ class ImplementationLines:
                 broke_protocol_throughout=total.broke_protocol_throughout,
                 troubles=list(self._troubles(total, groups, finished=finished)),
                 not_asked=families_not_asked(self.plan, self.used),
-                slices=spread.slices_of(self.plan, self.used, self.rules) or UNSET if finished else UNSET,
-                crossed=spread.crossed_of(self.plan, self.used) or UNSET if finished else UNSET,
+                slices=spread.slices_of(self.plan, self.used, self.rules) or UNSET if all_asked else UNSET,
+                crossed=spread.crossed_of(self.plan, self.used) or UNSET if all_asked else UNSET,
                 finished=UNSET if finished else False,
             )
         )

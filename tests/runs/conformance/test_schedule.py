@@ -224,9 +224,14 @@ LIMITS = Allowance(20, 100)
             Allowance(0, 100, "not asked: 20 restarts are used up; the last row at fault: it died"),
         ),
         (
+            Allowance(20, 60, hangs=None),
+            replace(LIMITS, faults=30, last="it raised"),
+            Allowance(20, 0, "not asked: 110 rows before were at fault; the last: it raised", hangs=None),
+        ),
+        (
             Allowance(20, 60),
             replace(LIMITS, faults=30, last="it raised"),
-            Allowance(20, 0, "not asked: 110 rows before were at fault; the last: it raised"),
+            Allowance(20, 0, "not asked: 110 rows before were at fault and none was answered; the last: it raised"),
         ),
     ],
 )

@@ -100,3 +100,23 @@ def test_rows_outside_the_domain_do_not_count(line_of):
     some = line_of("--count", "3", "--domain", '{"ratio": [0.125, 8]}').slices["strata"]
     assert some.rows < everything.rows
     assert some.one > everything.one
+
+
+def test_a_run_that_gave_up_says_nothing_of_rows_that_it_did_not_ask(tmp_path, monkeypatch, text_reports):
+    (tmp_path / "ends.py").write_text("import os\n\n\ndef f(rows):\n    os._exit(0)\n")
+    monkeypatch.chdir(tmp_path)
+    words = (
+        "python:ends.py:f",
+        "--families",
+        "strata,coincidences",
+        "--count",
+        "20",
+        "--restarts",
+        "0",
+        "--out",
+        "out",
+    )
+    assert main(["verify", *words]) == 1
+    (line,) = read(Path("out")).of(ImplementationLine)
+    assert not line.slices
+    assert not line.crossed
