@@ -70,7 +70,7 @@ def place_labels(
     next to its point or left out.
     """
     figure: Any = axes.figure
-    figure.canvas.draw()  # drawing computes the layout, which must not change later
+    figure.draw_without_rendering()  # computes the layout, which must not change later
     figure.set_layout_engine("none")
     renderer = figure.canvas.get_renderer()
     scale = figure.dpi / 72
