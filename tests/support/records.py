@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import sys
+from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
 from types import SimpleNamespace
@@ -96,8 +97,31 @@ def _checker() -> Any:
 
 def violations(value: Any, schema: dict[str, Any], *, closed: bool = False) -> list[str]:
     """What is wrong with the value, a sentence each; with `closed`, so is a property that the schema does not name."""
-    checker = _checker()(_closed(schema) if closed else schema)
-    return [f"{error.json_path}: {error.message[:300]}" for error in checker.iter_errors(value)]
+    kind = value.get("type") if isinstance(value, dict) else None
+    found = _validator(schema, closed, kind if isinstance(kind, str) else "").iter_errors(value)
+    return [f"{error.json_path}: {error.message[:300]}" for error in found]
+
+
+_VALIDATORS: dict[tuple[int, bool, str], tuple[Any, Any]] = {}
+"""The last schemas, by their identity, with the validator of each for lines of one type."""
+
+
+def _validator(schema: dict[str, Any], closed: bool, kind: str) -> Any:
+    """Of a choice of types of lines it asks those of the value's own type alone: no other can fit, and there are forty."""
+    key = id(schema), closed, kind if "oneOf" in schema else ""
+    if key not in _VALIDATORS:
+        if len(_VALIDATORS) > 300:
+            _VALIDATORS.clear()
+        choices = [part for part in schema.get("oneOf", ()) if kind in _types(part, schema, kind)]
+        narrowed = {**schema, "oneOf": choices} if choices else schema
+        _VALIDATORS[key] = schema, _checker()(_closed(narrowed) if closed else narrowed)
+    return _VALIDATORS[key][1]
+
+
+def _types(part: dict[str, Any], schema: dict[str, Any], otherwise: str) -> Sequence[str]:
+    """The types that a part of a choice names, or the other one if it names none."""
+    named = schema.get("$defs", {}).get(part.get("$ref", "").removeprefix("#/$defs/"), part)
+    return named.get("properties", {}).get("type", {}).get("enum", [otherwise])
 
 
 def _closed(schema: Any) -> Any:
