@@ -21,7 +21,7 @@ from hypcheck.record import Record
 from hypcheck.record.reader import FILE, GROWING
 from hypcheck.report import csv, junit, markdown, summary, terminal
 from hypcheck.report.code_hosts import render_badge, render_gitlab, render_sarif
-from hypcheck.report.drawings import ALONE, ReportContext, draw_ahead, pictures, render_picture
+from hypcheck.report.drawings import ALONE, ReportContext, draw_ahead, drawn_plots, pictures, render_picture
 from hypcheck.report.formats import REPORTS, ReportFormat, WrittenReport, kept_formats
 from hypcheck.report.model import drawn_sweep, implementations
 from hypcheck.tables.streams import made_folder, remove_file, write_files
@@ -90,6 +90,9 @@ def _has_content(report: ReportFormat, record: Record) -> bool:
     return report.shows is None or any(line.type == report.shows for line in record.lines)
 
 
+_ON_THE_PAGE = ("ways", "errors", "pareto", "front")
+"""Formats whose plots the page shows as well."""
+
 _OF_RUNS = (FILE, GROWING, *(REPORTS[name].file for name in kept_formats()))
 """The files that every run writes."""
 
@@ -133,12 +136,14 @@ def write_reports(
     reports: list[WrittenReport] = []
     contents: dict[str, bytes] = {}
     wanted = [name for name in REPORTS if name in (kept_formats() if formats is None else formats)]
-    drawings = draw_ahead(record) if "html" in wanted else {}
+    drawings = dict(draw_ahead(record)) if "html" in wanted else {}
     for name in wanted:
         path = directory / REPORTS[name].file
         if not _has_content(REPORTS[name], record):
             continue
         try:
+            if name in _ON_THE_PAGE:  # which is written later
+                drawings[name] = drawn_plots(name, record, drawings)
             contents[str(path)] = render(
                 name, record, ReportContext([*map(os.path.basename, contents)], against, drawings)
             )
