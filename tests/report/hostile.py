@@ -42,10 +42,18 @@ def _spoil(value, number):
             value[field] = f"{inner}{SCRIPT}{MARKS}"
 
 
-def hostile_record():
+def hostile_record(methods=4, workloads=None):
     """A verification, a run about ways and a benchmark at once, with one name of a megabyte."""
-    kept = [line["method"] for line in bench_lines.lines() if line["type"] == "method"][:4]
-    few = [line for line in bench_lines.lines() if line.get("method") in (None, *kept) or line["type"] == "places"]
+    measured = bench_lines.lines()
+    kept = {
+        "method": [None, *[line["method"] for line in measured if line["type"] == "method"][:methods]],
+        "workload": [None, *[line["workload"] for line in measured if line["type"] == "workload"][:workloads]],
+    }
+    few = [
+        line
+        for line in measured
+        if line["type"] == "places" or all(line.get(field) in names for field, names in kept.items())
+    ]
     about_ways = ways_group(case("way-long/1/1/3", *THROUGH, 2.0))
     lines = [spoilt(line, number) for number, line in enumerate([*record_samples.lines(), about_ways, *few])]
     lines.append({**record_samples.group(ENDLESS, "float64", "ring", {"wrong": 3}), "title": ENDLESS})

@@ -1,4 +1,7 @@
-"""What each format says of recorded runs is what is committed beside their records: see tests/tools/goldens.py."""
+"""What each format says of recorded runs is what is committed beside their records: see tests/tools/goldens.py.
+
+Their pages are files that load nothing and run nothing but their own.
+"""
 
 from __future__ import annotations
 
@@ -6,6 +9,7 @@ import difflib
 
 import pytest
 
+from tests.report.page_structure import faults
 from tests.tools import goldens
 
 
@@ -16,9 +20,10 @@ def changes(name, golden, now):
 
 
 @pytest.mark.parametrize("run", goldens.RUNS)
-def test_reports_of_a_recorded_run_are_the_goldens_beside_its_record(run):
+def test_reports_of_a_recorded_run_are_the_goldens_beside_its_record_and_its_page_is_sound(run):
     """In one test for all formats, since to draw the plots takes most of the time."""
-    now, kept = goldens.made(run), goldens.kept(run)
+    (now, page), kept = goldens.made(run), goldens.kept(run)
     changed = [line for name in sorted({*now, *kept}) for line in changes(name, kept.get(name), now.get(name))]
     if changed:
         pytest.fail(f"{run}: if this is meant, make goldens\n{''.join(changed)}", pytrace=False)
+    assert faults(page) == []

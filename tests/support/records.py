@@ -107,7 +107,7 @@ _VALIDATORS: dict[tuple[int, bool, str], tuple[Any, Any]] = {}
 
 
 def _validator(schema: dict[str, Any], closed: bool, kind: str) -> Any:
-    """Of a choice of types of lines it asks those of the value's own type alone: no other can fit, and there are forty."""
+    """Of a choice of types of lines it asks that of the value alone: no other can fit, and there are forty."""
     key = id(schema), closed, kind if "oneOf" in schema else ""
     if key not in _VALIDATORS:
         if len(_VALIDATORS) > 300:

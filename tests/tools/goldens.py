@@ -94,26 +94,27 @@ def kept(run: str) -> dict[str, str]:
     return {path.relative_to(FOLDER / run).as_posix(): path.read_bytes().decode("utf-8") for path in paths}
 
 
-def made(run: str) -> dict[str, str]:
-    """What `hypcheck report` writes of a run's record, by the names of the goldens."""
-    found = _written(run, [], [*REPORTS])
+def made(run: str) -> tuple[dict[str, str], str]:
+    """What `hypcheck report` writes of a run's record, by the names of the goldens, and the page without a mask."""
+    found, page = _written(run, [], [*REPORTS])
     against = RUNS[run].against
     if against:
         with patch.dict(sys.modules, {"matplotlib": None}):
             words = ["--against", str(FOLDER / against)]
-            compared = _written(run, words, [name for name, report in REPORTS.items() if report.compares])
+            compared, _ = _written(run, words, [name for name, report in REPORTS.items() if report.compares])
         found |= {f"{CHANGES}/{name}": text for name, text in compared.items()}
-    return found
+    return found, page
 
 
-def _written(run: str, words: list[str], formats: list[str]) -> dict[str, str]:
+def _written(run: str, words: list[str], formats: list[str]) -> tuple[dict[str, str], str]:
     with TemporaryDirectory() as out, _working_in(FOLDER / run):
         chosen = [word for name in formats for word in ("--format", name)]
         with redirect_stdout(StringIO()):
             code = hypcheck(["report", RECORD, *words, *chosen, "--out", out])
         if code:
             raise RuntimeError(f"hypcheck report ends with {code} for {run}")
-        return {_golden(path.name): masked(path) for path in sorted(Path(out).iterdir())}
+        texts = {_golden(path.name): masked(path) for path in sorted(Path(out).iterdir())}
+        return texts, Path(out, REPORTS["html"].file).read_text("utf-8")
 
 
 @contextmanager
@@ -177,7 +178,7 @@ def record(run: str, folder: Path) -> None:
 
 def write(run: str) -> None:
     """Write the goldens of a run, and remove those of formats that are not written any more."""
-    texts = made(run)
+    texts, _ = made(run)
     for name in kept(run).keys() - texts:
         (FOLDER / run / name).unlink()
     for name, text in texts.items():
