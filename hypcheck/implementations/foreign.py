@@ -246,7 +246,9 @@ def _integers(result: object, n: int) -> IntegerAnswers:
     except ValueError:  # of several lengths, or an array that numpy cannot take
         raise ContractError(f"it returned {_kind(result)} that is not an array of one integer a row") from None
     if array.shape != (n,):
-        raise ContractError(f"it returned {_kind(result)} of shape {array.shape} for {n} rows; it must be ({n},)")
+        times = '; to return times of sweeps too, its description must say "times": True'
+        hint = times if isinstance(result, tuple) and array.shape == (2, n) else ""
+        raise ContractError(f"it returned {_kind(result)} of shape {array.shape} for {n} rows; it must be ({n},){hint}")
     if array.dtype.kind not in "iub":
         raise ContractError(f"it returned {_kind(result)} of {array.dtype}; it must be integers, such as int8")
     if array.dtype == np.int8:

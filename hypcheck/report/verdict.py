@@ -28,6 +28,7 @@ from hypcheck.report.document import Code, Column, Row, Strong, TableBlock, Tabl
 from hypcheck.report.facts import Failure
 from hypcheck.report.measured import by_ratio, measured_methods, reference, timed_workloads
 from hypcheck.runs.judge import Status, in_words, truth_in_words
+from hypcheck.truth.passage_error import HIT
 
 WITHOUT_COMPARISON = (KernelLine, ForestLine, SceneLine)
 """Types of lines that a run can have without comparing methods on rows."""
@@ -275,7 +276,13 @@ def _oracle_clause(totals: list[model.OracleTotal]) -> str:
     return f"no disagreement in the cases asked of {oracles}{doubt}"
 
 
-_WORDS = {str(CANNOT_SAY): "cannot say", "none": "no valid answer"}
+_WRONG_TIMES = ("late", "early")
+
+_WORDS = {
+    **{mistake: f"contact too {mistake}" for mistake in _WRONG_TIMES},
+    str(CANNOT_SAY): "cannot say",
+    "none": "no valid answer",
+}
 """Columns that a square has only if there is such an answer."""
 
 AMISS = "✗"
@@ -288,11 +295,21 @@ def tables_of_answers(record: Record) -> Iterator[tuple[TableBlock, str]]:
     Records before 1.10.0 give no tables.
     """
     for total in model.implementations(record):
-        counts = total.answers
+        counts = _with_wrong_times(total)
         if total.gated and any(
             not _right(total.question, truth, answer) for truth in counts for answer in counts[truth]
         ):
             yield _square(total, counts), _passing(total)
+
+
+def _with_wrong_times(total: model.ImplementationTotal) -> dict[str, dict[str, int]]:
+    """The number of rows by truth, then by answer. Hits at a wrong time are apart from the right ones."""
+    counts = total.answers
+    wrong = {mistake: total.mistakes[mistake] for mistake in _WRONG_TIMES if mistake in total.mistakes}
+    hit = str(HIT)
+    if wrong and hit in counts:
+        counts[hit] = counts[hit] | {hit: counts[hit][hit] - sum(wrong.values())} | wrong
+    return counts
 
 
 def _square(total: model.ImplementationTotal, counts: Mapping[str, Mapping[str, int]]) -> TableBlock:

@@ -6,7 +6,7 @@ implementation is right, it has not.
 
 This file defines a cause, and has the causes that are limited to some places: on the ring, outside a regime, where
 rounding decides. formula_errors.py has the causes that apply to every row: a wrong sign, a column taken for another, an
-axis that is ignored. causes.toml has the texts of all causes.
+axis that is ignored; sweep_causes.py has those of sweeps. causes.toml has the texts of all causes.
 """
 
 from __future__ import annotations

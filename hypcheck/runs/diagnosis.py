@@ -31,9 +31,10 @@ from hypcheck.record.fields import Extended, Unsigned, numbers_of, row_fields, r
 from hypcheck.record.progress import Explained, Place, Tally, WorstCase
 from hypcheck.runs import judge
 from hypcheck.runs.causes import PLACES, SILENT, WIDER_ROUNDINGS, AnsweredRows, Answers, Cause, Scope
-from hypcheck.runs.formula_errors import SWEEP_FORMULA_ERRORS, TILTED_FORMULA_ERRORS, UPRIGHT_FORMULA_ERRORS
+from hypcheck.runs.formula_errors import TILTED_FORMULA_ERRORS, UPRIGHT_FORMULA_ERRORS
 from hypcheck.runs.judge import Criterion, Mistake, Status, WrongCase
 from hypcheck.runs.root_causes import ROOT_CAUSES
+from hypcheck.runs.sweep_causes import SWEEP_CAUSES
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import is_extreme
 from hypcheck.vectors.invalid_rows import INVALID_CONTENTS
@@ -41,7 +42,7 @@ from hypcheck.vectors.invalid_rows import INVALID_CONTENTS
 PLACE_CAUSES: tuple[Cause, ...] = (*PLACES, *ROOT_CAUSES, *WIDER_ROUNDINGS)
 """The causes about places of upright spheroids."""
 
-CAUSES: tuple[Cause, ...] = (*PLACE_CAUSES, *UPRIGHT_FORMULA_ERRORS, *TILTED_FORMULA_ERRORS, *SWEEP_FORMULA_ERRORS)
+CAUSES: tuple[Cause, ...] = (*PLACE_CAUSES, *UPRIGHT_FORMULA_ERRORS, *TILTED_FORMULA_ERRORS, *SWEEP_CAUSES)
 """All causes; a set of them is a number with a bit for each, in this order."""
 
 _BITS = {cause.name: bit for bit, cause in enumerate(CAUSES)}

@@ -1,4 +1,4 @@
-"""Causes about every row: a sign or a term of a formula wrong, a column taken for another, positions for a sweep.
+"""Causes about every row of positions: a sign or a term of a formula wrong, a column taken for another.
 
 Each is a whole rule. A rule about the input changes the row as its sentence in causes.toml says, and then answers
 exactly. A rule about a formula is evaluated in float64. If most of its answers agree with the given ones, it is
@@ -14,12 +14,9 @@ from typing import Any
 import numpy as np
 
 from hypcheck.geometry.pair import COLUMNS, REFUSED
-from hypcheck.geometry.rows import PAIRS, SWEEPS, Floats, Rows
-from hypcheck.implementations import sweeps
+from hypcheck.geometry.rows import PAIRS, Floats, Rows
 from hypcheck.kernel.classify import classify
-from hypcheck.runs.causes import SILENT, AnsweredRows, Answers, Cause, Rule, Scope, cause, silent
-from hypcheck.runs.judge import time_is_right
-from hypcheck.truth.passage_error import passage_of
+from hypcheck.runs.causes import SILENT, AnsweredRows, Answers, Cause, Rule, Scope, cause
 
 _MOSTLY = 0.5
 """A formula is evaluated exactly, too, where it gives this share of the wrong answers in float64."""
@@ -202,7 +199,8 @@ def _smaller(c: dict[str, Floats]) -> Floats:
     return np.minimum(c["b"], c["d"])
 
 
-def _always(answer: int) -> Rule:
+def always(answer: int) -> Rule:
+    """The rule that gives this answer to every row."""
     return lambda answered: np.full(len(answered.rows), answer, dtype=np.int8)
 
 
@@ -217,17 +215,18 @@ def _horizontally(answered: AnsweredRows) -> Answers:
     return answered.answers_at(np.where(gap > b, 1, np.where(gap < -b, -1, 0)).astype(np.int8))
 
 
-def _errors(subject: str, rules: Mapping[str, Rule], scope: Scope = Scope.EVERYWHERE) -> tuple[Cause, ...]:
+def causes_about(subject: str, rules: Mapping[str, Rule], scope: Scope = Scope.EVERYWHERE) -> tuple[Cause, ...]:
+    """The causes about a subject: "upright", "tilted" or "way", one for each of the rules by name."""
     return tuple(cause(name, rule, scope, subject=subject) for name, rule in rules.items())
 
 
 UPRIGHT_FORMULA_ERRORS = (
-    *_errors(
+    *causes_about(
         "upright",
         {
-            "always-0": _always(0),
-            "always-1": _always(1),
-            "always-minus-1": _always(-1),
+            "always-0": always(0),
+            "always-1": always(1),
+            "always-minus-1": always(-1),
             "horizontal-gap": _horizontally,
             "centre-alone": lambda answered: answered.answers_at(np.sign(_gap(answered)).astype(np.int8)),
             "sides-exchanged": lambda answered: answered.answers_at((-answered.truth).astype(np.int8)),
@@ -314,7 +313,7 @@ def _along(factor: Callable[[Rows], Floats]) -> Rule:
     return _changed(change)
 
 
-TILTED_FORMULA_ERRORS = _errors(
+TILTED_FORMULA_ERRORS = causes_about(
     "tilted",
     {
         "axis-ignored": _axis(lambda x, y, z: (0 * x, 0 * y, 1 + 0 * z)),
@@ -346,105 +345,3 @@ TILTED_FORMULA_ERRORS = _errors(
     },
 )
 """The axis ignored, read, normalised or turned wrongly; other bodies. The simplest first."""
-
-SAME_TIME = 1e-9
-"""Two times of a sweep, from 0 to 1, that a rule and an implementation may compute differently."""
-
-_MOST_SWEEPS = 512
-"""Where bounds do not decide a sweep, it costs milliseconds, so only so many sweeps of a chunk are asked again."""
-
-
-def _touches(answered: AnsweredRows, place: int) -> Answers:
-    """Whether the spheroid is in contact at one end of each sweep: the start (`place` 4) or the end (7)."""
-    rows = answered.rows
-    ends = np.hstack([rows[:, :4], rows[:, place : place + 3], rows[:, 10:]])
-    return np.asarray(classify(np.ascontiguousarray(ends)) == 0, dtype=np.int8)
-
-
-def _timed(answered: AnsweredRows, hits: Answers, times: Floats | float) -> Answers:
-    """The hits, but SILENT where the given answer is a hit at a time other than this rule's."""
-    if answered.times is None:
-        return hits
-    with np.errstate(invalid="ignore"):
-        other = (hits == 1) & (answered.given == 1) & ~(np.abs(answered.times - times) <= SAME_TIME)
-    return np.where(other, SILENT, hits).astype(np.int8)
-
-
-def _at_both_ends(answered: AnsweredRows) -> Answers:
-    first = _touches(answered, 4)
-    return _timed(answered, np.maximum(first, _touches(answered, 7)), np.where(first == 1, 0.0, 1.0))
-
-
-def _between(answered: AnsweredRows) -> Answers:
-    """The rule that answers clear where both ends are clear and the sweep between them is not."""
-    first, last = _touches(answered, 4), _touches(answered, 7)
-    missed = (answered.truth == 1) & (answered.given == 0) & (first == 0) & (last == 0)
-    return np.where(missed, 0, SILENT).astype(np.int8)
-
-
-def _other_sweeps(*order: int) -> Rule:
-    """The rule that answers sweeps whose columns are in this order; SILENT about tilted spheroids."""
-
-    def rule(answered: AnsweredRows) -> Answers:
-        answers, times = silent(answered), np.zeros(len(answered.rows))
-        if SWEEPS.has_axis(answered.rows):
-            return answers
-        answers[:_MOST_SWEEPS], times[:_MOST_SWEEPS] = sweeps.certified_times(
-            np.ascontiguousarray(answered.rows[:_MOST_SWEEPS, order])
-        )
-        return _timed(answered, answers, times)
-
-    return rule
-
-
-def _where_time(answered: AnsweredRows, holds: Callable[[tuple[float, ...], float], bool]) -> Answers:
-    """The given answer where it is a right hit and `holds` is true of its sweep and its time; SILENT elsewhere."""
-    answers = silent(answered)
-    if answered.times is not None:
-        for place in np.flatnonzero((answered.given == 1) & (answered.truth == 1)).tolist():
-            if holds(tuple(answered.rows[place].tolist()), float(answered.times[place])):
-                answers[place] = 1
-    return answers
-
-
-def _times_from_the_end(answered: AnsweredRows) -> Answers:
-    """The given answer where its time is right if it is counted from the sweep's end."""
-    return _where_time(answered, lambda row, time: time_is_right(row, 1 - time, answered.criterion))
-
-
-def _times_off(answered: AnsweredRows, *, late: bool) -> Answers:
-    """The given answer where only its time is wrong, `late` or early, by less than a thousandth of the sweep."""
-
-    def is_off(row: tuple[float, ...], time: float) -> bool:
-        off = time - passage_of(row).first_lower
-        return 0 < abs(off) < 1e-3 and (off > 0) is late and not time_is_right(row, time, answered.criterion)
-
-    return _where_time(answered, is_off)
-
-
-SWEEP_FORMULA_ERRORS = (
-    *_errors("way", {"between-positions": _between}, Scope.PLACE),
-    *_errors(
-        "way",
-        {
-            "late-times": lambda answered: _times_off(answered, late=True),
-            "early-times": lambda answered: _times_off(answered, late=False),
-        },
-        Scope.ROUNDING,
-    ),
-    *_errors(
-        "way",
-        {
-            "only-the-start": lambda answered: _timed(answered, _touches(answered, 4), 0.0),
-            "only-the-end": lambda answered: _timed(answered, _touches(answered, 7), 1.0),
-            "only-the-ends": _at_both_ends,
-            "way-x-z": _other_sweeps(0, 1, 2, 3, 6, 5, 4, 9, 8, 7),
-            "way-b-d": _other_sweeps(0, 1, 3, 2, 4, 5, 6, 7, 8, 9),
-            "way-level": _other_sweeps(0, 1, 2, 3, 4, 5, 6, 7, 8, 6),
-            "way-always-0": _always(0),
-            "way-always-1": lambda answered: _timed(answered, _always(1)(answered), 0.0),
-            "times-from-the-end": _times_from_the_end,
-        },
-    ),
-)
-"""Positions tested in place of the sweep, columns and times mistaken. The simplest first."""

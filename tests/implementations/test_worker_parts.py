@@ -82,6 +82,11 @@ def test_a_function_for_ways_that_does_not_return_hits_and_times_raises_an_error
         loaded(f"def f(rows):\n    return {returned}").classify(ROWS, TIMED)
 
 
+def test_a_function_that_returns_times_unasked_hears_what_its_description_must_say(loaded):
+    with pytest.raises(ContractError, match=r"it must be \(3,\); to return times .* must say \"times\": True"):
+        loaded("def f(rows):\n    return [1, 0, 1], [0.5, 0.5, 0.5]").classify(ROWS, POSITION)
+
+
 def test_a_function_may_return_times_of_any_type_and_too_large_answers_stay_invalid(loaded):
     function = loaded("import numpy as np\ndef f(rows):\n    return np.array([1, 0, 2**64 - 1], np.uint64), [0, 1, 0]")
     given = function.classify(ROWS, TIMED)

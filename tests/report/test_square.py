@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 
 from hypcheck.report.terminal import summary_lines
@@ -48,6 +50,14 @@ def test_a_failing_run_opens_with_the_square_of_truth_against_answer():
 def test_each_question_has_its_own_right_answers(question, answers, rows):
     lines = summary(gated(answers, question))[2 : 2 + len(rows)]
     assert [" ".join(line.split()[-len(row.split()) :]) for line, row in zip(lines, rows, strict=True)] == rows
+
+
+def test_hits_at_a_wrong_time_are_apart_from_right_ones_and_fail_where_no_other_answer_is_wrong():
+    late = {**gated({"1": {"1": 12}, "0": {"0": 4}}, "passage"), "mistakes": {"late": 2, "early": 1}}
+    *titles, hits, clear = (re.split(r"  +", line.strip()) for line in summary(late)[1:4])
+    assert titles[0][1:] == [*titles[0][1:3], "contact too late", "contact too early"]
+    assert hits[1:] == ["9", "0", f"2 {AMISS}", f"1 {AMISS}"]
+    assert clear[1:] == ["0", "4", "0", "0"]
 
 
 def test_squares_of_families_add_up_and_a_run_that_passed_shows_none():

@@ -19,8 +19,8 @@ delta-negative decision-c1 decision-c2 axis-ignored axis-level axis-towards-x ax
 axis-x-y axis-y-z axis-x-z axis-sign axis-down degrees-as-radians radians-as-degrees half-angle double-angle
 angle-from-the-plane small-angle axis-not-normalised axis-over-length axis-over-sum axis-over-greatest
 axis-in-float32 direction-in-float32 axis-is-d tilted-b-d tilted-ball-around tilted-ball-within between-positions
-late-times early-times only-the-start only-the-end only-the-ends way-x-z way-b-d way-level way-always-0 way-always-1
-times-from-the-end
+sampled-times late-times early-times only-the-start only-the-end only-the-ends way-x-z way-b-d way-level way-always-0
+way-always-1 times-from-the-end
 """
 PUBLISHED = IDS.split()
 

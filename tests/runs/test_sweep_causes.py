@@ -1,4 +1,4 @@
-"""Each known mistake about ways gives the answers of an implementation that makes it, and is silent about others."""
+"""Each known mistake about sweeps gives the answers of an implementation with it, and is silent about others."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ import pytest
 
 import hypcheck
 from hypcheck.runs.causes import SILENT, AnsweredRows
-from hypcheck.runs.formula_errors import SWEEP_FORMULA_ERRORS
 from hypcheck.runs.judge import Criterion
+from hypcheck.runs.sweep_causes import SWEEP_CAUSES
 from tests.support.fractions_truth import exact_position
 
 SIZES = (2.0, 3.0, 0.25, 0.15)
 COUNT = 150
-RULES = {cause.name: cause.rule for cause in SWEEP_FORMULA_ERRORS}
+RULES = {cause.name: cause.rule for cause in SWEEP_CAUSES}
 
 
 def ways(count, seed=7):
@@ -58,13 +58,13 @@ def test_ways_of_these_tests_have_contacts_at_the_start_in_between_and_none():
         ("way-level", lambda r: [*r[:9], r[6]]),
     ],
 )
-def test_rule_of_a_slip_gives_the_answers_of_an_implementation_with_that_slip(name, given):
+def test_rule_of_a_mistake_gives_the_answers_of_an_implementation_with_it(name, given):
     """A function stands for the exact answers about the rows that it makes of the right ones."""
     given = hits_of(given) if callable(given) else given
     assert RULES[name](answered(given)).tolist() == np.asarray(given, dtype=np.int8).tolist()
 
 
-def test_slip_of_testing_only_the_ends_explains_only_missed_contacts():
+def test_positions_tested_for_the_sweep_explain_only_missed_contacts():
     given = STARTS | ENDS
     said = RULES["between-positions"](answered(given))
     missed = (HITS == 1) & (given == 0)
@@ -73,13 +73,13 @@ def test_slip_of_testing_only_the_ends_explains_only_missed_contacts():
     assert (said[~missed] == SILENT).all()
 
 
-def test_formula_errors_of_swapped_columns_do_not_apply_to_tilted_spheroids():
+def test_causes_of_swapped_columns_do_not_apply_to_tilted_spheroids():
     leaning = np.hstack([ROWS, np.tile([0.0, 0.0, 1.0], (COUNT, 1))])
     assert (RULES["way-x-z"](answered(HITS, rows=leaning)) == SILENT).all()
     assert RULES["only-the-start"](answered(HITS, rows=leaning)).tolist() == STARTS.tolist()
 
 
-def test_slip_does_not_explain_a_contact_at_another_time_than_its_own():
+def test_a_cause_does_not_explain_a_contact_at_another_time_than_its_own():
     times = np.where(STARTS == 1, 0.0, np.nan)
     assert RULES["only-the-start"](answered(STARTS, times)).tolist() == STARTS.tolist()
     later = RULES["only-the-start"](answered(STARTS, times + 0.5))
@@ -94,19 +94,33 @@ def explained(name, times):
 
 
 @pytest.mark.slow
-def test_slip_of_times_counted_from_the_end_explains_such_times_and_no_right_ones():
+def test_times_counted_from_the_end_explain_such_times_and_no_right_ones():
     assert explained("times-from-the-end", 1 - FIRST)[ON_THE_WAY].all()
     assert not explained("times-from-the-end", FIRST)[ON_THE_WAY].any()
 
 
 @pytest.mark.parametrize(("name", "off"), [("late-times", 1e-4), ("early-times", -1e-4)])
-def test_formula_errors_of_slightly_wrong_times_are_distinguished_by_direction(name, off):
+def test_slightly_wrong_times_are_distinguished_by_direction(name, off):
     assert ON_THE_WAY.sum() > 5
     assert explained(name, FIRST + off)[ON_THE_WAY].all()
     for other in (FIRST - off, FIRST, FIRST + 100 * off):
         assert not explained(name, other)[ON_THE_WAY].any()
 
 
-@pytest.mark.parametrize("name", ["times-from-the-end", "late-times"])
-def test_formula_errors_about_times_do_not_apply_to_answers_without_times(name):
+@pytest.mark.parametrize("later", [0.1, 0.3])
+def test_sampled_times_are_those_of_contact_that_are_much_later_than_the_first(later):
+    times = FIRST + later
+    centres = ROWS[:, 4:7] + times[:, None] * (ROWS[:, 7:] - ROWS[:, 4:7])
+    touches = np.zeros(COUNT, dtype=np.bool_)
+    for place in np.flatnonzero(ON_THE_WAY):
+        touches[place] = exact_position((*SIZES, *centres[place].tolist())) == 0
+    assert touches.any()
+    assert (ON_THE_WAY & ~touches).any()
+    assert (explained("sampled-times", times) & ON_THE_WAY).tolist() == touches.tolist()
+    for other in (FIRST, FIRST + 1e-4, FIRST - 0.005):
+        assert not explained("sampled-times", other)[ON_THE_WAY].any()
+
+
+@pytest.mark.parametrize("name", ["times-from-the-end", "late-times", "sampled-times"])
+def test_causes_about_times_do_not_apply_to_answers_without_times(name):
     assert (RULES[name](answered(HITS)) == SILENT).all()

@@ -1,0 +1,135 @@
+"""Causes about sweeps: positions tested in place of the sweep, columns mistaken, times of first contact wrong.
+
+A rule about the input answers the sweep that its sentence in causes.toml says. A rule about times gives the given
+answer where only the time is wrong, in its way.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from hypcheck.geometry.rows import SWEEPS, Floats
+from hypcheck.implementations import sweeps
+from hypcheck.kernel.classify import classify
+from hypcheck.runs.causes import SILENT, AnsweredRows, Answers, Rule, Scope, silent
+from hypcheck.runs.formula_errors import always, causes_about
+from hypcheck.runs.judge import time_is_right
+from hypcheck.truth.passage_error import passage_of
+
+SAME_TIME = 1e-9
+"""Two times of a sweep, from 0 to 1, that a rule and an implementation may compute differently."""
+
+_SLIGHTLY = 1e-3
+"""Times that are off by less were computed inexactly; those that are later by more are of another position."""
+
+_MOST_SWEEPS = 512
+"""Where bounds do not decide a sweep, it costs milliseconds, so only so many sweeps of a chunk are asked again."""
+
+
+def _touches(answered: AnsweredRows, times: Floats | float) -> Answers:
+    """Whether the spheroid is in contact at these times of the sweeps: 0 is the start, 1 the end."""
+    rows, times = answered.rows, np.full((1, len(answered.rows)), times).T
+    centres = (1 - times) * rows[:, 4:7] + times * rows[:, 7:10]
+    return np.asarray(classify(np.hstack([rows[:, :4], centres, rows[:, 10:]])) == 0, dtype=np.int8)
+
+
+def _timed(answered: AnsweredRows, hits: Answers, times: Floats | float) -> Answers:
+    """The hits, but SILENT where the given answer is a hit at a time other than this rule's."""
+    if answered.times is None:
+        return hits
+    with np.errstate(invalid="ignore"):
+        other = (hits == 1) & (answered.given == 1) & ~(np.abs(answered.times - times) <= SAME_TIME)
+    return np.where(other, SILENT, hits).astype(np.int8)
+
+
+def _at_both_ends(answered: AnsweredRows) -> Answers:
+    first = _touches(answered, 0.0)
+    return _timed(answered, np.maximum(first, _touches(answered, 1.0)), np.where(first == 1, 0.0, 1.0))
+
+
+def _between(answered: AnsweredRows) -> Answers:
+    """The rule that answers clear where both ends are clear and the sweep between them is not."""
+    first, last = _touches(answered, 0.0), _touches(answered, 1.0)
+    missed = (answered.truth == 1) & (answered.given == 0) & (first == 0) & (last == 0)
+    return np.where(missed, 0, SILENT).astype(np.int8)
+
+
+def _other_sweeps(*order: int) -> Rule:
+    """The rule that answers sweeps whose columns are in this order; SILENT about tilted spheroids."""
+
+    def rule(answered: AnsweredRows) -> Answers:
+        answers, times = silent(answered), np.zeros(len(answered.rows))
+        if SWEEPS.has_axis(answered.rows):
+            return answers
+        answers[:_MOST_SWEEPS], times[:_MOST_SWEEPS] = sweeps.certified_times(
+            np.ascontiguousarray(answered.rows[:_MOST_SWEEPS, order])
+        )
+        return _timed(answered, answers, times)
+
+    return rule
+
+
+def _where_time(answered: AnsweredRows, holds: Callable[[tuple[float, ...], float], bool]) -> Answers:
+    """The given answer where it is a right hit and `holds` is true of its sweep and its time; SILENT elsewhere."""
+    answers = silent(answered)
+    if answered.times is not None:
+        for place in np.flatnonzero((answered.given == 1) & (answered.truth == 1)).tolist():
+            if holds(tuple(answered.rows[place].tolist()), float(answered.times[place])):
+                answers[place] = 1
+    return answers
+
+
+def _times_from_the_end(answered: AnsweredRows) -> Answers:
+    """The given answer where its time is right if it is counted from the sweep's end."""
+    return _where_time(answered, lambda row, time: time_is_right(row, 1 - time, answered.criterion))
+
+
+def _times_off(answered: AnsweredRows, *, late: bool) -> Answers:
+    """The given answer where only its time is wrong, `late` or early, by less than a thousandth of the sweep."""
+
+    def is_off(row: tuple[float, ...], time: float) -> bool:
+        off = time - passage_of(row).first_lower
+        return 0 < abs(off) < _SLIGHTLY and (off > 0) is late and not time_is_right(row, time, answered.criterion)
+
+    return _where_time(answered, is_off)
+
+
+def _sampled(answered: AnsweredRows) -> Answers:
+    """The given answer where its time is one of contact, by a thousandth of the sweep or more after the first."""
+
+    def is_late(row: tuple[float, ...], time: float) -> bool:
+        return time - passage_of(row).first_lower >= _SLIGHTLY and not time_is_right(row, time, answered.criterion)
+
+    touches = _touches(answered, 0.0 if answered.times is None else np.nan_to_num(answered.times))
+    return np.where(touches == 1, _where_time(answered, is_late), SILENT).astype(np.int8)
+
+
+SWEEP_CAUSES = (
+    *causes_about("way", {"between-positions": _between}, Scope.PLACE),
+    *causes_about(
+        "way",
+        {
+            "late-times": lambda answered: _times_off(answered, late=True),
+            "early-times": lambda answered: _times_off(answered, late=False),
+        },
+        Scope.ROUNDING,
+    ),
+    *causes_about(
+        "way",
+        {
+            "only-the-start": lambda answered: _timed(answered, _touches(answered, 0.0), 0.0),
+            "only-the-end": lambda answered: _timed(answered, _touches(answered, 1.0), 1.0),
+            "only-the-ends": _at_both_ends,
+            "way-x-z": _other_sweeps(0, 1, 2, 3, 6, 5, 4, 9, 8, 7),
+            "way-b-d": _other_sweeps(0, 1, 3, 2, 4, 5, 6, 7, 8, 9),
+            "way-level": _other_sweeps(0, 1, 2, 3, 4, 5, 6, 7, 8, 6),
+            "way-always-0": always(0),
+            "way-always-1": lambda answered: _timed(answered, always(1)(answered), 0.0),
+            "times-from-the-end": _times_from_the_end,
+        },
+    ),
+    *causes_about("way", {"sampled-times": _sampled}, Scope.PLACE),
+)
+"""Positions tested in place of the sweep, columns and times mistaken. The simplest first."""
