@@ -188,7 +188,10 @@ MIXED = (*FAMILIES, "waist", "axis", "small-integers", "tangent", "degenerate-cr
     [
         (by_roots(poles=False, ignoring_pairs=True), {"complex-pair-ignored", "throat", "groove"}),
         (by_roots(poles=True), {"root-at-lower-pole", "root-at-upper-pole", "ring"}),
-        (by_roots(poles=True, tolerance=1e-6), {"root-at-lower-pole", "root-at-upper-pole", "ring"}),
+        pytest.param(
+            *(by_roots(poles=True, tolerance=1e-6), {"root-at-lower-pole", "root-at-upper-pole", "ring"}),
+            marks=pytest.mark.thorough,
+        ),
         (by_roots(poles=False, tolerance=1e-3), {"imaginary-part-tolerance", "repeated-root-beyond-a-pole", "throat"}),
     ],
     ids=["all real roots positive", "between the poles", "between the poles, 1e-6", "three real ones, 1e-3"],

@@ -27,8 +27,8 @@ def as_json(capsys, *words):
 
 
 @pytest.mark.parametrize("name", IDS)
-def test_row_of_each_cause_has_the_proved_truth_and_a_wrong_answer(name, capsys):
-    shown = as_json(capsys, name)
+def test_text_and_json_of_a_cause_say_the_same_and_its_row_has_the_proved_truth_and_a_wrong_answer(name, capsys):
+    text, shown = printed(capsys, name), as_json(capsys, name)
     witness, about = shown["witness"], shown["about"]
     row = witness["row"]
     assert [float.fromhex(each) for each in witness["hex"]] == row
@@ -43,11 +43,6 @@ def test_row_of_each_cause_has_the_proved_truth_and_a_wrong_answer(name, capsys)
     else:
         assert exact_position(row) == witness["truth"]
     assert witness["answer"] != witness["truth"] or "time" in witness
-
-
-@pytest.mark.parametrize("name", IDS)
-def test_text_and_json_of_a_cause_say_the_same(name, capsys):
-    text, shown = printed(capsys, name), as_json(capsys, name)
     assert text.startswith(f"{name} (")
     for part in ("why", "remedy", "recognise"):
         assert shown[part]

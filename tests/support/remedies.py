@@ -7,11 +7,15 @@ where …" adds an alternative to it, whatever else is required; "read the colum
 
 from __future__ import annotations
 
+import ast
 import re
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
-from functools import lru_cache
+from functools import cache, lru_cache
 from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from hypcheck.runs.causes import Cause
 
@@ -45,40 +49,106 @@ EVERYWHERE: Formula = {
 }
 """The coefficient form for all regimes, which is right everywhere (docs/mathematics.md)."""
 
-_ORDER = (*"ABPQ", "c0", "c1", "c2", "delta", "E", "positive")
 _CONDITIONS = ("exterior", "interior")
-
-
-def positions(formula: Formula, rows: Rows) -> list[int]:
-    """The answers of a formula to rows, in exact rationals: its expressions are evaluated as they are written."""
-    answers = dict(zip(_CONDITIONS, map(int, formula["answers"].split(",")), strict=True))
-    parts = {
-        name: [compile(formula[part], part, "eval") for part in (name, f"{name}_also") if part in formula]
-        for name in _CONDITIONS
-    }
-    definitions = tuple((name, formula[name]) for name in ("columns", *_ORDER) if name in formula)
-
-    def answer(known: dict[str, Any]) -> int:
-        holding = (name for name in _CONDITIONS if any(eval(part, {}, known) for part in parts[name]))  # noqa: S307 - printed text and this file's
-        return answers.get(next(holding, ""), 0)
-
-    return [answer(known) for known in _quantities(definitions, rows)]
 
 
 Rows = tuple[tuple[float, ...], ...]
 
 
-@lru_cache(maxsize=4)
-def _quantities(definitions: tuple[tuple[str, str], ...], rows: Rows) -> list[dict[str, Any]]:
-    (_, columns), *others = definitions
-    compiled = [(name, compile(text, name, "eval")) for name, text in others]
-    found = []
-    for row in rows:
-        known: dict[str, Any] = dict(zip(columns.split(", "), map(Fraction, row), strict=True))
-        for name, code in compiled:
-            known[name] = eval(code, {"abs": abs, "max": max, "min": min}, known)  # noqa: S307
-        found.append(known)
-    return found
+def positions(formula: Formula, rows: Rows) -> list[int]:
+    """The answers of a formula to rows, in exact rationals: its expressions are evaluated as they are written."""
+    evaluation = _Evaluation(formula, rows)
+    answers = np.zeros(len(rows), dtype=int)
+    undecided = np.ones(len(rows), dtype=bool)
+    for name, answer in zip(_CONDITIONS, map(int, formula["answers"].split(",")), strict=True):
+        holds = np.zeros(len(rows), dtype=bool)
+        for part in (name, f"{name}_also"):
+            if part in formula:
+                holds |= evaluation.holds(formula[part])
+        answers[undecided & holds] = answer
+        undecided &= ~holds
+    return answers.tolist()
+
+
+class _Evaluation:
+    """Evaluates a formula for all rows at once; values that formulas have in common are computed once."""
+
+    def __init__(self, formula: Formula, rows: Rows) -> None:
+        self._formula = formula
+        self._rows = rows
+        self._known = _known(rows)
+        self._full = {name: f"row[{place}]" for place, name in enumerate(formula["columns"].split(", "))}
+        self._full |= {name: name for name in _FUNCTIONS}
+
+    def holds(self, text: str) -> NDArray[np.bool_]:
+        """Of which rows a condition holds."""
+        return self._holds(text, _tree(text))
+
+    def _holds(self, text: str, tree: ast.expr) -> NDArray[np.bool_]:
+        match tree:
+            case ast.BoolOp(op=ast.And()):
+                return np.logical_and.reduce([self._holds(text, part) for part in tree.values])
+            case ast.BoolOp(op=ast.Or()):
+                return np.logical_or.reduce([self._holds(text, part) for part in tree.values])
+            case ast.UnaryOp(op=ast.Not()):
+                return ~self._holds(text, tree.operand)
+            case ast.Constant():
+                return np.full(len(self._rows), tree.value, dtype=bool)
+            case ast.Name():
+                return self.holds(self._formula[tree.id])
+        return np.array(self._values(text[tree.col_offset : tree.end_col_offset]))
+
+    def _values(self, text: str) -> list[Any]:
+        key = self._in_full(text)
+        if key not in self._known:
+            if len(self._known) > _MOST:
+                self._known.clear()
+            names = [name for name in _names(text) if name not in _FUNCTIONS]
+            columns = [self._column(name) for name in names]
+            compute = eval(f"lambda {', '.join(names)}: {text}", dict(_FUNCTIONS))  # noqa: S307 - printed text and this file's
+            self._known[key] = [compute(*values) for values in zip(*columns, strict=True)]
+        return self._known[key]
+
+    def _column(self, name: str) -> list[Any]:
+        key = self._meaning(name)
+        if name in self._formula:
+            return self._values(self._formula[name])
+        if key not in self._known:
+            place = self._formula["columns"].split(", ").index(name)
+            self._known[key] = [Fraction(row[place]) for row in self._rows]
+        return self._known[key]
+
+    def _meaning(self, name: str) -> str:
+        if name not in self._full:
+            self._full[name] = f"({self._in_full(self._formula[name])})"
+        return self._full[name]
+
+    def _in_full(self, text: str) -> str:
+        """The expression with places in the row for all names, which means the same in every formula."""
+        return _NAME.sub(lambda match: self._meaning(match[0]), text.replace(" ", ""))
+
+
+_MOST = 300
+"""Values of so many expressions are kept."""
+
+_FUNCTIONS = {"abs": abs, "max": max, "min": min}
+_NAME = re.compile(r"[A-Za-z_]\w*")
+
+
+@cache
+def _tree(text: str) -> ast.expr:
+    return ast.parse(text, mode="eval").body
+
+
+@cache
+def _names(text: str) -> list[str]:
+    return sorted(set(_NAME.findall(text)))
+
+
+@lru_cache(maxsize=2)
+def _known(rows: Rows) -> dict[str, list[Any]]:
+    """Values of these rows, by the expression in full."""
+    return {}
 
 
 _SIGNS = {"−": "-", "Δ": "delta", "α": "alpha", "γ": "gamma", "²": "**2", "³": "**3"}
