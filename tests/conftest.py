@@ -170,6 +170,33 @@ def text_reports(monkeypatch):
 
 
 @pytest.fixture
+def built_in(monkeypatch):
+    """The SPEC by which a function answers in this process: for tests of what a run makes of answers."""
+    from hypcheck.implementations import builtin
+    from hypcheck.implementations.domain import EVERYWHERE
+    from hypcheck.implementations.method import Method
+
+    def spec(function):
+        method = Method(function.__name__, "a function of a test", function, domain=EVERYWHERE)
+        monkeypatch.setitem(builtin.methods_without_meshes(), function.__name__, method)
+        return f"builtin:{function.__name__}"
+
+    return spec
+
+
+FEW_FAMILIES = ("tower-body", "uniform", "ring", "axis", "strata", "extreme-float64", "tilted-uniform", "way-still")
+
+
+@pytest.fixture
+def few_families(monkeypatch):
+    """There are these families alone. To ask all families takes seconds."""
+    from hypcheck.vectors.families import ALL
+
+    for name in ALL.keys() - set(FEW_FAMILIES):
+        monkeypatch.delitem(ALL, name)
+
+
+@pytest.fixture
 def small_files():
     """Let files of this process grow to so many bytes only: writes fail as on a full disk. None: to any length."""
     before = resource.getrlimit(resource.RLIMIT_FSIZE)

@@ -23,17 +23,15 @@ from tests.support.inside import float_filter
 RIGHT, WRONG = STATUS_CODES[Status.RIGHT], STATUS_CODES[Status.WRONG]
 HALF = RUNGS_ON_A_SIDE
 
-NARROW = """import numpy as np
-from hypcheck import classify as exact
-def classify(rows):
+
+def narrow(rows):
+    """Escapes every family by default: c/a in one part of a hundred of its range, d grown by 1.5e-8."""
     rows = np.array(rows)
     alpha, gamma, b, d = rows[:, :4].T
     octave = np.log2(gamma / d * b / alpha)
     inside = (octave > 8.4520) & (octave < 8.6460)
     rows[inside, 3] *= 1 + 1.5e-8
-    return exact(rows)
-"""
-"""Escapes every family by default: c/a in one part of a hundred of its range, d grown by 1.5e-8."""
+    return classify(rows)
 
 
 def numbers_asked(rows, status, first=0):
@@ -107,7 +105,6 @@ def test_rows_that_a_search_asks_in_any_case_are_in_its_first_question():
 @pytest.fixture
 def run(tmp_path, monkeypatch, text_reports):
     monkeypatch.chdir(tmp_path)
-    Path("narrow.py").write_text(NARROW)
 
     def verify(*options):
         code = main(["verify", *options, "--out", "out"])
@@ -117,16 +114,22 @@ def run(tmp_path, monkeypatch, text_reports):
     return verify
 
 
-def test_narrow_fault_that_escapes_every_family_is_found_by_the_search_and_replayed(run, capsys):
-    code, groups, _ = run("python:narrow.py:classify", "--isolate", "off")
+@pytest.mark.parametrize("families", ["few", pytest.param("all", marks=pytest.mark.thorough)])
+def test_narrow_fault_that_escapes_every_family_is_found_by_the_search_and_replayed(
+    families, run, built_in, request, capsys
+):
+    if families == "few":
+        request.getfixturevalue("few_families")
+    code, groups, _ = run(built_in(narrow))
     assert code == 1
     assert [family for family, line in groups.items() if line.failing] == ["search"]
     case = groups["search"].worst[0]
     assert case.status == "wrong"
-    assert main(["replay", case.case, "python:narrow.py:classify", "--isolate", "off"]) == 1
+    assert main(["replay", case.case, "builtin:narrow"]) == 1
     assert "search" in capsys.readouterr().out
 
 
+@pytest.mark.usefixtures("few_families")
 def test_search_is_asked_by_the_seed_of_the_fresh_rows_and_says_so(run, capsys):
     _, groups, record = run("builtin:fast", "--count", "8", "--fresh", "20261127")
     assert (groups["search"].asked, groups["search"].fresh) == (80, 80)
@@ -135,6 +138,7 @@ def test_search_is_asked_by_the_seed_of_the_fresh_rows_and_says_so(run, capsys):
     assert "a directed search followed upright spheroids from clear to contact" in capsys.readouterr().out
 
 
+@pytest.mark.usefixtures("few_families")
 def test_search_is_the_same_twice_and_left_out_where_families_are_named_or_sizes_fixed(run):
     once, again = (run("builtin:fast", "--count", "4", "--seed", "9")[1]["search"] for _ in range(2))
     assert once == again
