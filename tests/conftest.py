@@ -6,6 +6,7 @@ import gc
 import os
 import resource
 import signal
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -171,15 +172,29 @@ def text_reports(monkeypatch):
 
 @pytest.fixture
 def built_in(monkeypatch):
-    """The SPEC by which a function answers in this process: for tests of what a run makes of answers."""
+    """The SPEC by which a function answers in this process: for tests of what a run makes of answers.
+
+    Further values are those of its description.
+    """
     from hypcheck.implementations import builtin
-    from hypcheck.implementations.domain import EVERYWHERE
     from hypcheck.implementations.method import Method
 
-    def spec(function):
-        method = Method(function.__name__, "a function of a test", function, domain=EVERYWHERE)
-        monkeypatch.setitem(builtin.methods_without_meshes(), function.__name__, method)
-        return f"builtin:{function.__name__}"
+    declares = {}
+
+    class Session(builtin.BuiltinSession):
+        def __init__(self, name):
+            super().__init__(name)
+            self.description = replace(self.description, **declares.get(name, {}))
+
+    def spec(function, **declared):
+        name = function.__name__
+        timed = function if declared.get("times") else None
+        monkeypatch.setitem(
+            builtin.methods_without_meshes(), name, Method(name, "a function of a test", function, timed=timed)
+        )
+        monkeypatch.setattr(builtin, "BuiltinSession", Session)
+        declares[name] = {"version": "", "binary": False, "time": False, **declared}
+        return f"builtin:{name}"
 
     return spec
 

@@ -29,7 +29,7 @@ def upright(rows):
 def refuses_upright_rows_alone(rows):
     """A row without a direction is answered as contact, as if it were any other."""
     answers = exact(rows)
-    answers[invalid(rows) & ~invalid(with_axis(rows[:, :7])) & ~rows[:, 7:].any(axis=1)] = 0
+    answers[invalid(rows) & ~invalid(with_axis(rows[:, :7])) & (rows[:, 7:] == 0).all(axis=1)] = 0
     return answers
 
 

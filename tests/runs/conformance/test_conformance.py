@@ -11,6 +11,7 @@ import pytest
 from hypcheck.cli.main import main
 from hypcheck.record import read
 from hypcheck.record.lines import GroupLine
+from tests.runs import faulty
 
 pytestmark = pytest.mark.usefixtures("text_reports")
 
@@ -41,45 +42,46 @@ def test_verify_passes_an_exact_implementation_with_tolerance_0(tmp_path):
 
 
 def test_table_2_fails_on_the_ring_and_passes_on_the_scenes_of_the_paper(tmp_path):
-    assert gate(tmp_path, "builtin:table-2-float64", "--families", "ring")[0] == 1
-    assert gate(tmp_path, "builtin:table-2-float64", "--families", "forest-type-1,forest-type-2")[0] == 0
+    assert gate(tmp_path, "builtin:table-2-float64", "--families", "ring", count="4")[0] == 1
+    assert gate(tmp_path, "builtin:table-2-float64", "--families", "forest-type-1,forest-type-2", count="4")[0] == 0
 
 
-def test_implementation_with_a_constant_answer_fails(tmp_path):
-    families = ["--families", "uniform,tower-body,near-tangent-outside"]
-    code, record = gate(tmp_path, subject("contact_everywhere"), *families, count="400")
+def test_implementation_with_a_constant_answer_fails(tmp_path, built_in):
+    code, record = gate(tmp_path, built_in(faulty.contact_everywhere), "--families", "uniform,near-tangent-outside")
     assert code == 1
-    assert statuses(record)["wrong"] > 1000
+    assert statuses(record)["wrong"] > 200
 
 
-def test_option_fail_on_false_clear_passes_other_wrong_answers(tmp_path):
+def test_option_fail_on_false_clear_passes_other_wrong_answers(tmp_path, built_in):
     families = ["--families", "near-tangent-outside"]
-    assert gate(tmp_path, subject("never_clear_by_a_little"), *families, count="4")[0] == 1
-    assert gate(tmp_path, subject("never_clear_by_a_little"), *families, "--fail-on", "false-clear", count="4")[0] == 0
-    assert gate(tmp_path, subject("too_clear"), *families, "--fail-on", "false-clear", count="4")[0] == 1
+    wall, gap = built_in(faulty.never_clear_by_a_little), built_in(faulty.too_clear)
+    assert gate(tmp_path, wall, *families, count="4")[0] == 1
+    assert gate(tmp_path, wall, *families, "--fail-on", "false-clear", count="4")[0] == 0
+    assert gate(tmp_path, gap, *families, "--fail-on", "false-clear", count="4")[0] == 1
 
 
-def test_run_passes_with_at_most_max_abstained_abstentions(tmp_path):
-    families = ["--families", "tower-body"]
-    code, record = gate(tmp_path, subject("cannot_say_above"), *families)
+def test_run_passes_with_at_most_max_abstained_abstentions(tmp_path, built_in):
+    spec, *families = built_in(faulty.cannot_say_above), "--families", "tower-body"
+    code, record = gate(tmp_path, spec, *families, count="4")
     assert code == 1
     number = statuses(record)["abstained"]
-    assert gate(tmp_path, subject("cannot_say_above"), *families, "--max-abstained", str(number - 1))[0] == 1
-    assert gate(tmp_path, subject("cannot_say_above"), *families, "--max-abstained", str(number))[0] == 0
+    assert gate(tmp_path, spec, *families, "--max-abstained", str(number - 1), count="4")[0] == 1
+    assert gate(tmp_path, spec, *families, "--max-abstained", str(number), count="4")[0] == 0
 
 
-def test_implementation_of_which_nothing_is_judged_fails_a_run_of_several(tmp_path, capsys):
+def test_implementation_of_which_nothing_is_judged_fails_a_run_of_several(tmp_path, built_in):
     options = ("--families", "tower-body", "--max-abstained", "100000")
-    code, record = gate(tmp_path, subject("cannot_say"), subject("exact"), *options)
+    code, record = gate(tmp_path, built_in(faulty.cannot_say), "builtin:fast", *options)
     assert code == 2
     assert statuses(record)["right"] == 160  # of the other, which is recorded all the same
     domain = '{"settings": [{"sizes": [1, 1, 1, 1]}]}'
-    code, _ = gate(tmp_path, subject("exact"), "--families", "tower-bod*", "--domain", domain)
+    code, _ = gate(tmp_path, "builtin:fast", "--families", "tower-bod*", "--domain", domain)
     assert code == 2
 
 
-def test_implementation_with_changing_answers_fails(tmp_path):
-    code, record = gate(tmp_path, subject("forgetful"), "--families", "tower-*,uniform", "--tolerance", "0")
+def test_implementation_with_changing_answers_fails(tmp_path, built_in, monkeypatch):
+    monkeypatch.setattr(faulty, "_CALLS", [0])
+    code, record = gate(tmp_path, built_in(faulty.forgetful), "--families", "tower-body", "--tolerance", "0")
     assert code == 1
     assert statuses(record).get("nondeterministic", 0) + statuses(record).get("wrong", 0) > 0
 
@@ -99,14 +101,15 @@ def test_fault_of_an_implementation_affects_only_the_cases_that_cause_it(tmp_pat
 
 
 def test_invalid_rows_are_asked_only_if_refuses_is_declared(tmp_path):
-    families = ["--families", "tower-body"]
-    code, record = gate(tmp_path, "python:tests.runs.refusing:keeps_its_word", *families)
-    assert code == 0
-    assert statuses(record)["refused"] > 50
-    code, record = gate(tmp_path, "python:tests.runs.refusing:does_not", *families)
+    specs = [f"python:tests.runs.refusing:{name}" for name in ("keeps_its_word", "does_not")]
+    code, record = gate(tmp_path, *specs, "builtin:fast", "--families", "tower-body")
     assert code == 1
-    (line,) = [line for line in record.of(GroupLine) if line.family == "invalid"]
-    assert line.counts["wrong"] > 50
+    keeps, lies = (line for line in record.of(GroupLine) if line.family == "invalid")
+    assert (keeps.spec, lies.spec) == tuple(specs)
+    assert (keeps.failing, lies.failing) == ([], ["wrong"])
+    assert keeps.counts == {"refused": keeps.asked}
+    assert keeps.asked > 50
+    assert lies.counts["wrong"] > 50
 
 
 LIST = """
@@ -127,7 +130,7 @@ def test_known_failures_excuse_cases_and_fail_the_run_when_they_no_longer_occur(
     code, record = gate(tmp_path, *table_2, "ring,ring-neighbourhood")
     assert code == 0
     assert statuses(record)["excused"] > 50
-    exact = (subject("exact"), "--known-failures", str(path), "--families")
+    exact = ("builtin:fast", "--known-failures", str(path), "--families")
     assert gate(tmp_path, *exact, "ring")[0] == 1
     assert "no longer fails" in capsys.readouterr().out
     assert gate(tmp_path, *exact, "tower-body")[0] == 0  # the entries' families were not asked
@@ -135,6 +138,7 @@ def test_known_failures_excuse_cases_and_fail_the_run_when_they_no_longer_occur(
     assert gate(tmp_path, *table_2, "ring-neighbourhood")[0] == 1  # further off than what is excused
 
 
+@pytest.mark.usefixtures("few_families")
 def test_known_failures_are_updated_only_from_a_run_of_all_families(tmp_path, capsys):
     path = tmp_path / "known.toml"
     update = ["--known-failures", str(path), "--update"]
@@ -155,7 +159,7 @@ def test_summary_json_of_verify_has_its_documented_counts_and_families(tmp_path)
 
 
 def test_verify_loads_no_sympy_mpmath_or_fcl(tmp_path):
-    arguments = ["verify", subject("exact"), "--families", "ring", "--out", str(tmp_path)]
+    arguments = ["verify", subject("exact"), "--families", "ring", "--count", "4", "--out", str(tmp_path)]
     program = (
         "import sys; sys.modules.update(matplotlib=None, jinja2=None)\nfrom hypcheck.cli.main import main\n"
         f"code = main({arguments})\n"
@@ -173,7 +177,7 @@ def test_worst_cancellations_are_asked_if_no_families_are_chosen(tmp_path):
 
 
 def test_distances_are_recorded_of_the_first_cases_of_a_large_family_only(tmp_path):
-    code, record = gate(tmp_path, subject("exact"), "--families", "tower-body", count="70000")
+    code, record = gate(tmp_path, "builtin:fast", "--families", "tower-body", count="70000")
     assert code == 0
     (line,) = record.of(GroupLine)
     assert line.asked == line.counts["right"] > 70000

@@ -15,14 +15,13 @@ from hypcheck.geometry.pair import Position
 from hypcheck.geometry.rows import PAIRS
 from hypcheck.implementations.description import Description
 from hypcheck.implementations.domain import Domain
-from hypcheck.implementations.session import Answered, Limits
-from hypcheck.isolation.launch import Isolation
+from hypcheck.implementations.session import Answered
 from hypcheck.record import Recorder, read
 from hypcheck.record.fields import as_json, decoded, numbers_of
 from hypcheck.record.lines import GroupLine, ImplementationLine
 from hypcheck.record.progress import SavedResult
 from hypcheck.runs import judge
-from hypcheck.runs.cases import CaseChunk, cases_of_chunk
+from hypcheck.runs.cases import CaseChunk, Pace, cases_of_chunk
 from hypcheck.runs.conformance import add_exit_codes, run_conformance
 from hypcheck.runs.judge import Criterion, Status
 from hypcheck.runs.plan import ConformancePlan, invalid_rows, planned_cases, planned_size, steps_of
@@ -40,16 +39,26 @@ from tests.support.tilted_fractions import exact_position
 
 pytestmark = [pytest.mark.usefixtures("text_reports"), pytest.mark.slow]
 
+SPEC = "python:tests.runs.leaning:"
 LEANING = "tilted-uniform"
+FEW_AGAIN = Pace(single_rows=60)
 BESIDE = (2.0, 5.0, 1.0, 0.5, 2.5, 0.0, 0.0, 1.0, 0.0, 1.0)
 """In contact."""
 
 
-def gate(tmp_path, name, *options, count="30"):
-    out = tmp_path / name
-    words = ["verify", f"python:tests.runs.leaning:{name}", "--out", str(out), "--count", count, *options]
-    code = main([*words, "--isolate", "off"])  # these implementations answer by hypcheck
-    return code, read(out / "record.jsonl") if (out / "record.jsonl").exists() else None
+TAKES_TILT = {"tilt": True, "refuses": True}
+
+
+def verified(out, spec, *options, count):
+    code = main(["verify", spec, "--out", str(out), "--count", count, *options, "--isolate", "off"])
+    return code, read(out)  # these implementations answer by hypcheck
+
+
+@pytest.fixture
+def gate(tmp_path, built_in):
+    return lambda function, *options, count="9": verified(
+        tmp_path, built_in(function, **TAKES_TILT), *options, count=count
+    )
 
 
 def by_family(record):
@@ -57,8 +66,8 @@ def by_family(record):
 
 
 @pytest.mark.slow
-def test_a_right_implementation_of_tilted_spheroids_passes_on_upright_and_tilted_families(tmp_path):
-    code, record = gate(tmp_path, "exact", "--families", f"ring,{LEANING}")
+def test_a_right_implementation_of_tilted_spheroids_passes_on_upright_and_tilted_families(gate):
+    code, record = gate(leaning.exact, "--families", f"ring,{LEANING}")
     found = by_family(record)
     assert code == 0
     assert set(found) == {"ring", LEANING, "invalid", "tilted-invalid"}
@@ -70,9 +79,9 @@ def test_a_right_implementation_of_tilted_spheroids_passes_on_upright_and_tilted
 
 @pytest.mark.slow
 def test_an_implementation_that_answers_an_axis_without_a_direction_is_wrong_on_the_tilted_invalid_rows_alone(
-    tmp_path,
+    gate,
 ):
-    code, record = gate(tmp_path, "refuses_upright_rows_alone", "--families", "ring", count="0")
+    code, record = gate(leaning.refuses_upright_rows_alone, "--families", "ring", count="0")
     found = by_family(record)
     assert code == 1
     assert found["invalid"].counts == {"refused": found["invalid"].asked}
@@ -92,9 +101,9 @@ def test_tilted_invalid_rows_are_asked_only_if_refuses_and_tilt_are_declared():
 
 @pytest.mark.slow
 def test_an_implementation_that_ignores_the_axis_is_wrong_on_tilted_spheroids_alone_and_the_record_has_the_axis(
-    tmp_path,
+    gate, tmp_path
 ):
-    code, record = gate(tmp_path, "upright", "--families", f"ring,{LEANING}")
+    code, record = gate(leaning.upright, "--families", f"ring,{LEANING}")
     found = by_family(record)
     assert code == 1
     assert set(found["ring"].counts) <= {"right", "skipped"}
@@ -104,15 +113,16 @@ def test_an_implementation_that_ignores_the_axis_is_wrong_on_tilted_spheroids_al
         assert len(row) == 10
         assert exact_position(row) == case.truth != case.answer
         assert float(case.backward_error_u) > 8
-    assert f'"axis": ["{found[LEANING].worst[0].axis[0]}"' in (tmp_path / "upright" / "record.jsonl").read_text("utf-8")
+    assert f'"axis": ["{found[LEANING].worst[0].axis[0]}"' in (tmp_path / "record.jsonl").read_text("utf-8")
 
 
 @pytest.mark.slow
 def test_fault_about_a_tilted_spheroid_affects_only_its_case_and_is_recorded_with_its_axis(tmp_path):
-    code, record = gate(tmp_path, "raises_far_over", "--families", LEANING, count="60")
+    code, record = verified(tmp_path, f"{SPEC}raises_far_over", "--families", LEANING, count="60")
     faults = [fault for line in record.of(GroupLine) for fault in line.faults if fault.status == "error"]
     assert code == 1
     assert faults
+    assert by_family(record)[LEANING].counts["right"] > len(faults)
     for fault in faults:
         axis_x, _, axis_z = map(float.fromhex, numbers_of(fault)[7:])
         assert axis_x > abs(axis_z)
@@ -120,18 +130,17 @@ def test_fault_about_a_tilted_spheroid_affects_only_its_case_and_is_recorded_wit
 
 
 @pytest.mark.slow
-def test_the_progress_of_a_run_counts_every_case_of_an_implementation_with_tilt(tmp_path):
+def test_the_progress_of_a_run_counts_every_case_of_an_implementation_with_tilt(built_in):
     steps, more = [], []
-    limits = Limits(isolation=Isolation("off"))  # the implementation answers by hypcheck
-    plan = ConformancePlan(("python:tests.runs.leaning:exact",), ("ring", "tilted-ring"), count=3, limits=limits)
+    plan = ConformancePlan((built_in(leaning.exact, **TAKES_TILT),), ("ring", "tilted-ring"), count=3, pace=FEW_AGAIN)
     run_conformance(plan, Recorder(GrowingText(), {}), RunOutcome(), steps.append, expect=more.append)
     assert more == [sum(len(frozen.load(name).cases) for name in INVALID_NAMES[PAIRS])]
     assert sum(steps) == planned_size(plan) + sum(more)
 
 
 @pytest.mark.thorough
-def test_the_frozen_vectors_of_tilted_spheroids_are_counted_by_their_distance(tmp_path):
-    code, record = gate(tmp_path, "upright", "--families", "tilted-tangent,tilted-slight", count="3")
+def test_the_frozen_vectors_of_tilted_spheroids_are_counted_by_their_distance(gate):
+    code, record = gate(leaning.upright, "--families", "tilted-tangent,tilted-slight", count="3")
     found = by_family(record)
     assert code == 1
     assert sum(found["tilted-tangent"].octaves["-inf"].values()) == found["tilted-tangent"].asked - 3
@@ -195,8 +204,8 @@ def test_a_wrong_answer_about_a_tilted_spheroid_is_wrong_by_at_least_what_is_rec
 
 
 @pytest.mark.thorough
-def test_an_undecided_answer_makes_a_run_inconclusive_that_would_have_passed_and_is_shown(tmp_path, capsys):
-    code, record = gate(tmp_path, "wrong_where_no_proof_is_found", "--families", "tilted-twins", count="0")
+def test_an_undecided_answer_makes_a_run_inconclusive_that_would_have_passed_and_is_shown(gate, tmp_path, capsys):
+    code, record = gate(leaning.wrong_where_no_proof_is_found, "--families", "tilted-twins", count="0")
     shown = capsys.readouterr().out
     group = by_family(record)["tilted-twins"]
     assert code == Exit.INCONCLUSIVE
@@ -204,7 +213,7 @@ def test_an_undecided_answer_makes_a_run_inconclusive_that_would_have_passed_and
     assert group.failing == ["undecided"]
     assert (group.worst[0].case, group.worst[0].status) == (leaning.UNDECIDED, "undecided")
     assert "INCONCLUSIVE, exit code 4: 1 answer undecided: the tolerance lies between the two ends" in shown
-    assert leaning.UNDECIDED in (tmp_path / "wrong_where_no_proof_is_found" / "report.md").read_text("utf-8")
+    assert leaning.UNDECIDED in (tmp_path / "report.md").read_text("utf-8")
     outcome = RunOutcome()
     add_exit_codes(record.lines, outcome)
     assert outcome.codes == {Exit.INCONCLUSIVE}

@@ -42,7 +42,7 @@ def program(folder, text):
     return f"python:{path}:{re.findall('def (.*)[(]', text)[0]}"
 
 
-@pytest.mark.parametrize(("text", "width", "most"), [(CENTRE_ALONE, 13, 200), (NEVER, 16, 30)])
+@pytest.mark.parametrize(("text", "width", "most"), [(CENTRE_ALONE, 13, 100), (NEVER, 16, 30)])
 def test_a_hunt_asks_about_ends_where_heights_are_taken_and_keeps_what_it_finds(text, width, most, capsys, tmp_path):
     spec, out = program(tmp_path, text), tmp_path / "kept.json"
     assert main(["hunt", spec, "--queries", str(most), "--show", "1", "--out", str(out)]) == 1
@@ -78,7 +78,9 @@ def test_strata_have_the_families_with_ends_where_heights_are_taken():
     assert not any("tilted" in name for name in upright)
 
 
-@pytest.mark.parametrize(("row", "layout"), [(PIERCED, PAIRS), (LANDING, SWEEPS)])
+@pytest.mark.parametrize(
+    ("row", "layout"), [(PIERCED, PAIRS), pytest.param(LANDING, SWEEPS, marks=pytest.mark.thorough)]
+)
 def test_neighbours_of_a_row_with_ends_are_valid_and_have_other_ends(row, layout):
     around = neighbours(Draw("test"), [Climber(row, 1.0, 0.25)], layout)
     assert around.rows.shape[1] == len(layout.ended)

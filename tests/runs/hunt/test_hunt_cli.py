@@ -11,6 +11,7 @@ from hypcheck.cli.main import main
 from hypcheck.errors import Exit
 from hypcheck.vectors.cases import read_cases
 from hypcheck.vectors.checking import faults_of
+from tests.runs.faulty import contact_everywhere
 
 OTHERS = """
 import os
@@ -83,18 +84,18 @@ def test_hunt_options_replace_what_the_implementation_declares(capsys):
     assert "1e+06 u" in output
 
 
-def test_rows_that_a_hunt_found_are_added_to_a_vector_file(capsys, tmp_path):
+def test_rows_that_a_hunt_found_are_added_to_a_vector_file(capsys, built_in, tmp_path):
     path = str(tmp_path / "ours.json")
-    hunt = ("hunt", "builtin:table-2-float64", "--queries")
-    _, output, _ = told(capsys, *hunt, "2500", "--out", path)
+    hunt = ("hunt", built_in(contact_everywhere), "--queries")
+    _, output, _ = told(capsys, *hunt, "40", "--out", path)
     before = read_cases(path)
     kinds = int(next(line for line in output.splitlines() if line.startswith("kinds of wrong")).split()[4].strip(","))
     assert len(before.cases) == kinds > 1
     assert faults_of(before) == []
-    _, output, _ = told(capsys, *hunt, "2500", "--out", path)
+    _, output, _ = told(capsys, *hunt, "40", "--out", path)
     assert "0 rows added" in output
     assert read_cases(path).cases == before.cases
-    told(capsys, *hunt, "2500", "--seed", "2", "--out", path)
+    told(capsys, *hunt, "40", "--seed", "2", "--out", path)
     after = read_cases(path)
     assert after.cases[: len(before.cases)] == before.cases
     assert len(after.cases) > len(before.cases)

@@ -17,6 +17,7 @@ from hypcheck.runs.replay import case_of
 from hypcheck.vectors import frozen as vectors
 from hypcheck.vectors.families import FAMILIES
 from tests.report import record_samples
+from tests.runs.replay import faulty
 from tests.support.records import resealed
 
 FREE = "1,99,1,1,5,0,0"
@@ -43,9 +44,9 @@ def test_replay_of_a_right_answer_says_right(capsys):
     assert (found["values"]["answer"], found["values"]["exact_answer"]) == (1, 1)
 
 
-def test_replay_shows_the_backward_error_of_a_wrong_answer(capsys):
+def test_replay_shows_the_backward_error_of_a_wrong_answer(capsys, built_in):
     """With α 1, γ 99 and a unit ball, x = 5: contact begins where x (1 − ε) = (α + b)(1 + ε), at ε = 3/7."""
-    found = replayed(capsys, FREE, subject("contact"), code=1)
+    found = replayed(capsys, FREE, built_in(faulty.contact), code=1)
     assert (found["status"], found["mistake"], found["answer"]) == ("wrong", "false-contact", 0)
     assert found["backward_error"] == pytest.approx(3 / 7, rel=1e-3)
     assert found["backward_error_u"] == pytest.approx(3 / 7 * 2**53, rel=1e-3)
@@ -53,11 +54,11 @@ def test_replay_shows_the_backward_error_of_a_wrong_answer(capsys):
     assert found["truth"]["flips"]["interior"] > found["backward_error"]
 
 
-def test_replay_of_a_yes_no_question_shows_its_answer_in_words(capsys):
-    words = (subject("never_interior"), "--question", "exterior")
-    assert replayed(capsys, FREE, *words)["answer"] == 1
-    assert replayed(capsys, "4,4,1,1,0,0,0", *words)["status"] == "right"
-    found = replayed(capsys, "4,4,1,1,0,0,0", subject("never_interior"), "--question", "interior", code=1)
+def test_replay_of_a_yes_no_question_shows_its_answer_in_words(capsys, built_in):
+    spec = built_in(faulty.never_interior)
+    assert replayed(capsys, FREE, spec, "--question", "exterior")["answer"] == 1
+    assert replayed(capsys, "4,4,1,1,0,0,0", spec, "--question", "exterior")["status"] == "right"
+    found = replayed(capsys, "4,4,1,1,0,0,0", spec, "--question", "interior", code=1)
     assert (found["status"], found["used"]["question"], found["declared"]["question"]) == (
         "wrong",
         "interior",
@@ -107,17 +108,18 @@ def test_replay_finds_an_answer_that_depends_on_other_rows(capsys):
     assert "at place 33: it answers -1" in found["reason"]
 
 
-def test_replay_keeps_the_sign_of_a_zero(capsys):
+def test_replay_keeps_the_sign_of_a_zero(capsys, built_in):
     assert replayed(capsys, HIT, subject("minds_the_sign_of_zero"), code=1)["answer"] == -1
-    assert replayed(capsys, HIT.replace("-0.0", "0"), subject("minds_the_sign_of_zero"))["answer"] == 0
-    assert replayed(capsys, HIT.replace("-0.0", "-0x0p+0"), subject("minds_the_sign_of_zero"), code=1)["answer"] == -1
+    spec = built_in(faulty.minds_the_sign_of_zero)
+    assert replayed(capsys, HIT.replace("-0.0", "0"), spec)["answer"] == 0
+    assert replayed(capsys, HIT.replace("-0.0", "-0x0p+0"), spec, code=1)["answer"] == -1
 
 
 def test_replay_judges_answers_to_invalid_rows(capsys):
     assert replayed(capsys, "invalid-0003", "python:tests.runs.refusing:keeps_its_word")["status"] == "refused"
     found = replayed(capsys, "invalid-0003", "python:tests.runs.refusing:does_not", code=1)
     assert (found["status"], found["truth"], found["values"]) == ("wrong", None, None)
-    assert main(["replay", "invalid-0003", subject("exact")]) == 2
+    assert main(["replay", "invalid-0003", "builtin:fast"]) == 2
     assert "does not declare" in capsys.readouterr().err
 
 
@@ -131,9 +133,9 @@ def test_case_ids_name_the_same_rows_in_replay_as_elsewhere():
     assert case_of("0x1.8p+1,2, 1,1,-0x1p-3,0,0").row == (3.0, 2.0, 1.0, 1.0, -0.125, 0.0, 0.0)
 
 
-def test_replay_finds_the_cases_of_a_record_by_their_number(tmp_path, capsys, text_reports):
-    out = tmp_path / "out"
-    assert main(["verify", subject("contact"), "--families", "ring,tangent", "--count", "5", "--out", str(out)]) == 1
+def test_replay_finds_the_cases_of_a_record_by_their_number(tmp_path, capsys, built_in, text_reports):
+    out, contact = tmp_path / "out", built_in(faulty.contact)
+    assert main(["verify", contact, "--families", "ring,tangent", "--count", "5", "--out", str(out)]) == 1
     capsys.readouterr()
     record = read(out / "record.jsonl")
     kept = recorded_cases(record)
@@ -143,9 +145,9 @@ def test_replay_finds_the_cases_of_a_record_by_their_number(tmp_path, capsys, te
         assert case.name == each.case.case
         assert case.row == case_of(case.name).row
         assert case == case_of(f"{out}:{each.number}")
-        found = replayed(capsys, f"{out / 'record.jsonl'}:{each.number}", subject("contact"), code=1)
+        found = replayed(capsys, f"{out / 'record.jsonl'}:{each.number}", contact, code=1)
         assert found["backward_error"] == each.case.backward_error
-    assert main(["replay", f"{out / 'record.jsonl'}:{len(kept) + 1}", subject("contact")]) == 2
+    assert main(["replay", f"{out / 'record.jsonl'}:{len(kept) + 1}", contact]) == 2
     assert f"they are 1 to {len(kept)}" in capsys.readouterr().err
 
 
@@ -191,12 +193,12 @@ def test_record_with_an_invalid_row_is_refused(tmp_path, capsys):
         assert said in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("spec", ["builtin:table-2-float64", subject("exact")])
-def test_replay_loads_no_sympy_mpmath_fcl_or_matplotlib(spec):
+def test_replay_loads_no_sympy_mpmath_fcl_or_matplotlib():
     program = (
         "import sys; from hypcheck.cli.main import main\n"
-        f"code = main(['replay', 'ring-0003', {spec!r}])\n"
-        "loaded = {'sympy', 'mpmath', 'fcl', 'matplotlib'} & set(sys.modules)\n"
-        "assert code in (0, 1) and not loaded, (code, loaded)\n"
+        f"for spec in ('builtin:table-2-float64', {subject('exact')!r}):\n"
+        "    code = main(['replay', 'ring-0003', spec])\n"
+        "    loaded = {'sympy', 'mpmath', 'fcl', 'matplotlib'} & set(sys.modules)\n"
+        "    assert code in (0, 1) and not loaded, (spec, code, loaded)\n"
     )
     subprocess.run([sys.executable, "-c", program], check=True, timeout=60, stdout=subprocess.DEVNULL)

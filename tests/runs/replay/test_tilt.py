@@ -7,6 +7,7 @@ import json
 import pytest
 
 from hypcheck.cli.main import main
+from tests.runs import leaning
 
 BESIDE = "2,5,1,0.5,2.5,0,0,1,0,1"
 SPEC = "python:tests.runs.leaning:"
@@ -15,6 +16,12 @@ SPEC = "python:tests.runs.leaning:"
 def replayed(capsys, *words):
     code = main(["replay", *words, "--isolate", "off"])  # these implementations answer by hypcheck
     return code, capsys.readouterr()
+
+
+@pytest.fixture
+def spec_of(built_in):
+    """The SPEC of a function that takes tilt."""
+    return lambda function: built_in(function, tilt=True, refuses=True)
 
 
 @pytest.mark.slow
@@ -29,8 +36,8 @@ def test_a_tilted_row_is_replayed_with_its_axis_a_proof_and_two_ends_for_each_ot
 
 
 @pytest.mark.slow
-def test_a_wrong_answer_about_a_tilted_spheroid_is_judged_as_a_run_judges_it(capsys):
-    code, said = replayed(capsys, "tilted-uniform/1/1/5", f"{SPEC}upright", "--json")
+def test_a_wrong_answer_about_a_tilted_spheroid_is_judged_as_a_run_judges_it(capsys, spec_of):
+    code, said = replayed(capsys, "tilted-uniform/1/1/5", spec_of(leaning.upright), "--json")
     told = json.loads(said.out)
     assert code == 1
     assert len(told["row"]) == len(told["row_hex"]) == 10
@@ -41,9 +48,9 @@ def test_a_wrong_answer_about_a_tilted_spheroid_is_judged_as_a_run_judges_it(cap
 
 
 @pytest.mark.slow
-def test_a_row_of_ten_numbers_with_a_vertical_axis_is_replayed_as_an_upright_one(capsys):
+def test_a_row_of_ten_numbers_with_a_vertical_axis_is_replayed_as_an_upright_one(capsys, spec_of):
     told = [
-        json.loads(replayed(capsys, row, f"{SPEC}exact", "--json")[1].out)["truth"]
+        json.loads(replayed(capsys, row, spec_of(leaning.exact), "--json")[1].out)["truth"]
         for row in ("2,5,1,0.5,2.5,0,0", "2,5,1,0.5,2.5,0,0,0,0,-3")
     ]
     assert told[0] == told[1]
@@ -51,11 +58,11 @@ def test_a_row_of_ten_numbers_with_a_vertical_axis_is_replayed_as_an_upright_one
 
 
 @pytest.mark.slow
-def test_invalid_tilted_row_is_replayed_by_its_id(capsys):
-    code, said = replayed(capsys, "tilted-invalid-0000", f"{SPEC}exact")
+def test_invalid_tilted_row_is_replayed_by_its_id(capsys, spec_of):
+    code, said = replayed(capsys, "tilted-invalid-0000", spec_of(leaning.exact))
     assert code == 0
     assert "axis_z" in said.out
     assert "refused" in said.out
-    code, said = replayed(capsys, "tilted-invalid-0000", f"{SPEC}refuses_upright_rows_alone")
+    code, said = replayed(capsys, "tilted-invalid-0000", spec_of(leaning.refuses_upright_rows_alone))
     assert code == 1
     assert "an invalid row must be refused with 127" in said.out

@@ -7,6 +7,7 @@ import json
 import pytest
 
 from hypcheck.cli.main import main
+from tests.runs import moving
 
 GRAZES = "1,2,1,1,2,-3,0,2,3,0"
 
@@ -31,13 +32,13 @@ def test_replay_in_json_names_the_mistake_and_its_size(capsys):
 
 
 @pytest.mark.slow
-def test_replay_calls_an_answer_to_an_invalid_way_wrong_unless_it_is_refused(capsys):
-    off = ("--isolate", "off")  # these implementations answer by hypcheck
+def test_replay_calls_an_answer_to_an_invalid_way_wrong_unless_it_is_refused(capsys, built_in):
+    off = ("--isolate", "off")  # this implementation answers by hypcheck
     code, said = replayed(capsys, "way-invalid-0040", "python:tests.runs.moving:exact", *off)
     assert code == 0
     assert "truth       invalid row (" in said.out
     assert "answer      127, refused" in said.out
-    lost = ("python:tests.runs.moving:clear_from_infinity", "--json", *off)
+    lost = (built_in(moving.clear_from_infinity, **moving.hypcheck), "--json")
     code, said = replayed(capsys, "tilted-way-invalid-0004", *lost)
     assert code == 0
     code, said = replayed(capsys, "way-invalid-0044", *lost)

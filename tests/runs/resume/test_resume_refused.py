@@ -17,7 +17,7 @@ from hypcheck.record import Recorder, read
 from hypcheck.record.fields import as_json
 from hypcheck.record.reader import FILE, GROWING
 from hypcheck.record.writer import FolderInUseError, folder_locked
-from hypcheck.runs.fingerprint import fingerprints
+from hypcheck.runs.fingerprint import fingerprints, sha256
 from tests.report.record_samples import text_and_record
 from tests.runs.interruption import in_small_steps, paused_bytes, started, wait_for, words
 from tests.runs.resume.test_interrupted import needs_proc
@@ -116,8 +116,9 @@ STARTS = {
 """A file that each of these starts, and does not name as the target of the SPEC."""
 
 
-@pytest.mark.parametrize("spec", STARTS)
-def test_run_is_not_resumed_if_a_file_that_the_implementation_starts_was_changed(spec, tmp_path, monkeypatch, capsys):
+@pytest.fixture
+def beside(tmp_path, monkeypatch):
+    """The folder of these files, as the working directory."""
     monkeypatch.chdir(tmp_path)
     for name, text in {
         "subject.py": "import beside\n",
@@ -134,8 +135,21 @@ def test_run_is_not_resumed_if_a_file_that_the_implementation_starts_was_changed
         Path(name).parent.mkdir(exist_ok=True)
         Path(name).write_text(text)
     Path("prog").chmod(0o755)
+    return tmp_path
+
+
+@pytest.mark.parametrize("spec", STARTS)
+def test_file_that_an_implementation_starts_is_hashed(spec, beside):
+    assert sha256(Path(STARTS[spec])) in [
+        found for name, found in fingerprints([spec]).items() if Path(name).resolve() == beside / STARTS[spec]
+    ]
+
+
+@pytest.mark.usefixtures("beside")
+def test_run_is_not_resumed_if_a_file_that_the_implementation_starts_was_changed(capsys):
+    spec = "python:subject.py:none"
     options = ["--families", "ring", "--count", "0", "--out", "out"]
-    assert main(["verify", spec, *options]) == 5  # none of them starts: what is compared is the same
+    assert main(["verify", spec, *options]) == 5  # it does not start: what is compared is the same
     path = Path("out") / FILE
     path.write_bytes(path.read_bytes()[:-9])
     with Path(STARTS[spec]).open("a") as file:

@@ -66,11 +66,11 @@ def function(name: str) -> str:
     return f"python:{HERE / 'functions' / name}.py:classify"
 
 
-def compiled_text(text: str, target: Path) -> Path:
+def compiled_text(text: str, target: Path, *flags: str) -> Path:
     """A shared library of this C text; the test is skipped where there is no compiler."""
     source = target.with_suffix(".c")
     source.write_text(text)
-    return compiled(str(source.with_suffix("")), target, "-shared", "-fPIC")
+    return compiled(str(source.with_suffix("")), target, "-shared", "-fPIC", *flags)
 
 
 def compiled(source: str, target: Path, *flags: str) -> Path:

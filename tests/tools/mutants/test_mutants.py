@@ -58,23 +58,19 @@ SAMPLE = {
 }
 """What the test suite gates, and the families that suffice for it."""
 
-FEW = {
-    "signs.c0",
-    "regimes.without_the_ring",
-    "tilted.transposed_rotation",
-    "passages.late_times",
-    "correct.whole_numbers",
-}
-"""What `make test` gates of them; `make thorough` gates the others."""
+FEW = {"signs.c0": "3", "tilted.transposed_rotation": "3", "passages.late_times": "3", "correct.whole_numbers": "3"}
+"""What `make test` gates of them, with so many rows; `make thorough` gates the others."""
 
 
 @pytest.mark.parametrize(
     "name", [name if name in FEW else pytest.param(name, marks=pytest.mark.thorough) for name in SAMPLE]
 )
-def test_verify_kills_or_passes_a_sample_of_each_mutant_as_expected(name):
-    result = gate(BY_NAME[name], ("--count", "60", "--seed", "2", "--families", SAMPLE[name]))
+def test_verify_kills_or_passes_a_sample_of_each_mutant_as_expected_and_not_otherwise(name):
+    right = BY_NAME[name].expectation.right
+    result = gate(BY_NAME[name], ("--count", FEW.get(name, "60"), "--seed", "2", "--families", SAMPLE[name]))
     assert result.as_expected, result.ruling.said
-    assert bool(result.ruling.killed_by) is not BY_NAME[name].expectation.right or name == "batches.rounds_at_random"
+    assert not replace(result, mutant=replace(BY_NAME[name], expectation=Expectation(right=not right))).as_expected
+    assert bool(result.ruling.killed_by) is not right or name == "batches.rounds_at_random"
     assert result.ruling.judged > 50
 
 
@@ -164,16 +160,6 @@ def test_escaped_mutant_is_reported_by_exit_code_output_and_table(monkeypatch, r
     assert said.exit_code == (0 if expected else 1)
     assert ("✗" in said.output) is not expected
     assert ("✗" in table.render([result])) is not expected
-
-
-def test_right_implementation_declared_wrong_is_reported():
-    liar = replace(BY_NAME["correct.whole_numbers"], expectation=Expectation(right=False))
-    assert not gate(liar, ("--count", "5", "--families", "ring")).as_expected
-
-
-def test_wrong_implementation_declared_right_is_reported():
-    liar = replace(BY_NAME["answers.contact_always"], expectation=Expectation(right=True))
-    assert not gate(liar, ("--count", "5", "--families", "ring")).as_expected
 
 
 @pytest.mark.parametrize("arguments", [["nothing"], ["signs", "--out", "page.md"]])
