@@ -14,6 +14,7 @@ import pytest
 from hypcheck.proofs import build
 from tests.kernel.compiling import needs_compiler
 from tests.tools.checked import CHECKS, ROOT, files
+from tests.tools.processors import jobs
 
 TOOL = "tests/tools/checked.py"
 READS = """
@@ -110,9 +111,10 @@ def test_digest_of_the_processors_has_every_file_that_their_programs_are_made_fr
     command = ["cc", "-MM", f"-I{ROOT / 'hypcheck/kernel/core'}", f"-I{folder}", str(folder / "program.c")]
     made = subprocess.run(command, capture_output=True, text=True, check=True).stdout.replace("\\\n", " ").split()[1:]
     compiled = {Path(name).resolve().relative_to(ROOT).as_posix() for name in made}
-    frozen = {
-        name for name in read_by("from tests.tools.processors import jobs; list(jobs.frozen())") if "cases/" in name
-    }
+    some = ("ring", "tilted-uniform", "way-still", "ended-rim", "invalid", "way-invalid", "ended-invalid")
+    read = read_by(f"from tests.tools.processors import jobs; list(jobs.frozen({some}))")
+    assert {name for name in read if "cases/" in name} >= {f"cases/{name}.json" for name in some}
+    frozen = {name for name in read if "cases/" in name} | {f"cases/{name}.json" for name in jobs.FROZEN}
     assert "hypcheck/kernel/core/hypcheck.h" in compiled
     assert "cases/ring.json" in frozen
     assert compiled | frozen <= set(files(CHECKS["processors"].sources))

@@ -20,15 +20,6 @@ from hypcheck.vectors.frozen import load
 
 SEED = FRESH_SEEDS + 77
 
-KNOWS_BY_HEART = """
-import json
-import numpy as np
-with open({path!r}) as file:
-    KNOWN = json.load(file)
-def classify(rows):
-    return np.array([KNOWN.get(row.tobytes().hex(), 0) for row in rows], dtype=np.int8)
-"""
-
 
 def groups_in(out):
     """The lines about families of a run."""
@@ -37,29 +28,36 @@ def groups_in(out):
 
 
 @pytest.fixture
-def by_heart(tmp_path, monkeypatch):
-    """The SPEC of a function that knows the frozen vectors of `uniform`, the rows of the usual seed, and no others."""
+def known(tmp_path, monkeypatch):
+    """The answers to the frozen vectors of `uniform` and to the rows of the usual seed."""
     monkeypatch.chdir(tmp_path)
-    rows = np.vstack([load("uniform").rows, FAMILIES["uniform"].rows(1, 300)])
-    known = {row.tobytes().hex(): int(answer) for row, answer in zip(rows, classify(rows), strict=True)}
-    (tmp_path / "known.json").write_text(json.dumps(known))
-    (tmp_path / "by_heart.py").write_text(KNOWS_BY_HEART.format(path=str(tmp_path / "known.json")))
-    return "python:by_heart.py:classify"
+    rows = np.vstack([load("uniform").rows, FAMILIES["uniform"].rows(1, 180)])
+    return {row.tobytes(): int(answer) for row, answer in zip(rows, classify(rows), strict=True)}
 
 
-def test_implementation_that_memorised_the_usual_rows_fails_only_on_fresh_rows(by_heart, text_reports, capsys):
-    words = ["verify", by_heart, "--families", "uniform", "--count", "20", "--out", "out"]
+@pytest.fixture
+def spec(known, built_in):
+    """The SPEC of a function that knows them by heart, and no others."""
+
+    def by_heart(rows):
+        return np.array([known.get(row.tobytes(), 0) for row in rows], dtype=np.int8)
+
+    return built_in(by_heart)
+
+
+def test_implementation_that_memorised_the_usual_rows_fails_only_on_fresh_rows(spec, text_reports, capsys):
+    words = ["verify", spec, "--families", "uniform", "--count", "20", "--out", "out"]
     assert main(words) == 0
     assert main([*words, "--fresh", str(SEED)]) == 1
     said = capsys.readouterr()
-    assert "HELD: by_heart.py:classify: 180 judged: 180 right; worst backward error 0 u; no fresh rows" in said.out
+    assert "HELD: by_heart: 180 judged: 180 right; worst backward error 0 u; no fresh rows" in said.out
     assert f"; 20 fresh rows of each family, of seed {SEED}" in said.err
     header, *lines = map(json.loads, Path("out/record.jsonl").read_text().splitlines())
     assert header["options"]["fresh"] == SEED
     (group,) = (line for line in lines if line["type"] == "group")
     assert {case["case"].split("/")[2] for case in group["worst"]} == {str(SEED)}
     report = Path("out/report.md").read_text()
-    assert re.search(rf"hypcheck replay uniform/\d+/{SEED}/\d+ {by_heart}", report)
+    assert re.search(rf"hypcheck replay uniform/\d+/{SEED}/\d+ {spec}", report)
 
 
 def test_fresh_seed_is_random_in_ci_and_absent_elsewhere_unless_an_option_sets_it(monkeypatch):
@@ -89,17 +87,12 @@ def excusing(path, *entries):
     return ["--known-failures", str(path)]
 
 
-def test_known_failure_of_a_family_excuses_none_of_its_fresh_rows(by_heart, text_reports, tmp_path):
-    broken = (
-        (tmp_path / "by_heart.py")
-        .read_text()
-        .replace("KNOWN = json.load(file)", "KNOWN = json.load(file)\nKNOWN.popitem()")
-    )
-    (tmp_path / "by_heart.py").write_text(broken)
-    words = ["verify", by_heart, "--families", "uniform", "--count", "300", "--out", "out"]
-    known = excusing(tmp_path / "known.toml", 'family = "uniform"')
-    assert main([*words, *known]) == 0
-    assert main([*words, *known, "--fresh", str(SEED)]) == 1
+def test_known_failure_of_a_family_excuses_none_of_its_fresh_rows(spec, known, text_reports, tmp_path):
+    known.popitem()
+    words = ["verify", spec, "--families", "uniform", "--count", "180", "--out", "out"]
+    excused = excusing(tmp_path / "known.toml", 'family = "uniform"')
+    assert main([*words, *excused]) == 0
+    assert main([*words, *excused, "--fresh", str(SEED)]) == 1
     (group,) = groups_in("out")
     assert group["counts"]["excused"] >= 1
     assert {case["case"].split("/")[2] for case in group["worst"]} == {str(SEED)}
@@ -115,6 +108,7 @@ def test_known_failure_of_a_cause_excuses_fresh_rows_that_its_rule_explains_up_t
     assert main([*words, "--out", out, *excusing(tmp_path / "known.toml", 'cause = "groove"\nmax_u = inf')]) == 1
 
 
+@pytest.mark.usefixtures("few_families")
 def test_known_failure_of_a_cause_that_no_longer_occurs_fails_a_run_of_all_families(tmp_path, text_reports, capsys):
     words = ["verify", "builtin:fast", "--count", "0", "--out", str(tmp_path / "out")]
     entries = ('cause = "ring"\nmax_u = inf', 'cause = "between-positions"\nmax_u = inf')

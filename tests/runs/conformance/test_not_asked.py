@@ -9,6 +9,7 @@ from xml.etree import ElementTree as Xml
 import numpy as np
 import pytest
 
+from hypcheck import classify
 from hypcheck.cli.main import main
 from hypcheck.implementations import domain as domains
 from hypcheck.implementations.description import parse_domain
@@ -19,29 +20,15 @@ from hypcheck.vectors.frozen import load
 
 pytestmark = pytest.mark.usefixtures("text_reports")
 
-FLUSHES = """
-import numpy as np
-import hypcheck as gate
-hypcheck = {"name": "flushes", "precision": "float64"}
-def f(rows):
+
+def flushes(rows):
+    """Answers 0 to every row with a subnormal number."""
     small = ((rows != 0) & (abs(rows) < 2.0**-1022)).any(axis=1)
-    answers = gate.classify(np.ascontiguousarray(rows))
-    answers[small] = 0
-    return answers
-"""
-"""Answers 0 to every row with a subnormal number; it asks hypcheck for the others, so it is not isolated."""
-
-
-@pytest.fixture
-def flushes(tmp_path, monkeypatch):
-    """The SPEC of FLUSHES."""
-    monkeypatch.chdir(tmp_path)
-    Path("flushes.py").write_text(FLUSHES)
-    return "python:flushes.py:f"
+    return np.where(small, 0, classify(rows)).astype(np.int8)
 
 
 def gate(*words):
-    return main(["verify", *words, "--isolate", "off", "--out", "out"])
+    return main(["verify", *words, "--out", "out"])
 
 
 def subnormal_rows():
@@ -53,9 +40,9 @@ def subnormal_rows():
     return found
 
 
-def test_subnormal_rows_that_a_pattern_names_are_counted_in_every_report(flushes, capsys):
+def test_subnormal_rows_that_a_pattern_names_are_counted_in_every_report(built_in, capsys):
     expected = subnormal_rows()
-    assert gate(flushes, "--families", "extreme", "--count", "0") == 0
+    assert gate(built_in(flushes), "--families", "extreme", "--count", "0") == 0
     rows = sum(expected.values())
     said = capsys.readouterr().out
     sentence = f"; no fresh rows; skipped: {rows:,} rows not zero or normal in its precision; not asked: "
@@ -78,7 +65,7 @@ def test_subnormal_rows_that_a_pattern_names_are_counted_in_every_report(flushes
     told = f"skipped: {skipped} of 120 cases: {skipped} rows not zero or normal in its precision"
     assert told in cases["extreme-subnormal"].find("system-out").text
     lines = Path("out/measurements.csv").read_text()
-    assert f"extreme-subnormal,python:flushes.py:f,not asked: precision,{expected['extreme-subnormal']}" in lines
+    assert f"extreme-subnormal,builtin:flushes,not asked: precision,{expected['extreme-subnormal']}" in lines
 
 
 def test_verdict_names_a_family_of_which_no_row_was_asked(capsys):
@@ -134,8 +121,8 @@ def test_run_that_fails_says_on_the_terminal_what_was_not_asked(capsys):
     assert said[0].endswith(f"; {expected}")
 
 
-def test_family_of_subnormal_rows_that_is_asked_for_by_its_name_is_asked(flushes, capsys):
-    assert gate(flushes, "--families", "extreme-subnormal", "--count", "0") == 1
+def test_family_of_subnormal_rows_that_is_asked_for_by_its_name_is_asked(built_in, capsys):
+    assert gate(built_in(flushes), "--families", "extreme-subnormal", "--count", "0") == 1
     (group,) = read(Path("out")).of(GroupLine)
     assert group.counts["wrong"] == 18
     assert "skipped" not in group.counts
@@ -190,6 +177,7 @@ def test_pattern_that_names_families_which_are_not_asked_is_told_in_the_verdict(
     assert set(summary["implementations"][0]["families_not_asked"]) == {"filter", "tilt", "question", "heights"}
 
 
+@pytest.mark.usefixtures("few_families")
 def test_run_of_all_families_records_those_that_are_asked_only_on_request(capsys):
     assert gate("builtin:fast", "--count", "0") == 0
     assert "families" not in capsys.readouterr().out.splitlines()[0]

@@ -98,7 +98,7 @@ def test_results_of_tasks_can_be_merged_in_any_order():
 
 
 def test_result_does_not_depend_on_the_order_in_which_tasks_finish():
-    some = steps_of(["uniform", "flight", "ring"], 625, PACE)
+    some = steps_of(["uniform", "ring", "flight"], 500, PACE)
     assert {(step.number, step.part) for step in some if isinstance(step, RetestStep)} >= {
         (0, 0),
         (0, 1),
@@ -111,7 +111,7 @@ def test_result_does_not_depend_on_the_order_in_which_tasks_finish():
         expected = last(in_this_process(some, it, rules, begun))
         assert expected.total.retest.asked > 300
         assert not expected.total.pending
-        for seed in range(3):
+        for seed in range(2):
             assert saved_state(last(perform_steps(some, shuffled(it, rules, seed), begun))) == saved_state(expected)
 
 
@@ -154,7 +154,7 @@ def test_run_resumed_from_any_state_gives_the_result_of_an_unbroken_run():
         passed = [state for _, state in in_this_process(some, it, rules)]
         asked = [len(step) if isinstance(step, cases.CaseChunk) else 0 for step in some]
         assert [state.total.cases for state in passed] == list(accumulate(asked))
-        for pause in (0, 3, len(some) - 2):
+        for pause in (3, len(some) - 2):
             read = read_back(passed[pause])
             assert saved_state(read) == saved_state(passed[pause])
             assert saved_state(last(in_this_process(some, it, rules, read))) == saved_state(passed[-1])

@@ -83,14 +83,14 @@ def test_few_rows_leave_everything_open(rows):
 
 
 def test_a_run_says_how_evenly_it_asked_and_a_thorough_one_asks_ten_times_as_much(line_of, capsys):
-    usual = line_of("--count", "20")
+    usual = line_of("--count", "8")
     said = capsys.readouterr().out
     assert re.search(r"every slice of [\d.]+ % of .* or distance to contact was asked 3", said)
     assert "coincidences, three together: 383 of 383 that are possible were asked" in said
-    thorough = line_of("--count", "20", "--thorough")
-    assert read(Path("out")).header.options["count"] == 200
-    assert 340 < usual.slices["strata"].rows <= 240 + 200
-    assert 1800 < thorough.slices["strata"].rows <= 240 + 2000
+    thorough = line_of("--count", "8", "--thorough")
+    assert read(Path("out")).header.options["count"] == 80
+    assert 220 < usual.slices["strata"].rows <= 240 + 80
+    assert 800 < thorough.slices["strata"].rows <= 240 + 800
     assert thorough.slices["strata"].one < usual.slices["strata"].one
     assert thorough.slices["strata"].two < usual.slices["strata"].two
 

@@ -23,8 +23,11 @@ from hypcheck.runs.resume import restored_state, saved_state
 from hypcheck.runs.schedule import RunState
 from hypcheck.runs.tally import EMPTY
 from hypcheck.vectors import frozen
+from tests.runs import moving
 from tests.support.records import unanswered_case, worst_case
 from tests.tools.miniatures import function
+
+pytestmark = pytest.mark.usefixtures("text_reports")
 
 FEW = ("--families", "way-tunnelling", "--count", "6")
 BY_HYPCHECK = ("--isolate", "off")
@@ -119,8 +122,8 @@ def test_verify_refuses_families_that_do_not_match_the_question(words, sentence,
 
 
 @pytest.mark.slow
-def test_invalid_ways_are_asked_of_implementations_that_declare_refuses(tmp_path):
-    assert verified(tmp_path, "python:tests.runs.moving:clear_from_infinity", *FEW, *BY_HYPCHECK) == 1
+def test_invalid_ways_are_asked_of_implementations_that_declare_refuses(built_in, tmp_path):
+    assert verified(tmp_path, built_in(moving.clear_from_infinity, **moving.hypcheck), *FEW) == 1
     found = {line.family: line for line in read(tmp_path).of(GroupLine)}
     assert found["way-tunnelling"].counts == {"right": ASKED}
     assert found["tilted-way-invalid"].counts["refused"] > 100
