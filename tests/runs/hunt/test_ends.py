@@ -78,10 +78,9 @@ def test_strata_have_the_families_with_ends_where_heights_are_taken():
     assert not any("tilted" in name for name in upright)
 
 
-@pytest.mark.parametrize(
-    ("row", "layout"), [(PIERCED, PAIRS), pytest.param(LANDING, SWEEPS, marks=pytest.mark.thorough)]
-)
-def test_neighbours_of_a_row_with_ends_are_valid_and_have_other_ends(row, layout):
+@pytest.mark.parametrize(("row", "layout"), [(PIERCED, PAIRS), (LANDING, SWEEPS)])
+def test_neighbours_of_a_row_with_ends_are_valid_and_have_other_ends(row, layout, monkeypatch):
+    monkeypatch.setattr(hunt_search, "BROUGHT", 1)  # each takes most of a second beside ends
     around = neighbours(Draw("test"), [Climber(row, 1.0, 0.25)], layout)
     assert around.rows.shape[1] == len(layout.ended)
     assert not invalid(around.rows, layout).any()
