@@ -87,6 +87,7 @@ def test_an_implementation_that_answers_an_axis_without_a_direction_is_wrong_on_
     assert found["invalid"].counts == {"refused": found["invalid"].asked}
     assert found["tilted-invalid"].asked == len(frozen.load("tilted-invalid").cases)
     assert found["tilted-invalid"].failing == ["wrong"]
+    assert found["tilted-invalid"].faults
     for fault in found["tilted-invalid"].faults:
         assert not any(map(float.fromhex, fault.axis))
         assert fault.reason == "answered 0; a row with an invalid axis_x and axis_y and axis_z must be refused: 127"

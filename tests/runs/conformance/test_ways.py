@@ -130,6 +130,7 @@ def test_invalid_ways_are_asked_of_implementations_that_declare_refuses(built_in
     group = found["way-invalid"]
     file = frozen.load("way-invalid")
     assert group.counts["wrong"] == (~np.isfinite(file.rows[:, 4:]).all(axis=1)).sum()
+    assert group.faults
     assert all(fault.reason.startswith("answered 0; a row with an invalid ") for fault in group.faults)
 
 
