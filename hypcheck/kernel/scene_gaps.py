@@ -16,9 +16,7 @@ border of the wall, or where the spheroid's point nearest to the disc's plane is
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 
@@ -118,14 +116,12 @@ def _first_cells(pairs: _Pairs, spans: Rows, farthest: Floats) -> tuple[Indices,
     edges[:, -1] = high
     turns = np.linspace(0, 2 * np.pi, _FIRST + 1)
     owners, cells = [], []
-    for upright in (True, False):
+    for upright, around in ((True, np.zeros((1, 2))), (False, np.stack([turns[:-1], turns[1:]], axis=1))):
         of = np.flatnonzero(pairs.upright == upright)
-        across = [(0.0, 0.0)] if upright else list(pairwise(turns.tolist()))
-        for place in range(_FIRST):
-            for begin, end in across:
-                ends = (edges[of, place], edges[of, place + 1], np.full(len(of), begin), np.full(len(of), end))
-                owners.append(of)
-                cells.append(np.stack(ends, axis=1))
+        shape = (_FIRST, len(around), len(of))
+        ends = (edges[of, :-1].T[:, None], edges[of, 1:].T[:, None], *around.T[:, None, :, None])
+        cells.append(np.stack([np.broadcast_to(end, shape).ravel() for end in ends], axis=1))
+        owners.append(np.tile(of, shape[0] * shape[1]))
     return np.concatenate(owners), np.concatenate(cells)
 
 
@@ -142,14 +138,20 @@ def _halved(of: _Pairs, owner: Indices, cells: Floats) -> tuple[Indices, Floats]
 
 
 def _on_wall(of: _Pairs, w: Floats, turn: Floats) -> Floats:
-    """The points (m, 3) at these heights: in the meridian half plane of the centre, or on the ruling at an angle."""
-    x, y = of.centre[:, 0], of.centre[:, 1]
-    length, share = np.hypot(x, y), w / of.gamma
-    cosine, sine = np.where(length > 0, x / length, 1.0), np.where(length > 0, y / length, 0.0)
-    radius = np.hypot(1, share)
-    across = np.where(of.upright, radius * cosine, np.cos(turn) - share * np.sin(turn))
-    along = np.where(of.upright, radius * sine, np.sin(turn) + share * np.cos(turn))
-    return np.stack([of.alpha * across, of.alpha * along, w], axis=1)
+    """The points (…, m, 3) at these heights: in the meridian half plane of the centre, or on the ruling at an angle."""
+    share = w / of.gamma
+    if not of.upright.all():
+        across, along = np.cos(turn) - share * np.sin(turn), np.sin(turn) + share * np.cos(turn)
+    if of.upright.any():
+        x, y = of.centre[:, 0], of.centre[:, 1]
+        length, radius = np.hypot(x, y), np.hypot(1, share)
+        cosine, sine = np.where(length > 0, x / length, 1.0), np.where(length > 0, y / length, 0.0)
+        level, steep = radius * cosine, radius * sine
+        if of.upright.all():
+            across, along = level, steep
+        else:
+            across, along = np.where(of.upright, level, across), np.where(of.upright, steep, along)
+    return np.stack(np.broadcast_arrays(of.alpha * across, of.alpha * along, w), axis=-1)
 
 
 def _middles(of: _Pairs, cells: Floats) -> Floats:
@@ -173,17 +175,18 @@ def from_spheroids(b: Floats, d: Floats, axes: Rows, offset: Rows) -> tuple[Floa
     along = (axes * offset).sum(axis=1)
     across = offset - along[:, None] * axes
     off = np.sqrt((across * across).sum(axis=1))
-    beyond = np.maximum(np.maximum(b * off - b * b, d * np.abs(along) - d * d), 0)
+    b2, d2, wide, tall = b * b, d * d, b * off, d * np.abs(along)
+    beyond = np.maximum(np.maximum(wide - b2, tall - d2), 0)
     for _ in range(_TURNS):  # (b off/(b² + t))² + (d along/(d² + t))² = 1, from below
-        p, q = b * b + beyond, d * d + beyond
-        first, second = (b * off / p) ** 2, (d * along / q) ** 2
-        step = (first + second - 1) / (2 * (first / p + second / q))
-        beyond = beyond + np.maximum(np.nan_to_num(step), 0)
+        p, q = b2 + beyond, d2 + beyond
+        first, second = (wide / p) ** 2, (tall / q) ** 2
+        step = np.fmax((first + second - 1) / (2 * (first / p + second / q)), 0)  # not NaN at a centre
+        beyond = beyond + step
         if not (step > _SETTLED * beyond).any():
             break
-    p, q = b * b + beyond, d * d + beyond
-    share = np.maximum(np.hypot(b * off / p, d * along / q), 1)
-    rest = across * (1 - b * b / p / share)[:, None] + axes * (along * (1 - d * d / q / share))[:, None]
+    p, q = b2 + beyond, d2 + beyond
+    share = np.maximum(np.hypot(wide / p, tall / q), 1)
+    rest = across * (1 - b2 / p / share)[:, None] + axes * (along * (1 - d2 / q / share))[:, None]
     inside = np.hypot(off / b, along / d) <= 1
     normal = across / p[:, None] + axes * (along / q)[:, None]
     distance = np.where(inside, 0, np.sqrt((rest * rest).sum(axis=1)))
@@ -192,14 +195,11 @@ def from_spheroids(b: Floats, d: Floats, axes: Rows, offset: Rows) -> tuple[Floa
 
 def _least(of: _Pairs, cells: Floats, normal: Floats) -> tuple[Floats, Floats]:
     """A lower bound of the distance in each cell (m,), and the point (m, 3) that has it along the normal."""
-    heights, turns = _candidates(of, cells, normal)
-    best, place = np.full(len(cells), np.inf), np.zeros((len(cells), 3))
-    for w in heights:
-        for turn in turns(w):
-            point = _on_wall(of, w, turn)
-            value = (normal * (point - of.centre)).sum(axis=1)
-            nearer = value < best
-            best[nearer], place[nearer] = value[nearer], point[nearer]
+    heights = _heights(of, cells, normal)
+    points = _on_wall(of, heights[:, None], _turns(of, cells, normal, heights))
+    values = (normal * (points - of.centre)).sum(axis=-1).reshape(-1, len(cells))
+    chosen = np.where(np.isnan(values), np.inf, values).argmin(axis=0), np.arange(len(cells))
+    best, place = values[chosen], points.reshape(-1, len(cells), 3)[chosen]
     steep = (normal * of.axis).sum(axis=1)
     flat = np.sqrt(np.maximum(1 - steep * steep, 0))
     bound = best - np.hypot(of.b * flat, of.d * steep) - _LOOSE * _size(of, np.abs(cells[:, :2]).max(axis=1))
@@ -212,22 +212,26 @@ def _size(of: _Pairs, height: Floats) -> Floats:
     return np.asarray(np.abs(of.centre).sum(axis=1) + of.b + of.d + wall)
 
 
-def _candidates(of: _Pairs, cells: Floats, normal: Floats) -> tuple[list[Floats], Callable[[Floats], list[Floats]]]:
-    """Heights, and angles at each, at one of which the normal's component is least in the cells."""
+def _heights(of: _Pairs, cells: Floats, normal: Floats) -> Floats:
+    """Heights (3, m) at one of which the normal's component is least in the cells."""
     x, y, (n_x, n_y, n_z) = of.centre[:, 0], of.centre[:, 1], normal.T
     length = np.hypot(x, y)
     outward = np.where(length > 0, (n_x * x + n_y * y) / length, n_x)
     slope = -n_z * of.gamma / (outward * of.alpha)
     flat = of.gamma * slope / np.sqrt(np.maximum(1 - slope * slope, 0))
     flat = np.where(of.upright & np.isfinite(flat), flat, cells[:, 0])
+    return np.stack([cells[:, 0], cells[:, 1], np.clip(flat, cells[:, 0], cells[:, 1])])
 
-    def turns(w: Floats) -> list[Floats]:
-        share = w / of.gamma
-        lowest = np.arctan2(n_y - share * n_x, n_x + share * n_y) + np.pi
-        lowest += 2 * np.pi * np.ceil((cells[:, 2] - lowest) / (2 * np.pi))
-        return [cells[:, 2], cells[:, 3], np.clip(lowest, cells[:, 2], cells[:, 3])]
 
-    return [cells[:, 0], cells[:, 1], np.clip(flat, cells[:, 0], cells[:, 1])], turns
+def _turns(of: _Pairs, cells: Floats, normal: Floats, heights: Floats) -> Floats:
+    """Angles (3, 3, m), three at each height; beside an upright spheroid one alone, which says nothing."""
+    if of.upright.all():
+        return cells[None, None, :, 2]
+    (n_x, n_y, _), share = normal.T, heights / of.gamma
+    lowest = np.arctan2(n_y - share * n_x, n_x + share * n_y) + np.pi
+    lowest += 2 * np.pi * np.ceil((cells[:, 2] - lowest) / (2 * np.pi))
+    ends = (np.broadcast_to(cells[:, column], lowest.shape) for column in (2, 3))
+    return np.stack([*ends, np.clip(lowest, cells[:, 2], cells[:, 3])], axis=1)
 
 
 def _to_discs(result: Gaps, pairs: _Pairs, end: Floats, solid: Mask) -> None:
