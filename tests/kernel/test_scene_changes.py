@@ -135,7 +135,7 @@ def test_what_is_no_hyperboloid_is_refused_by_its_name(change, sentence):
 @pytest.mark.parametrize("margin", [0.01, 0.4, 3.0])
 def test_a_margin_in_a_scene_makes_contact_of_what_is_nearer(margin):
     scene, (_, _, _, side) = scene_of(30), arrays(30)
-    points = centres(400, side)
+    points = centres(120, side)
     found, near = scene.classify(points, margin=margin), scene.nearest(points)
     plain = scene.classify(points)
     sure = near.distance_lower >= margin

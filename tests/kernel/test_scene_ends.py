@@ -113,7 +113,7 @@ def random_rows(seed, count, *, tilted_bodies, tilted_mover):
 
 @pytest.mark.parametrize("tilted_bodies", [False, True])
 @pytest.mark.parametrize("tilted_mover", [False, True])
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", [0, pytest.param(1, marks=pytest.mark.thorough)])
 def test_position_nearest_and_passage_never_contradict_each_other_or_the_exact_position(
     seed, tilted_mover, tilted_bodies
 ):
@@ -162,7 +162,7 @@ def test_nearest_distance_is_the_least_over_points_of_what_stands(seed):
     draw = np.random.default_rng(seed)
     body = random_body(draw, 0, tilted=seed % 2 == 1)
     body = replace(body, height=Span(max(body.height.low, -2.0), body.height.high))
-    asked, centres = scene(body, mover=Mover(0.1, 0.1)), draw.normal(size=(20, 3)) * 1.5
+    asked, centres = scene(body, mover=Mover(0.1, 0.1)), draw.normal(size=(8, 3)) * 1.5
     w, turn = np.meshgrid(np.linspace(*body.height.ends, 400), np.linspace(0, 2 * np.pi, 400))
     r = body.alpha * np.hypot(1, w / body.gamma)
     walls = np.stack([r * np.cos(turn), r * np.sin(turn), w], axis=-1).reshape(-1, 3)
@@ -180,14 +180,14 @@ def test_nearest_distance_is_the_least_over_points_of_what_stands(seed):
         assert lower <= max(sampled, 0) + 1e-12
         assert upper >= sampled - spacing
     clear = found.distance_upper > 0
-    assert clear.sum() > 5
+    assert clear.sum() > 2
     to_point = np.linalg.norm(found.point - centres, axis=1) - 0.1
     assert to_point[clear] == pytest.approx(found.distance_upper[clear], abs=1e-9)
 
 
-@pytest.mark.parametrize("seed", range(0, 8, 2))
+@pytest.mark.parametrize("seed", [0, 2, *(pytest.param(seed, marks=pytest.mark.thorough) for seed in (4, 6))])
 def test_passage_beside_ends_hits_where_one_of_its_times_does_and_nowhere_before_the_first(seed):
-    """Exact positions at 33 times of each sweep; the first contact is enclosed within 2^-58 of the whole."""
+    """Exact positions at 17 times of each sweep; the first contact is enclosed within 2^-58 of the whole."""
     draw, hits = np.random.default_rng(seed), set()
     for number in range(7):
         body = random_body(draw, 0, tilted=number % 2 == 1)
@@ -201,7 +201,7 @@ def test_passage_beside_ends_hits_where_one_of_its_times_does_and_nowhere_before
         sizes, (low, high) = (body.alpha, body.gamma, mover.b, mover.d), body.height.ends
         found = passage(sizes, *offsets, axis, body.axis, z_min=low, z_max=high, solid=body.solid)
         assert found.hit == hit
-        times = [Fraction(k, 32) for k in range(33)]
+        times = [Fraction(k, 16) for k in range(17)]
         sweep = [(Fraction(here), Fraction(there)) for here, there in zip(start, end, strict=True)]
         places = ([here + time * (there - here) for here, there in sweep] for time in times)
         said = [truth_beside(body, (mover.b, mover.d), axis, place) for place in places]
@@ -302,7 +302,7 @@ def by_numpy(monkeypatch):
 
 
 @pytest.mark.parametrize("tilted_mover", [False, True])
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", [0, pytest.param(1, marks=pytest.mark.thorough)])
 def test_passages_beside_ends_are_the_same_by_the_numpy_kernel(seed, tilted_mover, by_numpy):
     asked, centres, axes = random_rows(seed, 16, tilted_bodies=False, tilted_mover=tilted_mover)
     named = {"axis": axes} if tilted_mover else {}

@@ -63,7 +63,7 @@ def test_bounds_of_the_distance_from_a_steep_wall_are_as_near_as_from_any(gamma)
     assert found.distance_upper * (1 - 1e-9) <= found.distance_lower <= 1.5 <= found.distance_upper
 
 
-@pytest.mark.parametrize("number", range(20))
+@pytest.mark.parametrize("number", range(6))
 def test_scene_nearest_measures_to_the_end_of_a_tree_above_its_end(number):
     rng = np.random.default_rng(number)
     tree = Hyperboloid("stump", 0.5, 2.0, (1, 2, 0.5), Span(-0.5, 1.5))
@@ -79,7 +79,7 @@ def test_scene_nearest_measures_to_the_end_of_a_tree_above_its_end(number):
 
 
 def test_scene_nearest_finds_the_nearest_of_trees_with_limited_heights():
-    trees = forest(Span(-0.5, 4.0))
+    trees = forest(Span(-0.5, 4.0))[:12]
     x, y, z = np.random.default_rng(5).uniform((-20, -20, 0), (20, 20, 4), (40, 3)).T
     found = scene(*trees).nearest(x, y, z)
     for k, tree in enumerate(trees):
@@ -98,7 +98,7 @@ def rotation(rng):
 
 
 @pytest.mark.parametrize("height", [None, Span(-0.5, 4.0)])
-@pytest.mark.parametrize("number", range(4))
+@pytest.mark.parametrize("number", range(2))
 def test_scene_nearest_of_a_turned_scene_is_the_turned_nearest(number, height):
     rng = np.random.default_rng(100 + number)
     turn, trees = rotation(rng), forest(height)[:12]
@@ -175,7 +175,7 @@ def test_the_cylinder_about_a_tree_bounds_the_distance_from_below():
 
 
 @pytest.mark.parametrize("mover", [Mover(0.5, 0.5), Mover(0.5, 0.5, axis=(0.3, -0.2, 1.0)), Mover(0.5, 0.2)])
-@settings(max_examples=60)
+@settings(max_examples=20)
 @given(
     origin=st.floats(-100, 100),
     alpha=st.floats(0.1, 10),
@@ -205,11 +205,11 @@ def sampled_distance(alpha, gamma, span, r, z):
     return float(np.hypot(r - alpha * np.hypot(1, height / gamma), z - height).min())
 
 
-@pytest.mark.parametrize("exponent", [-1000, -560, -400, 0, 400, 560, 900])
+@pytest.mark.parametrize("exponent", [-1000, -400, 0, 560])
 def test_scene_nearest_bounds_the_distance_from_the_standing_part_at_any_exponent(exponent):
     """Squares of such lengths leave float64; the same numbers about 1 say what is right."""
     draw = random.Random(exponent)  # noqa: S311
-    for _ in range(12):
+    for _ in range(8):
         alpha, gamma = draw.uniform(0.3, 3), draw.choice([draw.uniform(0.3, 5), 2.0 ** -draw.randint(3, 20)])
         low, above, radius = draw.uniform(-3, 1), draw.uniform(0, 3), draw.uniform(0.2, 2)
         x, z, level = draw.uniform(0, 8), draw.uniform(-6, 6), draw.choice([0.0, draw.uniform(-5, 5)])
@@ -240,7 +240,7 @@ _STEPS = st.tuples(*[st.integers(-2, 2)] * 3)
 
 
 @pytest.mark.parametrize("axis", [(0.0, 0.0, 1.0), (0.3, -0.2, 1.0)])
-@settings(max_examples=40)
+@settings(max_examples=15)
 @given(st.tuples(*[st.floats(-4, 4)] * 3), st.floats(0, 6.3), st.floats(-2, 2), st.integers(-1030, 1000), _STEPS)
 def test_position_nearest_and_passage_agree_about_contact_a_hair_from_the_surface(axis, at, turn, z, exponent, ulps):
     """Centres on both sides of the last that is in contact on a ray, and a few floats beside them."""
@@ -274,12 +274,12 @@ def test_the_normal_is_the_gradient_of_the_distance_wherever_bodies_are_tilted_a
         Hyperboloid("b", 1.0, 3.0, (9, 0, 0), None, (0.0, 0.0, 1.0)),
     )
     asked = scene(*bodies, mover=Mover(0.25, 0.6, axis=(1.0, 0.3, 0.2)))
-    points, step = np.random.default_rng(7).normal(size=(60, 3)) * 6, 1e-4
+    points, step = np.random.default_rng(7).normal(size=(30, 3)) * 6, 1e-4
     found = asked.nearest(points)
     sides = [[asked.nearest(points + sign * step * way).distance_upper for sign in (1, -1)] for way in np.eye(3)]
     gradient = np.stack([(ahead - behind) / (2 * step) for ahead, behind in sides], axis=1)
     clear = ~found.contact
-    assert 30 < clear.sum() < 60
+    assert 15 < clear.sum() < 30
     assert np.isnan(found.normal[~clear]).all()
     assert np.abs(found.normal - gradient)[clear].max() < 1e-5
     one = asked.nearest(points[np.argmax(clear)])
