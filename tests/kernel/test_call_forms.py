@@ -183,9 +183,9 @@ def test_calls_that_mean_nothing_are_refused_with_what_would_be_right(arguments,
 
 
 def distance_of_a_sphere(alpha, gamma, centre, radius):
-    """From a sphere to the wall, by the least over a dense curve in the plane of both: good to 1e-7."""
+    """From a sphere to the wall, by the least over a dense curve in the plane of both: good to 1e-6."""
     x, y, z = centre
-    height = np.linspace(-4 * gamma, 4 * gamma, 4_000_001)
+    height = np.linspace(-4 * gamma, 4 * gamma, 400_001)
     wall = alpha * np.sqrt(1 + (height / gamma) ** 2)
     return np.sqrt(np.hypot(wall - np.hypot(x, y), height - z).min() ** 2) - radius
 

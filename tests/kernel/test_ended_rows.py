@@ -115,7 +115,7 @@ def test_a_run_of_agreement_that_ended_early_goes_on_from_its_log(tmp_path, monk
 @pytest.mark.parametrize("tilted", [False, True])
 def test_bounds_of_a_clearance_a_hair_from_contact_do_not_cross_and_the_upper_one_is_0_in_contact_alone(tilted):
     """The spheroid grown by the upper bound in its shorter radius has contact, by the exact decision."""
-    rows = ended_agreement.hairs(np.random.default_rng(4), 4 if tilted else 12, tilted=tilted, nearest=-75)
+    rows = ended_agreement.hairs(np.random.default_rng(4), 3 if tilted else 8, tilted=tilted, nearest=-75)
     found = clearance(rows)
     truth = np.array([position(Pair.from_row(row).lengths) for row in rows.tolist()])
     assert (found.distance_lower <= found.distance_upper).all()
@@ -128,7 +128,7 @@ def test_bounds_of_a_clearance_a_hair_from_contact_do_not_cross_and_the_upper_on
 
 
 def test_bounds_of_a_clearance_beside_ends_are_neighbours_of_the_exact_one_and_those_of_a_distance_hold_it():
-    rows = np.concatenate([load(name).rows[:5] for name in ("ended-uniform", "ended-rim", "ended-small-integers")])
+    rows = np.concatenate([load(name).rows[:3] for name in ("ended-uniform", "ended-rim", "ended-small-integers")])
     found = clearance(rows)
     for place, row in enumerate(rows.tolist()):
         pair = Pair.from_row(row)

@@ -78,11 +78,11 @@ def test_sweeps_by_hand_are_answered_by_the_kernel_and_exactly(sweep, ends, open
 @pytest.mark.parametrize(
     ("rows", "most_open"),
     [
-        (past_a_tower(1, 40), 0),
-        (near_a_rim(2, 40), 0),
-        (near_a_rim(3, 24, hair=-70), 1),
-        (past_a_tower(4, 10, tilted=True), 0),
-        (near_a_rim(5, 10, tilted=True), 0),
+        (past_a_tower(1, 24), 0),
+        (near_a_rim(2, 24), 0),
+        (near_a_rim(3, 16, hair=-70), 1),
+        (past_a_tower(4, 6, tilted=True), 0),
+        (near_a_rim(5, 6, tilted=True), 0),
     ],
     ids=["tower", "rim", "hairs", "tilted tower", "tilted rim"],
 )
@@ -104,7 +104,7 @@ def test_the_kernel_answers_no_sweep_beside_an_end_wrongly_and_gives_no_late_tim
 @pytest.mark.parametrize("name", list(ENDED_SWEEP_FAMILIES))
 def test_of_each_family_no_sweep_is_answered_wrongly_in_any_mode_and_at_most_one_is_left_open(name):
     """Exact touches are among them, hairs down to 2⁻⁵⁰ radii, and sweeps that end or begin in a touch."""
-    rows = np.ascontiguousarray(ENDED_SWEEP_FAMILIES[name].rows(3, 8 if name.startswith("tilted") else 16))
+    rows = np.ascontiguousarray(ENDED_SWEEP_FAMILIES[name].rows(3, 6 if name.startswith("tilted") else 10))
     truth = np.array([exact_passage(row).hit for row in rows.tolist()])
     for mode in (TO_NEAREST, *DIRECTED):
         hits, times = np.empty(len(rows), np.int8), np.empty(len(rows))
@@ -139,7 +139,7 @@ def test_a_sphere_that_touches_in_passing_has_contact_and_one_a_hair_away_has_no
         assert hits[0] == (place[2] == 3 and across[0] > 0)
 
 
-@pytest.mark.parametrize(("count", "tilted"), [(50, False), (12, True)])
+@pytest.mark.parametrize(("count", "tilted"), [(24, False), (8, True)])
 def test_a_slightly_larger_spheroid_has_contact_at_the_time_of_a_hit_beside_an_end(count, tilted):
     rows = near_a_rim(6, count, tilted=tilted)
     hits, times = compiled_answer_sweeps(rows)
@@ -245,18 +245,17 @@ def test_a_plane_that_is_touched_half_way_outside_its_rim_does_not_hide_the_time
     assert not wrong_times(rows, times)
 
 
-@pytest.mark.parametrize("mode", [TO_NEAREST, *DIRECTED])
-def test_sweeps_beside_an_end_are_answered_alike_in_every_rounding_mode(mode):
-    rows = np.concatenate([near_a_rim(7, 4000, hair=-50), near_a_rim(8, 2000, tilted=True, hair=-50)])
+def test_sweeps_beside_an_end_are_answered_alike_in_every_rounding_mode():
+    rows = np.concatenate([near_a_rim(7, 1600, hair=-50), near_a_rim(8, 800, tilted=True, hair=-50)])
     answers = {}
-    for each in {TO_NEAREST, mode}:
+    for mode in (TO_NEAREST, *DIRECTED):
         hits, times = np.empty(len(rows), np.int8), np.empty(len(rows))
-        with rounded(each):
+        with rounded(mode):
             compiled.passage(rows, hits, times)
-        answers[each] = hits
-    both = (answers[TO_NEAREST] != CANNOT_SAY) & (answers[mode] != CANNOT_SAY)
-    assert both.mean() > 0.9
-    assert (answers[TO_NEAREST][both] == answers[mode][both]).all()
+        answers[mode] = hits
+        both = (answers[TO_NEAREST] != CANNOT_SAY) & (hits != CANNOT_SAY)
+        assert both.mean() > 0.9, mode
+        assert (answers[TO_NEAREST][both] == hits[both]).all(), mode
 
 
 @pytest.mark.parametrize("name", SWEEP_NAMES)
@@ -301,7 +300,7 @@ def test_a_sweep_whose_heights_are_none_is_refused_and_changes_no_other_answer(a
 
 @pytest.mark.parametrize("tiny", [5e-324, 2.0**-200, 2.0**200, 1e308])
 def test_sweeps_of_extreme_lengths_beside_an_end_are_left_open_or_answered_exactly(tiny):
-    rows = np.array([row_of(sweep, ends, solid) for sweep, ends, *_ in BY_HAND for solid in (0, 1)])
+    rows = np.array([row_of(sweep, ends, place % 2) for place, (sweep, ends, *_) in enumerate(BY_HAND)])
     with np.errstate(over="ignore"):
         rows[:, [4, 5, 6, 7, 8, 9, 13, 14]] *= tiny
     kept = rows[np.isfinite(rows[:, :10]).all(axis=1) & (rows[:, 13] < rows[:, 14])]

@@ -228,7 +228,7 @@ def test_the_fixed_point_stage_is_never_wrong_and_decides_nearly_all_rows_but_ta
     assert (answers(library, rows_of("tangent")) == 2).mean() > 0.9
 
 
-@pytest.mark.slow
+@pytest.mark.thorough
 @needs_compiler
 def test_the_fixed_point_stage_without_its_error_bound_answers_some_tangencies_wrongly(tmp_path):
     rows = rows_of("tangent")

@@ -43,7 +43,7 @@ def middle(near):
     ],
 )
 def test_the_normal_is_the_gradient_of_the_distance(more):
-    points = np.array([[3.0, 1.0, 2.0], [0.3, 0.2, 1.0], [2.6, -1.0, 7.5], [1.0, 0.5, 9.0], [0.2, 5.0, -5.0]])
+    points = np.array([[3.0, 1.0, 2.0], [0.3, 0.2, 1.0], [1.0, 0.5, 9.0], [0.2, 5.0, -5.0]])
     near = hypcheck.clearance((2.0, 4.0, 0.5, 0.3), points, **more)
     assert np.abs(np.linalg.norm(near.normal, axis=1)[~near.contact] - 1).max() < 1e-12
     step, gradient = 1e-3, np.empty((len(points), 3))

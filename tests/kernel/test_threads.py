@@ -68,7 +68,7 @@ CALLS = {
 @pytest.mark.skipif(choice().kernel != "compiled", reason="the numpy kernel holds the interpreter")
 @pytest.mark.parametrize("ask", CALLS.values(), ids=CALLS)
 def test_a_long_call_lets_other_threads_of_python_run(ask):
-    rows, ticks, stop = np.tile(TANGENT, (1_000_000, 1)), [], threading.Event()
+    rows, ticks, stop = np.tile(TANGENT, (500_000, 1)), [], threading.Event()
 
     def tick():
         while not stop.wait(0.002):

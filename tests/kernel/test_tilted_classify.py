@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 
 import numpy as np
@@ -28,7 +29,7 @@ MIXED = (1e-300, 1e300, 1.0)  # which floats have no room for
 
 @pytest.fixture(scope="module")
 def rows():
-    small = small_rows(21, 400)
+    small = small_rows(21, 160)
     vertical = [[*row[:7], 0.0, -0.0, -3.0] for row in small[:60]]
     spheres = [[*row[:3], row[2], *row[4:]] for row in small[:60]]
     stretched = [[*row[:7], *(each * 2.0**-1060 for each in row[7:])] for row in small[:60]]
@@ -58,9 +59,8 @@ def test_rows_of_ten_numbers_are_answered_exactly_by_every_kernel(each, question
     assert (found.tolist(), refused) == (yes[question].astype(int).tolist(), 0)
 
 
-@pytest.mark.parametrize("each", KERNELS)
 @pytest.mark.parametrize("axis", AXES)
-def test_classify_scene_with_one_axis_is_exact_in_every_kernel(each, axis, centres):
+def test_classify_scene_with_one_axis_is_exact_in_every_kernel(axis, centres):
     truth = positions(scene_rows(axis, centres))
     many = np.tile(centres, 4)  # enough for half spaces
     for question, wanted in (
@@ -69,7 +69,7 @@ def test_classify_scene_with_one_axis_is_exact_in_every_kernel(each, axis, centr
         ("interior", truth == -1),
         ("contact", truth == 0),
     ):
-        for columns, count in ((centres, 1), (many, 4)):
+        for each, (columns, count) in itertools.product(KERNELS, ((centres, 1), (many, 4))):
             found, refused = each.answer_scene(SIZES, tuple(columns), question, None, axis)
             assert (found.tolist(), refused) == (np.tile(wanted, count).astype(int).tolist(), 0)
 
