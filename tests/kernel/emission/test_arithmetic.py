@@ -80,20 +80,20 @@ REPORTED += [float.fromhex("-0x1.ep+4"), -0.0]
 
 @pytest.fixture(scope="module")
 def rows():
-    """All frozen vectors, rows next to contact, and the same moved by a subnormal number, or with subnormal sizes."""
-    near = near_contact(np.random.default_rng(3), 6000)
+    """Every third frozen vector, and rows next to contact, also moved by a subnormal number or with subnormal sizes."""
+    near = near_contact(np.random.default_rng(3), 3000)
     near[::5, 4] = float.fromhex("0x0.0000004p-1022")
     near[1::50, 4:] *= 1e-310
     near[2::50] *= 1e-308
     near[3::50, 1::2] *= 1e-309
     near = near[(near[:, :4] > 0).all(axis=1)]
-    return np.ascontiguousarray(np.vstack([*(frozen.load(name).rows for name in frozen.NAMES), near, REPORTED]))
+    return np.ascontiguousarray(np.vstack([*(frozen.load(name).rows[::3] for name in frozen.NAMES), near, REPORTED]))
 
 
 @pytest.fixture(scope="module")
 def positions(rows):
     """The labels of the frozen vectors, and exact positions of the others, both found in the usual arithmetic."""
-    labels = np.concatenate([frozen.load(name).positions for name in frozen.NAMES])
+    labels = np.concatenate([frozen.load(name).positions[::3] for name in frozen.NAMES])
     found = np.concatenate([labels, inside.positions(rows[len(labels) :])])
     assert found[-1] == 1
     return found
@@ -149,10 +149,10 @@ def pair_kernel(tmp_path_factory):
 def test_emitted_exact_pair_code_is_right_in_every_arithmetic_that_a_program_may_set(
     pair_kernel, control, rows, positions, language
 ):
-    kernel = pair_kernel("exact", language)
+    kernel, some = pair_kernel("exact", language), slice(None, None, 1 if language == "c" else 3)
     for setting in [(NEAREST, 0), *SETTINGS]:
-        found = asked(control, setting, kernel, rows)
-        assert np.flatnonzero(found != positions).tolist() == [], setting
+        found = asked(control, setting, kernel, rows[some])
+        assert np.flatnonzero(found != positions[some]).tolist() == [], setting
 
 
 @needs_compiler
@@ -199,7 +199,7 @@ def test_emitted_python_pair_code_is_never_wrong_in_any_arithmetic_that_a_librar
     """As a library does that is linked with -ffast-math, for the thread that loads it."""
     path = tmp_path / "pair.py"
     path.write_text(emitted_pair(method, "python", COMMAND), encoding="utf-8")
-    module, some = load_module(path), np.r_[0 : len(rows) : 7, len(rows) - 1]
+    module, some = load_module(path), np.r_[0 : len(rows) : 5, len(rows) - 1]
     asked_rows = rows[some].tolist()
     control.set_arithmetic(*setting)
     try:
@@ -246,18 +246,20 @@ process.stdout.write(Buffer.concat([Buffer.from([flushed]), Buffer.from(found.bu
 """
 
 
+@cache
 def every_kind(language):
-    """A kernel of each kind: one pair by each method, a scene in both formats, a whole scene, a tilted mover."""
-    for method in METHODS:
-        yield f"pair, {method}", emitted_pair(method, language, COMMAND)
-    for name, chosen, precision in (
-        ("a scene", TOWER, "float64"),
-        ("a scene in float32", TOWER, "float32"),
-        ("one axis", TILTED["the tower, one axis"], "float64"),
-        ("any axis", TILTED["the tower, any axis"], "float64"),
-    ):
-        yield name, emitted(plan_of(chosen, precision), language, COMMAND)
-    yield "a whole scene", whole(TOWER, whole_plan(TOWER), language, COMMAND)
+    """Names and texts of kernels: of pairs by each method, a scene in both formats, a whole one, and a tilted mover."""
+    pairs = [(f"pair, {method}", emitted_pair(method, language, COMMAND)) for method in METHODS]
+    scenes = [
+        (name, emitted(plan_of(chosen, precision), language, COMMAND))
+        for name, chosen, precision in (
+            ("a scene", TOWER, "float64"),
+            ("a scene in float32", TOWER, "float32"),
+            ("one axis", TILTED["the tower, one axis"], "float64"),
+            ("any axis", TILTED["the tower, any axis"], "float64"),
+        )
+    ]
+    return [*pairs, *scenes, ("a whole scene", whole(TOWER, whole_plan(TOWER), language, COMMAND))]
 
 
 VOID = ("-ffast-math", "-Ofast", "-ffinite-math-only", "-Ofast -fno-associative-math -fno-reciprocal-math")
@@ -270,7 +272,13 @@ PARTS = (
 SUFFIXES = {"c": ".c", "cpp": ".cpp"}
 
 
-@pytest.mark.parametrize("language", ["c", pytest.param("cpp", marks=pytest.mark.thorough)])  # of the same templates
+in_c = pytest.mark.parametrize(
+    "language",
+    ["c", pytest.param("cpp", marks=pytest.mark.thorough)],  # of the same templates
+)
+
+
+@in_c
 @pytest.mark.parametrize(
     ("compiler", "option"),
     [
@@ -286,7 +294,7 @@ def test_no_emitted_kernel_compiles_with_options_that_void_its_bounds(tmp_path, 
 
 
 @needs_gcc
-@pytest.mark.parametrize("language", SUFFIXES)
+@in_c
 def test_no_emitted_kernel_compiles_with_constants_in_single_precision(tmp_path, language):
     complaints = refusals(tmp_path, language, "-fsingle-precision-constant")
     for name, _ in every_kind(language):
@@ -336,7 +344,7 @@ def test_emitted_exact_pair_code_is_right_with_options_that_change_no_bound(tmp_
     """With x87, whole numbers decide each row."""
     kernel = library(tmp_path, "c", emitted_pair("exact", "c", COMMAND), *option.split())
     for setting in ((NEAREST, 0), *SETTINGS):
-        assert (asked(control, setting, kernel, rows) == positions).all()
+        assert (asked(control, setting, kernel, rows[::5]) == positions[::5]).all()
 
 
 @needs_clang
@@ -378,7 +386,7 @@ def test_emitted_scene_kernels_are_within_their_bound_where_subnormal_numbers_ar
         folder = tmp_path / str(length)  # a library is loaded once for each name
         folder.mkdir()
         kernel = library(folder, language, emitted(plan, language, COMMAND))
-        worst, count = worst_error(partial(asked, control, (NEAREST, 1), kernel), plan, 64)
+        worst, count = worst_error(partial(asked, control, (NEAREST, 1), kernel), plan, 24)
         assert count > 100
         assert worst <= plan.bound_u
 
@@ -404,8 +412,8 @@ def test_emitted_kernels_for_a_tilted_mover_are_never_wrong_where_subnormal_numb
     tmp_path, control, language
 ):
     """A short axis that flushing may turn is refused, and no other one."""
-    for chosen in (TILTED["the tower, one axis"], TILTED["the tower, any axis"]):
-        plan = plan_of(chosen)
+    for name in ("the tower, one axis", "the tower, any axis")[language != "c" :]:
+        plan = plan_of(TILTED[name])
         folder = tmp_path / str(plan.free)
         folder.mkdir()
         ask = asking_in(language, folder, control, emitted(plan, language, COMMAND))

@@ -33,13 +33,21 @@ def loaded(folder, method, language, change=str):
     return ctypes.CDLL(str(built_of(folder, change(emitted_pair(method, language, COMMAND)), language)))
 
 
+@pytest.fixture(scope="module")
+def library(tmp_path_factory):
+    """The code of a method in a language, compiled once."""
+    return cache(lambda method, language: loaded(tmp_path_factory.mktemp("kinds"), method, language))
+
+
 def positions_of(library, rows):
+    rows = np.ascontiguousarray(rows)
     found = np.full(len(rows), 99, np.int8)
     library.hypcheck_classify_tilted(ctypes.c_size_t(len(rows)), pointer(rows), pointer(found))
     return found
 
 
 def sweeps_of(library, rows):
+    rows = np.ascontiguousarray(rows)
     found, times = np.full(len(rows), 99, np.int8), np.full(len(rows), 99.0)
     library.hypcheck_passage_tilted(ctypes.c_size_t(len(rows)), pointer(rows), pointer(found), pointer(times))
     return found, times
@@ -60,7 +68,7 @@ def numbers_of(library, name, rows):
 @pytest.mark.parametrize("language", [*LANGUAGES, "python"])
 def test_emitted_clearances_hold_the_labels_of_frozen_cases(tmp_path, language):
     rows, _, cases = with_axes("", "axis")
-    step = 29 if language == "python" else 3
+    step = 29 if language == "python" else 9
     rows, true = rows[::step], np.array([float(case["clearance"]) for case in cases[::step]])
     skip_without(language)
     path = built_of(tmp_path, emitted_pair("clearance", language, COMMAND), language)
@@ -72,9 +80,9 @@ def test_emitted_clearances_hold_the_labels_of_frozen_cases(tmp_path, language):
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_emitted_sweeps_give_times_before_the_first_contact(tmp_path, language):
+def test_emitted_sweeps_give_times_before_the_first_contact(library, language):
     rows, answers, cases = with_axes("end", "end axis")
-    found, times = sweeps_of(loaded(tmp_path, "passage", language), rows)
+    found, times = sweeps_of(library("passage", language), rows)
     assert ((found == answers) | (found == 2)).all()
     assert np.isnan(times[found != 1]).all()
     hits = found == 1
@@ -87,11 +95,13 @@ def test_emitted_sweeps_give_times_before_the_first_contact(tmp_path, language):
 @needs_compiler
 @needs_flags
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_emitted_tilted_code_and_sweeps_are_never_wrong_in_any_arithmetic_that_a_program_may_set(tmp_path, language):
+def test_emitted_tilted_code_and_sweeps_are_never_wrong_in_any_arithmetic_that_a_program_may_set(
+    tmp_path, library, language
+):
     control = shared_library(tmp_path, CONTROL, "-frounding-math", "-std=gnu99")
-    tilted, passage = (loaded(tmp_path, method, language) for method in ("tilted", "passage"))
-    rows, positions, _ = with_axes("", "axis")
-    sweeps, hits, cases = with_axes("end", "end axis")
+    tilted, passage = (library(method, language) for method in ("tilted", "passage"))
+    rows, positions, _ = (some[::3] for some in with_axes("", "axis"))
+    sweeps, hits, cases = (some[::2] for some in with_axes("end", "end axis"))
     last = np.array([case["first"][1] if case["hit"] else np.inf for case in cases], dtype=float)
     for setting in SETTINGS:
         control.set_arithmetic(*setting)
@@ -120,6 +130,7 @@ def test_emitted_tilted_code_with_a_wrong_multiplier_is_never_wrong(tmp_path):
     assert 0.3 < (found == 2).mean() < 0.9
 
 
+@pytest.mark.thorough
 def test_emitted_tilted_code_and_sweeps_are_wrong_without_their_bounds(tmp_path):
     """So the frozen cases would show a bound that is left out."""
 
