@@ -140,7 +140,7 @@ def rotor_scenes(draw):
     }
 
 
-@settings(max_examples=40)
+@settings(max_examples=10)
 @given(rotor_scenes())
 def test_procedures_2_test_each_rotor_as_their_formula_for_one_spheroid(scene):
     rotors = evaluate(FORMULAS["procedure-2a"].program, EXACT, scene)

@@ -28,14 +28,14 @@ def result_of(capsys, *arguments):
 
 @pytest.fixture
 def tower(tmp_path):
-    """A tower that ends below its waist, where it narrows towards the top, and a flight of 60 m in it."""
+    """A tower that ends below its waist, where it narrows towards the top, and a flight of 20 m in it."""
     path = tmp_path / "lower.toml"
-    text = shipped_text("tower").replace("gamma = 17.8", "gamma = 2.0").replace("distance = 500.0", "distance = 60.0")
+    text = shipped_text("tower").replace("gamma = 17.8", "gamma = 2.0").replace("distance = 500.0", "distance = 20.0")
     path.write_text(text.replace("[-17.8, 17.8]", "[-17.8, -2.0]"))
     return ("simulate", "tower", "--scene", str(path), "--workers", "1", "--time", "0.05")
 
 
-@pytest.mark.parametrize("command", [("simulate", "forest", "--steps", "50"), ("simulate", "tower")])
+@pytest.mark.parametrize("command", [("simulate", "forest", "--steps", "50"), ("simulate", "tower", "--time", "0.05")])
 def test_output_of_a_simulation_is_the_same_but_for_what_ends_adds(capsys, command):
     ended, without = (result_of(capsys, *command, *more) for more in (("--ends",), ()))
     assert ended.pop("ends")
@@ -57,7 +57,7 @@ def test_a_drone_above_the_top_of_a_tree_is_counted_as_dangerous_where_it_touche
 
 def test_counts_about_a_tower_that_ends_are_those_of_exact_decisions_at_each_position(tower):
     """Moves to random places near the upper end and the wall, where the tower narrows; half of them ask nothing."""
-    craft, draw, count = craft_of(read_scene(tower[3])), np.random.default_rng(5), 1500
+    craft, draw, count = craft_of(read_scene(tower[3])), np.random.default_rng(5), 500
     z = draw.uniform(-2.02, -1.98, count) - draw.integers(0, 2, count) * draw.uniform(0, 0.3, count)
     radius = 2 * np.hypot(1, z / 2) - draw.uniform(0.2, 0.26, count)
     angle, none = draw.uniform(-0.1, 0.1, count), np.zeros(count, dtype=np.bool_)
@@ -74,7 +74,7 @@ def test_counts_about_a_tower_that_ends_are_those_of_exact_decisions_at_each_pos
             by_center.append(is_valid(craft, at, ()))
             by_ends.append(is_valid(craft, at, ENDED))
     needless = sum(ended and not whole for whole, ended in zip(by_center, by_ends, strict=True))
-    assert needless > 5
+    assert needless > 2
     assert touching > 10
     assert not any(whole and not ended for whole, ended in zip(by_center, by_ends, strict=True))
     assert (verdicts.asked, verdicts.needless, verdicts.dangerous) == (len(by_ends), needless, 0)
@@ -97,7 +97,7 @@ def is_valid(craft, at, heights):
 
 
 def test_simulation_with_ends_says_in_words_what_the_centres_height_misses(capsys, tower):
-    assert main([*FOREST, "--ends", "--steps", "1000"]) == 0
+    assert main([*FOREST, "--ends", "--steps", "400"]) == 0
     out = capsys.readouterr().out
     assert "Trees as they end, where the walk asks for the height of the centre alone:" in out
     assert "the walker touches low tree" in out
