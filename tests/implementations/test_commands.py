@@ -77,11 +77,11 @@ def test_output_of_a_command_between_two_replies_breaks_the_protocol():
 
 @pytest.mark.parametrize("form", ["text", "binary"])
 def test_a_correct_command_answers_batches_of_every_size_rightly(form):
-    some = rows(5000)
+    some = rows(700)
     expected = truth(some)
     with open_implementation(command("right", form), LIMITS) as it:
         assert it._supervisor.max_batch == (4096 if form == "text" else 65536)
-        for n, batch in ((50, 1), (5000, 77), (5000, 100_000), (5000, None)):
+        for n, batch in ((50, 1), (700, 77), (700, 100_000), (700, None)):
             answered = it.classify(some[:n], batch=batch)
             assert answered.answered.all()
             assert answered.answers.tolist() == expected[:n].tolist()
@@ -305,19 +305,19 @@ def test_a_command_is_timed_by_its_own_clock_and_checked_by_its_checksum():
 
 @pytest.mark.parametrize("form", ["true", "false"])
 def test_a_compiled_command_answers_large_batches(form, tmp_path):
-    program = compiled("command", tmp_path / "sign", "-O2", f"-DBINARY={form}")
-    some = rows(1 << 20 if form == "true" else 1 << 16)
+    program = compiled("command", tmp_path / "sign", f"-DBINARY={form}")
+    some = rows(1 << 18 if form == "true" else 1 << 14)
     with open_implementation(f"command:{program}") as it:
         assert it.classify(some).answers.tolist() == signs(some).tolist()
 
 
 def test_a_command_that_replies_before_it_has_read_all_rows_breaks_the_protocol():
     """Seen where a question is more than a pipe holds; after an error the rest would be taken for questions."""
-    some = rows(4096)
+    some = rows(2048)
     with open_implementation(command("hasty"), Limits(restarts=0)) as it:
-        assert "it replied before it had read the rows" in it.classify(some, batch=4096).reasons[0]
+        assert "it replied before it had read the rows" in it.classify(some, batch=2048).reasons[0]
     with open_implementation(command("hasty", "error"), Limits(restarts=0)) as it:
-        answered = it.classify(some, batch=4096)
+        answered = it.classify(some, batch=2048)
     # Its error is read, unless it has left by the time the rest of the rows is written to it; the row that it did not
     # read ends it, as a question that it does not understand.
     asked = answered.status.tolist().index(Outcome.NOT_RUN)

@@ -29,44 +29,65 @@ from tests.tools.miniatures import (
     truth,
 )
 
+REASONS = {
+    13: (Outcome.ERROR, r"raised ZeroDivisionError: float division \\x1b\[0m by zero \(goes_wrong.py, line 17\)"),
+    14: (Outcome.ERROR, r"raised SystemExit: 3 \(goes_wrong.py, line 19\)"),
+    15: (Outcome.PROTOCOL, "left the rounding mode changed: upward; a call must leave it as it was"),
+    16: (Outcome.PROTOCOL, "answered 256; it must be one of -1, 0, 1 or 2"),
+}
+
+
+def test_a_fault_of_a_function_that_goes_on_fails_only_its_own_row_with_the_reason_and_without_a_restart():
+    some = rows(lucky=True)
+    places = dict(zip(REASONS, (2, 17, 18, 33), strict=True))
+    for gamma, place in places.items():
+        some[place, 1] = gamma
+    with open_implementation(function("goes_wrong"), LIMITS) as it:
+        answered = it.classify(some)
+        assert it.classify(rows(lucky=True)).answered.all()
+        assert restarts_of(it) == 0
+    assert np.flatnonzero(~answered.answered).tolist() == [*places.values()]
+    assert answered.answers[answered.answered].tolist() == truth(some)[answered.answered].tolist()
+    for gamma, (outcome, sentence) in REASONS.items():
+        reason = answered.reasons[places[gamma]]
+        assert answered.status[places[gamma]] == outcome
+        assert reason.isprintable()
+        assert re.search(sentence, reason), reason
+
+
 FAULTS = {
-    "answers_256": (Outcome.PROTOCOL, "answered 256; it must be one of -1, 0, 1 or 2"),
-    "raises": (Outcome.ERROR, r"raised ZeroDivisionError: float division \\x1b\[0m by zero \(raises.py, line 8\)"),
-    "exits": (Outcome.ERROR, r"raised SystemExit: 3 \(exits.py, line 10\)"),
     "leaves": (Outcome.CRASH, "ended by itself with exit status 3"),
     "segfaults": (Outcome.CRASH, "ended by SIGSEGV.*; stderr: .*segfaults.py"),
     "loops": (Outcome.TIMEOUT, "no answer within 0.7 s"),
     "eats_memory": (Outcome.CRASH, r"memory: its processes grew to 0\.\d+ GiB"),
-    "changes_rounding": (Outcome.PROTOCOL, "left the rounding mode changed: upward; a call must leave it as it was"),
 }
 
 
 @pytest.mark.parametrize("name", FAULTS)
-def test_a_fault_of_a_function_fails_only_its_own_row_with_the_reason(name):
+def test_a_fault_that_ends_a_function_fails_only_its_own_row_with_the_reason(name):
     some, (outcome, sentence) = rows(), FAULTS[name]
     with open_implementation(function(name), QUICK if name == "loops" else LIMITS) as it:
         reason = only_unlucky(it.classify(some), outcome, truth(some))
         assert re.search(sentence, reason), reason
         assert it.classify(rows(lucky=True)).answered.all()
-        assert restarts_of(it) == (1 if outcome in {Outcome.CRASH, Outcome.TIMEOUT} else 0)
+        assert restarts_of(it) == 1
 
 
-@pytest.mark.parametrize(
-    ("name", "sentence"),
-    [
-        ("floats", "it returned an array of float64; it must be integers, such as int8"),
-        ("too_many", r"it returned an array of shape \(2,\) for 1 rows; it must be \(1,\)"),
-        ("nothing", r"it returned a NoneType of shape \(\) for 1 rows; it must be \(1,\)"),
-        ("masked", "it returned a masked array with masked answers; it must answer every row"),
-        ("ragged", "it returned a list that is not an array of one integer a row"),
-    ],
-)
-def test_a_function_that_does_not_return_one_integer_per_row_breaks_the_protocol(name, sentence):
-    with open_implementation(function(name), LIMITS) as it:
-        answered = it.classify(rows())
+def test_a_function_that_does_not_return_one_integer_per_row_breaks_the_protocol():
+    sentences = (
+        "it returned an array of float64; it must be integers, such as int8",
+        r"it returned an array of shape \(2,\) for 1 rows; it must be \(1,\)",
+        r"it returned a NoneType of shape \(\) for 1 rows; it must be \(1,\)",
+        "it returned a masked array with masked answers; it must answer every row",
+        "it returned a list that is not an array of one integer a row",
+    )
+    some = rows()
+    with open_implementation(function("no_integers"), LIMITS) as it:
+        for some[:, 1], sentence in enumerate(sentences, 1):
+            answered = it.classify(some)
+            assert answered.count(Outcome.PROTOCOL) == 40
+            assert all(re.search(sentence, answered.reasons[index]) for index in range(40))
         assert restarts_of(it) == 0
-    assert answered.count(Outcome.PROTOCOL) == 40
-    assert all(re.search(sentence, answered.reasons[index]) for index in range(40))
 
 
 def test_a_function_that_has_never_answered_is_given_up_after_1024_rows():
@@ -81,23 +102,22 @@ def test_a_function_that_has_never_answered_is_given_up_after_1024_rows():
 @pytest.mark.parametrize(("spec", "restarts"), [(command("leaves"), 3), (function("raises"), 0)])
 def test_the_outcome_of_faults_does_not_depend_on_the_batch_size(spec, restarts):
     """Batches grow with what a machine answers in time: neither restarts nor what is not asked may depend on them."""
-    some = rows(900, lucky=True)
-    some[[7, 50, 130, 500, 503, 800]] = rows()[UNLUCKY]
+    some = rows(300, lucky=True)
+    some[[7, 50, 130, 200, 203, 280]] = rows()[UNLUCKY]
     found = []
-    for batch in (16, 100, 900):
+    for batch in (16, 300):
         with open_implementation(spec, replace(LIMITS, restarts=3)) as it:
             it.allowance = replace(it.allowance, faults=4, hangs=None)
             answered = it.classify(some, batch=batch)
             found.append((answered.status.tolist(), answered.answers.tolist(), restarts_of(it)))
-    assert found[0] == found[1] == found[2]
-    assert np.flatnonzero(answered.status != Outcome.ANSWERED).tolist() == [7, 50, 130, *range(500, 900)]
+    assert found[0] == found[1]
+    assert np.flatnonzero(answered.status != Outcome.ANSWERED).tolist() == [7, 50, 130, *range(200, 300)]
     assert restarts_of(it) == restarts
 
 
-@pytest.mark.parametrize("name", ["right", "prints", "list_of_integers"])
-def test_a_function_may_print_and_return_integers_of_any_type(name):
-    some = rows(5000)
-    with open_implementation(function(name), LIMITS) as it:
+def test_a_function_may_return_a_list_of_integers():
+    some = rows(500)
+    with open_implementation(function("list_of_integers"), LIMITS) as it:
         assert it.classify(some).answers.tolist() == truth(some).tolist()
 
 
@@ -127,9 +147,10 @@ def test_times_that_a_function_writes_into_the_pipe_of_its_worker_are_refused():
         it.time(rows(), 1)
 
 
-def test_output_that_a_function_prints_is_kept_as_its_standard_error():
+def test_a_function_may_print_and_its_output_is_kept_as_its_standard_error():
+    some = rows()
     with open_implementation(function("prints"), LIMITS) as it:
-        it.classify(rows())
+        assert it.classify(some).answers.tolist() == truth(some).tolist()
         assert stderr_of(it)[-2:] == ("computing", r"�\x00 from C")
 
 
@@ -144,15 +165,6 @@ def test_a_module_in_a_python_spec_is_found_from_the_working_directory(tmp_path,
         assert (it.description.name, it.description.language) == ("package.module:near", "python")
 
 
-def test_a_file_in_a_python_spec_can_import_modules_beside_it(tmp_path):
-    (tmp_path / "neighbour.py").write_text("ANSWER = 1\n")
-    (tmp_path / "kernel.py").write_text(
-        "from neighbour import ANSWER\n\n\ndef f(rows):\n    return [ANSWER] * len(rows)\n"
-    )
-    with open_implementation(f"python:{tmp_path / 'kernel.py'}:f", LIMITS) as it:
-        assert it.classify(rows()).answers.tolist() == [1] * 40
-
-
 def test_the_description_of_a_function_is_read_and_can_be_overridden():
     with open_implementation(function("right"), LIMITS, precision="float32", domain=Domain(ratio=(1.0, 2.0))) as it:
         assert (it.declared.name, it.declared.version, it.declared.precision) == ("right", "2.1", "float64")
@@ -161,8 +173,6 @@ def test_the_description_of_a_function_is_read_and_can_be_overridden():
     with open_implementation(function("float16"), LIMITS) as it:
         assert (it.description.precision, it.description.question) == ("float16", "exterior")
         assert it.classify(rows()).answers.tolist() == [1] * 40
-    with open_implementation(function("nowhere"), LIMITS) as it:
-        assert not it.description.domain.holds(rows()).any()
 
 
 def test_an_invalid_override_of_a_description_is_refused_and_leaves_no_process():
@@ -181,13 +191,10 @@ def test_an_answer_that_the_question_does_not_allow_breaks_the_protocol():
 def test_answer_127_is_allowed_for_invalid_rows_if_the_description_says_refuses():
     some = rows()
     some[3, 0], some[4, 6] = -1.0, np.nan
-    with open_implementation(function("refuses"), LIMITS) as it:
-        answered = it.classify(some)
-        assert answered.answered.all()
-        assert np.flatnonzero(answered.answers == 127).tolist() == [3, 4]
     with open_implementation(function("refuses_all"), LIMITS) as it:
         answered = it.classify(some)
         assert np.flatnonzero(answered.answered).tolist() == [3, 4]
+        assert answered.answers[3:5].tolist() == [127, 127]
         assert "answered 127, which refuses the row, but the row is valid" in answered.reasons[0]
 
 
@@ -258,10 +265,10 @@ def test_a_python_spec_that_loads_too_slowly_is_refused(tmp_path):
 
 
 def test_a_function_is_timed_and_a_fault_while_timing_is_reported():
-    some = rows(1000, lucky=True)
+    some = rows(200, lucky=True)
     with open_implementation(function("right"), LIMITS) as it:
         # the least of five, for whatever else the machine does may fall on any one of them
-        assert 0 < min(it.time(some, 1) for _ in range(5)) < it.time(some, 50)
+        assert 0 < min(it.time(some, 1) for _ in range(5)) < it.time(some, 30)
         assert it.time(some, 1, each=True) > 0
         with pytest.raises(InputError, match="0 rows cannot be timed 1 time;"):
             it.time(some[:0], 1)
@@ -299,28 +306,36 @@ def test_a_change_of_the_rounding_mode_by_a_call_is_found_and_undone():
         guard.restore()
 
 
-@pytest.mark.parametrize(
-    ("call", "line"), [("np.broadcast_arrays([1, 2], [1, 2, 3])", 6), ("json.loads('{')", 6), ("helper.f()", 4)]
-)
-def test_an_error_inside_a_package_is_reported_with_the_users_calling_line(call, line, tmp_path):
+def test_an_error_inside_a_package_is_reported_with_the_users_calling_line(tmp_path):
     (tmp_path / "helper.py").write_text("import numpy as np\n\ndef f():\n    np.broadcast_arrays([1, 2], [1, 2, 3])\n")
-    text = f"import json\n\nimport helper\nimport numpy as np\ndef f(rows):\n    {call}\n"
+    calls = {
+        "np.broadcast_arrays([1, 2], [1, 2, 3])": ("calls.py", 7),
+        "json.loads('{')": ("calls.py", 9),
+        "helper.f()": ("helper.py", 4),
+    }
+    text = "import json\n\nimport helper\nimport numpy as np\ndef f(rows):\n"
+    text += "".join(f"    if rows[0, 0] == {place + 1}:\n        {call}\n" for place, call in enumerate(calls))
     (tmp_path / "calls.py").write_text(text, encoding="utf-8")
+    some = rows()[: len(calls)]
+    some[:, 0] = range(1, len(calls) + 1)
     with open_implementation(f"python:{tmp_path / 'calls.py'}:f", LIMITS) as it:
-        (reason,) = set(it.classify(rows()[:1]).reasons.values())
-    where = "helper.py" if "helper" in call else "calls.py"
-    assert reason.endswith(f" ({where}, line {line})"), reason
+        answered = it.classify(some)
+    for place, (file, line) in enumerate(calls.values()):
+        assert answered.reasons[place].endswith(f" ({file}, line {line})"), answered.reasons[place]
 
 
-def test_the_worker_loads_neither_sympy_nor_mpmath_nor_fcl(tmp_path):
+def test_a_file_in_a_python_spec_imports_what_is_beside_it_and_finds_neither_sympy_nor_mpmath_nor_fcl_loaded(tmp_path):
+    (tmp_path / "neighbour.py").write_text("ANSWER = 1\n")
     names = "{'sympy', 'mpmath', 'fcl', 'click', 'hypcheck.implementations.builtin'}"
     (tmp_path / "seen.py").write_text(
-        f"import sys\n\nhypcheck = {{'name': 'x', 'version': str({names} & set(sys.modules))}}\n\n\n"
-        "def f(rows):\n    return [0] * len(rows)\n"
+        "import sys\n\nfrom neighbour import ANSWER\n\n"
+        f"hypcheck = {{'name': 'x', 'version': str({names} & set(sys.modules))}}\n\n\n"
+        "def f(rows):\n    return [ANSWER] * len(rows)\n"
     )
     before = {"sympy", "mpmath", "fcl"} & set(sys.modules)
     with open_implementation(f"python:{tmp_path / 'seen.py'}:f", LIMITS) as it:
         assert it.declared.version == "set()"
+        assert it.classify(rows()).answers.tolist() == [1] * 40
     assert {"sympy", "mpmath", "fcl"} & set(sys.modules) == before
 
 

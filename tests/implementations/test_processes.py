@@ -142,11 +142,12 @@ STOPS = """
 import os, signal, sys, time
 from hypcheck.implementations import process
 from hypcheck.implementations.implementation import open_implementation
-from tests.tools.miniatures import NOT_ISOLATED, command, rows
+from hypcheck.implementations.session import Limits
+from hypcheck.isolation.launch import Isolation
 
 process.LOOK = 0.1
-with open_implementation(command("stops_its_parent"), NOT_ISOLATED) as it:  # isolated, it reaches no parent
-    assert it.classify(rows()).answered.all()
+with open_implementation(sys.argv[1], Limits(isolation=Isolation("off"))) as it:  # isolated, it reaches no parent
+    assert it.classify([[1, 13, 1, 1, 2, 0, 0]]).answered.all()
 print("answered")
 """
 
@@ -161,36 +162,42 @@ def stopped_by_a_signal_that_tells(process: int) -> bool:
 
 @pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells by which signal a process was stopped")
 def test_an_implementation_that_stops_its_parent_does_not_hang_the_run(token):
-    with subprocess.Popen([sys.executable, "-c", "import time; time.sleep(60)"]) as sleeper:
+    with subprocess.Popen([sys.executable, "-I", "-S", "-c", "import time; time.sleep(60)"]) as sleeper:
         told = stopped_by_a_signal_that_tells(sleeper.pid)
         sleeper.kill()
     if not told:
         pytest.skip("this kernel does not tell by which signal a process was stopped")
-    ours = subprocess.Popen([sys.executable, "-c", STOPS], stdout=subprocess.PIPE)
+    words = [sys.executable, "-c", STOPS, command("stops_its_parent")]
+    ours = subprocess.Popen(words, stdout=subprocess.PIPE)
     with ours:
         assert ours.communicate(timeout=30)[0] == b"answered\n"
     assert all_gone(token) == []
 
 
 @needs_proc
-@pytest.mark.parametrize("limits", ["LIMITS", pytest.param("NOT_ISOLATED", marks=pytest.mark.thorough)])
-@pytest.mark.parametrize("name", ["loops", "ignores_goodbye", "detaches"])
-def test_no_process_outlives_hypcheck_even_if_it_is_killed(name, limits, token):
+@pytest.mark.parametrize("isolation", ["auto", pytest.param("off", marks=pytest.mark.thorough)])
+def test_no_process_outlives_hypcheck_even_if_it_is_killed(isolation, token):
     """An endless loop does not see that its input ended, nor does a child: the guard does, or the launcher."""
     code = (
         "import sys\n"
         "from hypcheck.implementations.implementation import open_implementation\n"
-        "from tests.tools.miniatures import LIMITS, NOT_ISOLATED, command, rows\n"
-        f"it = open_implementation(command({name!r}), {limits})\n"
-        "it.classify(rows(lucky=True))\n"
+        "from hypcheck.implementations.session import Limits\n"
+        "from hypcheck.isolation.launch import Isolation\n"
+        "def asked(spec):\n"
+        f"    it = open_implementation(spec, Limits(isolation=Isolation({isolation!r})))\n"
+        "    it.classify([[1, 2, 1, 1, 2, 0, 0]])\n"
+        "    return it\n"
+        "every = [asked(spec) for spec in sys.argv[1:]]\n"
         "print('asked', flush=True)\n"
-        "it.classify(rows())\n"
+        "every[-1].classify([[1, 13, 1, 1, 2, 0, 0]])\n"
         "sys.stdin.read()\n"
     )
-    ours = subprocess.Popen([sys.executable, "-c", code], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+    specs = [command(name) for name in ("ignores_goodbye", "detaches", "loops")]
+    words = [sys.executable, "-c", code, *specs]
+    ours = subprocess.Popen(words, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
     with ours:
         assert ours.stdout.readline() == b"asked\n"
-        eventually(lambda: len(living(token)) >= 3)
+        eventually(lambda: len(living(token)) >= 9)
         ours.kill()
     assert all_gone(token) == []
 
@@ -335,10 +342,9 @@ import sys
 from hypcheck.implementations.session import Outcome
 from hypcheck.implementations.session import Limits
 from hypcheck.implementations.implementation import open_implementation
-from tests.tools.miniatures import rows
 with open_implementation(sys.argv[1], Limits(timeout=0.7, restarts=0)) as it:
     print(it._supervisor.session()._process._popen.pid, flush=True)
-    answered = it.classify(rows(lucky=True))
+    answered = it.classify([[1.0] * 7] * 40)
     print(answered.count(Outcome.ANSWERED), *answered.reasons.values(), flush=True)
 """
 

@@ -23,6 +23,16 @@ TAKEN = [
     for count in range(len(known) + 1)
     for groups in itertools.combinations(known, count)
 ]
+LEANING, ENDED, BOTH = ("axis",), ("heights",), ("axis", "heights")
+
+
+def of_taken(*few):
+    """All that can be taken, of which all but a few are thorough: one code gives all implementations their columns."""
+    return [
+        pytest.param(question, groups, marks=() if (question, groups) in few else pytest.mark.thorough)
+        for question, groups in TAKEN
+    ]
+
 
 CHECK = """
 import numpy as np
@@ -101,7 +111,10 @@ def require_right(spec, question, groups):
         assert set(answered.answers.tolist()) == {0, 1}
 
 
-@pytest.mark.parametrize(("question", "groups"), TAKEN)
+@pytest.mark.parametrize(
+    ("question", "groups"),
+    of_taken(("position", ENDED), ("position", BOTH), ("passage", ()), ("passage", ("end", *BOTH))),
+)
 def test_python_function_gets_exactly_the_columns_that_it_takes(tmp_path, question, groups):
     answer = f"right(rows, {width_of(question, groups)}, {'heights' in groups})"
     source = f"{CHECK}\nhypcheck = {describing(question, groups)!r}\ndef answers(rows):\n    return {answer}\n"
@@ -109,8 +122,18 @@ def test_python_function_gets_exactly_the_columns_that_it_takes(tmp_path, questi
     require_right(f"python:{tmp_path / 'taking.py'}:answers", question, groups)
 
 
-@pytest.mark.parametrize("binary", [False, True])
-@pytest.mark.parametrize(("question", "groups"), TAKEN)
+IN_TEXT = ("position", LEANING), ("position", ENDED), ("passage", ()), ("passage", BOTH)
+IN_BINARY = ("position", ()), ("position", BOTH), ("passage", LEANING), ("passage", ENDED)
+
+
+@pytest.mark.parametrize(
+    ("question", "groups", "binary"),
+    [
+        pytest.param(*each.values, binary, marks=each.marks)
+        for binary, few in ((False, IN_TEXT), (True, IN_BINARY))
+        for each in of_taken(*few)
+    ],
+)
 def test_command_gets_exactly_the_columns_that_it_takes(tmp_path, question, groups, binary):
     facts = {
         "DESCRIPTION": describing(question, groups),
@@ -125,7 +148,10 @@ def test_command_gets_exactly_the_columns_that_it_takes(tmp_path, question, grou
     require_right(f"command:{shlex.join([sys.executable, str(script)])}", question, groups)
 
 
-@pytest.mark.parametrize(("question", "groups"), TAKEN)
+@pytest.mark.parametrize(
+    ("question", "groups"),
+    of_taken(("position", ()), ("position", ENDED), ("passage", LEANING), ("passage", ("end", *BOTH))),
+)
 def test_library_with_the_function_for_rows_of_any_width_is_called_by_it(tmp_path, question, groups):
     description = str(describing(question, groups)).replace("'", '\\"')
     facts = {
@@ -173,4 +199,5 @@ def test_wrong_groups_of_a_description_are_refused_with_what_would_be_right(raw,
 def test_columns_of_a_description_stand_in_one_order_whatever_the_order_of_its_groups():
     taken = described({"question": "passage", "takes": ["heights", "axis"]}, Description("it"))
     assert taken.columns[7:] == ("x1", "y1", "z1", "axis_x", "axis_y", "axis_z", "z_min", "z_max", "solid")
+    assert described({"question": "passage", "takes": ["end"]}, Description("it")).columns == taken.columns[:10]
     assert described({"tilt": True}, Description("it")) == described({"takes": ["axis"]}, Description("it"))
