@@ -94,7 +94,7 @@ def test_root_methods_are_right_away_from_contact(answer):
 
 @pytest.mark.slow
 def test_mpmath_roots_with_50_digits_are_right_where_15_digits_are_not():
-    rows = WORKLOADS["near-contact"].rows(1, 150)
+    rows = WORKLOADS["near-contact"].rows(1, 40)
     truth = inside.positions(rows)
     fewer, more = (alternatives.mpmath_roots(rows, digits) for digits in (15, 50))
     assert np.count_nonzero(fewer != truth) > 0
