@@ -17,7 +17,7 @@ COMPILED := $(BIN)/python -c 'from hypcheck.derivation import printed_equations,
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help verify bench deep engines reference reference-bench attack processors pace soak kernels wheel check test thorough lint quick cases check-cases prove paper transcripts figures mutants goldens seams surface evidence docs packages release format clean
+.PHONY: help verify bench deep engines reference reference-bench attack processors pace soak kernels wheel check test tests thorough lint quick cases check-cases prove paper transcripts figures mutants goldens seams surface evidence docs packages release format clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "make %-15s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -48,8 +48,11 @@ check: $(VENV)/ready-dev ## lint, types and the quick tests (under a minute): be
 quick: $(VENV)/ready-dev
 	$(BIN)/python -m pytest --quiet -n auto --dist worksteal -m 'not slow and not thorough'
 
+test: $(VENV)/ready-dev ## lint, format, strict types, import layers and every test but the thorough ones
+	$(MAKE) --no-print-directory --jobs 2 lint tests
+
 # Only where every test ran and some failed (1) do these run once more: after an error of pytest (3) most have not run.
-test: $(VENV)/ready-dev lint ## lint, format, strict types, import layers and every test but the thorough ones
+tests: $(VENV)/ready-dev
 	$(BIN)/python -m pytest --assert plain -n auto --dist worksteal -m 'not thorough' || { \
 		ended=$$?; [ $$ended = 1 ] || exit $$ended; \
 		echo "What failed beside other tests runs once more, alone: a loaded machine refuses no change. What fails twice fails."; \
