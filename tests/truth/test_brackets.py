@@ -76,13 +76,13 @@ def test_bracket_with_a_vertical_axis_holds_the_exact_error_of_the_upright_pair(
 
 def test_bracket_of_a_small_tilted_backward_error_is_narrow():
     narrow = 0
-    for family, row in rows(["near", "slight", "stiff"], 60, seed=4):
+    for family, row in rows(["near", "slight", "stiff"], 40, seed=4):
         truth = decided(row)
         found = bracket(Pair.from_row(row), truth, CONTACT) if truth.position is not CONTACT else None
         if found is not None and found.upper < 1e-6:
             assert found.upper <= 1.25 * found.lower, (family, row)
             narrow += 1
-    assert narrow >= 5
+    assert narrow >= 3
 
 
 @pytest.mark.thorough
@@ -137,14 +137,14 @@ def attains(row, change, answer):
 
 def test_some_change_of_the_upper_end_makes_the_answer_right():
     asked = 0
-    for _, row in rows(["uniform", "near", "stiff", "slight"], 8, seed=8):
+    for _, row in rows(["uniform", "near", "stiff", "slight"], 5, seed=8):
         truth = decided(row)
         answer = CONTACT if truth.position is not CONTACT else EXTERIOR
         upper = bracket(Pair.from_row(row), truth, answer).upper
         if upper < 0.25:
             asked += 1
             assert attains(row, Fraction(upper), answer), row
-    assert asked >= 4
+    assert asked >= 3
 
 
 def test_derivatives_by_the_axis_are_those_of_another_algebra():

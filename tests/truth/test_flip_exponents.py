@@ -26,7 +26,7 @@ def one_by_one(rows):
 @pytest.mark.slow
 @pytest.mark.parametrize("name", FAMILIES)
 def test_distance_exponents_equal_those_of_exact_changes(name):
-    rows = FAMILIES[name].rows(11, 24)
+    rows = FAMILIES[name].rows(11, 10)
     assert flip_exponents(rows).tolist() == one_by_one(rows)
 
 
@@ -40,8 +40,8 @@ def test_fewer_than_5_percent_of_ordinary_rows_need_an_exact_distance_exponent()
 def test_next_to_a_power_of_two_distance_exponents_are_nan_or_right(sign):
     """x = α + b + δ at the waist: the distance is about δ/(α + b + x), here about a power of two."""
     steps = np.concatenate([2.0 ** np.arange(-12, -6), -(2.0 ** np.arange(-12, -6)), [0.0]])
-    rows = np.zeros((40 * len(steps), 7))
-    for place, (power, step) in enumerate((k, step) for k in range(-42, -2) for step in steps):
+    rows = np.zeros((20 * len(steps), 7))
+    for place, (power, step) in enumerate((k, step) for k in range(-42, -2, 2) for step in steps):
         rows[place, :4] = 2.0, 1000.0, 1.0, 1.0
         rows[place, 4] = 3 + sign * 6 * 2.0**power * (1 + step)
     found = distance_exponents(rows, positions(rows))

@@ -17,7 +17,7 @@ from tests.support.inside import goal_of, position
 from tests.truth.tilted_cases import random_rows
 
 ROWS = [
-    *random_rows(40, seed=3),
+    *random_rows(15, seed=3),
     [1, 2, 1.5, 0.5, 3, 1, 2, 0, 0, 1],  # upright
     [1, 2, 0.5, 1.5, 0.1, 0.2, 0.3, 0, 0, -2],
     [1, 2, 0.5, 1.5, 3, 1, 0, 1, 2, 0],  # level

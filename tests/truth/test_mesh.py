@@ -7,11 +7,12 @@ import sys
 from fractions import Fraction
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from hypcheck.errors import UnavailableError
 from hypcheck.geometry.pair import Pair
+from tests.support.examples import examples
 from tests.support.fractions_truth import (
     everyday,
     exact_position,
@@ -43,14 +44,14 @@ def test_mesh_oracle_leaves_tangencies_and_pairs_within_float64_of_one_undecided
     assert found.lower <= 1 <= found.upper <= found.lower + 2**-46
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(tangent_rows(steps_at(st.integers(3, 26))))
 def test_mesh_oracle_decides_known_clearances_down_to_one_in_a_hundred_million(known):
     row, position = known
     assert verdict(Pair(*row)).position == position
 
 
-@settings(max_examples=40)
+@examples(40)
 @given(tangent_rows(st.sampled_from([Fraction(1), Fraction(-1)])))
 def test_mesh_oracle_calls_no_tangency_clear(known):
     found = verdict(Pair(*known[0]))
@@ -94,13 +95,13 @@ def check_against_exact(row):
         assert exact_position(grown(row, Fraction(found.upper) * (1 + Fraction(1, 2**60)))) == 0
 
 
-@settings(max_examples=80)
+@examples(80)
 @given(rows_of(*everyday()) | rows_of(*everyday(-1, 1)))
 def test_the_mesh_oracle_is_right_on_everyday_rows(row):
     check_against_exact(row)
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(
     rows_of(
         st.floats(min_value=5e-324, allow_infinity=False, allow_nan=False),

@@ -5,17 +5,18 @@ from __future__ import annotations
 from fractions import Fraction
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from hypcheck.geometry.pair import Pair
 from hypcheck.truth import mesh_meridian
 from hypcheck.truth.mesh_meridian import REACH, UNIT, meridian_of, window_of
+from tests.support.examples import examples
 from tests.support.fractions_truth import everyday, rows_of
 
 
 @pytest.mark.slow
-@settings(max_examples=200)
+@examples(100)
 @given(rows_of(*everyday(-3, 3)), st.fractions(0, 1))
 def test_window_of_the_meridian_holds_every_point_within_reach(row, share):
     meridian = meridian_of(Pair(*row[:5], 0.0, row[6]))

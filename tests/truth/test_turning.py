@@ -6,12 +6,13 @@ import math
 from fractions import Fraction
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Position
 from hypcheck.truth.turning import _all_the_way, _summit, squared_distances, turning
+from tests.support.examples import examples
 from tests.support.fractions_truth import exact_position
 
 EXTERIOR, CONTACT, INTERIOR = Position.EXTERIOR, Position.CONTACT, Position.INTERIOR
@@ -36,7 +37,7 @@ def positions_near(row):
 
 
 @pytest.mark.slow
-@settings(max_examples=60)
+@examples(60)
 @given(
     st.tuples(_size, _size, _size, _size),
     st.tuples(_coordinate, _coordinate, _coordinate),
@@ -58,7 +59,7 @@ def near_contact(sizes, center, arm, direction, angle):
     return any(0 in positions_near((*sizes, *after(center, arm, direction, angle * n / 2000))) for n in range(2001))
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(st.tuples(_coordinate, _coordinate), _size, _direction, st.floats(-7, 7))
 def test_enclosures_of_least_and_largest_distance_on_a_turn_hold_every_distance_and_are_narrow(
     center, arm, direction, angle

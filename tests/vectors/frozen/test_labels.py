@@ -27,6 +27,7 @@ from hypcheck.vectors.freezing import extended, frozen, frozen_invalid_rows
 from hypcheck.vectors.invalid_rows import invalid_rows
 from hypcheck.vectors.labels import labelled, shows_crossing, stored_certificate
 from tests.support import inside
+from tests.support.examples import examples
 from tests.support.inside import Certificate, prove
 from tests.support.pairs import pairs
 
@@ -185,7 +186,7 @@ def test_points_outside_the_spheroid_do_not_prove_a_crossing():
 
 
 @given(st.floats(allow_nan=False))
-@settings(max_examples=300)
+@examples(300)
 def test_decimal_and_hexadecimal_texts_of_a_number_are_read_back_as_that_number(value):
     assert float.fromhex(hex_of(value)) == value
     assert math.copysign(1, float.fromhex(hex_of(value))) == math.copysign(1, value)
@@ -205,7 +206,7 @@ def test_hexadecimal_text_of_a_number_equals_that_of_c_printf():
 
 
 @given(st.fractions())
-@settings(max_examples=100)
+@examples(100)
 def test_rational_text_is_read_back_as_that_rational(value):
     assert rational_of(exact_text(value)) == value
 
