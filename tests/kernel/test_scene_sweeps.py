@@ -75,7 +75,7 @@ def expected(scene, starts, ends, axis=None):
     ids=["forest", "no-region", "heights", "small"],
 )
 def test_scene_passage_answers_as_the_exact_decision_about_every_hyperboloid(scene):
-    starts, ends = sweeps(40, 5)
+    starts, ends = sweeps(24, 5)
     found = Scene(scene).passage(starts, ends)
     assert found.tolist() == expected(scene, starts, ends)
     alone = [Scene(scene).passage(*sweep) for sweep in zip(starts, ends, strict=True)]
@@ -174,8 +174,8 @@ def test_scene_passage_asks_the_parts_of_a_mover_where_the_whole_has_contact():
     body, mover = replace(TREE, alpha=0.5, gamma=4.0, height=Span(-2.0, 2.0)), Mover(1.0, 0.5, ROTORS)
     scene = Scene(SceneModel("tree", "position", (body,), mover, Region()))
     random = np.random.default_rng(10)
-    starts, ends = random.normal(size=(2, 40, 3)) * 0.8
-    headings = random.uniform(0, 360, 40)
+    starts, ends = random.normal(size=(2, 24, 3)) * 0.8
+    headings = random.uniform(0, 360, 24)
 
     def hit(start, end, heading):
         if not passage_beside(body, (1.0, 0.5), start, end).hit:
@@ -219,7 +219,7 @@ def test_sweeps_in_a_turned_scene_are_answered_as_in_the_upright_one(height, axi
     ).mean() > 0.9  # a rounded axis is another
 
 
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", [1, *(pytest.param(seed, marks=pytest.mark.thorough) for seed in (0, 2))])
 def test_sweep_beside_tilted_hyperboloids_hits_where_its_distance_comes_to_0(seed):
     """Euclidean distance changes no faster than the centre, so that samples bound it from both sides."""
     scene = forest(5, seed, mover=Mover(0.3, 0.6, axis=FREE), region=Region())

@@ -4,14 +4,22 @@ from __future__ import annotations
 
 from collections import Counter
 from fractions import Fraction
+from functools import cache
 
 from hypcheck.geometry.pair import Lengths, Pair
 from hypcheck.geometry.rows import Rows
+from hypcheck.vectors.families import ALL
 from tests.support import inside
 from tests.support.inside import Kind
 
 COUNT = 1500
 """Rows of a family that is looked at as a whole."""
+
+
+@cache
+def first_block(name: str) -> Rows:
+    """The first block of the family for seed 0, made once for all tests that look at it."""
+    return ALL[name].block(0, 0)
 
 
 def lengths_of(rows: Rows) -> list[Lengths]:

@@ -8,8 +8,9 @@ import pytest
 
 from hypcheck.geometry.pair import Position
 from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES
+from hypcheck.vectors.family import BLOCK
 from tests.support import inside
-from tests.vectors.case_rows import COUNT
+from tests.vectors.case_rows import first_block
 
 EXTERIOR, CONTACT, INTERIOR = Position
 LIMITED = {
@@ -38,14 +39,14 @@ LIMITED = {
 
 @pytest.mark.parametrize("name", FAMILIES)
 def test_each_family_has_at_least_10_percent_of_every_position_that_it_allows(name: str) -> None:
-    found = Counter(inside.positions(FAMILIES[name].rows(5, COUNT)).tolist())
+    found = Counter(inside.positions(first_block(name)).tolist())
     expected = LIMITED.get(name, set(Position))
     assert set(found) == {int(position) for position in expected}
-    assert all(count >= 0.1 * COUNT for count in found.values()), found
+    assert all(count >= 0.1 * BLOCK for count in found.values()), found
 
 
 @pytest.mark.parametrize("name", TILTED_FAMILIES)
 def test_a_tilted_family_meets_every_position_that_it_promises(name: str) -> None:
-    found = Counter(inside.positions(TILTED_FAMILIES[name].rows(5, 300)).tolist())
+    found = Counter(inside.positions(first_block(name)[:300]).tolist())
     assert set(found) == set(map(int, LIMITED.get(name, set(Position))))
     assert min(found.values()) >= 10, found

@@ -297,16 +297,17 @@ class Search(Generic[Found]):
 
 def counterexample(statement: Statement) -> Search[PointFacts]:
     """The simplest point of the space at which the statement is false."""
-    return first_point(lambda facts: statement.where(facts) and not statement.says(facts), statement.where)
+    return first_point(lambda facts: not statement.says(facts), statement.where)
 
 
 def first_point(wanted: Condition, where: Condition = lambda _: True) -> Search[PointFacts]:
-    """The simplest point with `wanted`; `tried` counts the points up to this one for which `where` holds."""
+    """The simplest point with `wanted` of those for which `where` holds; `tried` counts these up to it."""
     tried = 0
     for facts in facts_in_order():
-        tried += where(facts)
-        if wanted(facts):
-            return Search(tried, facts)
+        if where(facts):
+            tried += 1
+            if wanted(facts):
+                return Search(tried, facts)
     return Search(tried, None)
 
 

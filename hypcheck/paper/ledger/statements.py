@@ -268,7 +268,7 @@ def refused_though_inside(hull: PointFacts) -> Quadcopter | None:
 
 def refusal(where: Condition, shows: str) -> Evidence:
     """The simplest hull in a regime at which Procedure 2.b refuses four interior rotors, and the farthest rotor."""
-    search = first_point(lambda hull: where(hull) and refused_though_inside(hull) is not None, where)
+    search = first_point(lambda hull: refused_though_inside(hull) is not None, where)
     quadcopter = refused_though_inside(search.found) if search.found else None
     if search.found is None or quadcopter is None:
         return Evidence("search", f"nothing found among {search.tried:,} hulls", holds=False)
@@ -300,7 +300,7 @@ def valid_though_the_body_meets_the_wall() -> Evidence:
     The body is in contact, the rotors are interior, and the certificate of contact has a point of the body's spheroid
     beyond the wall: a part at this point would collide.
     """
-    search = first_point(lambda hull: _crossing(hull) and cleared_by_its_rotors(hull) is not None, _crossing)
+    search = first_point(lambda hull: cleared_by_its_rotors(hull) is not None, _crossing)
     quadcopter = cleared_by_its_rotors(search.found) if search.found else None
     if search.found is None or quadcopter is None:
         return Evidence("search", f"nothing found among {search.tried:,} hulls", holds=False)
