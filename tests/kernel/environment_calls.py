@@ -145,9 +145,9 @@ def calls(pairs, wide, sweeps, scenes):
         yield f"position with an array {row}", lambda row=row: hypcheck.position(*row, axis=np.array([5e-324, 1, 1]))
         yield f"classify_scene {row}", lambda row=row: hypcheck.classify_scene(row[:4], *few.T[4:])
         yield f"Prepared {row}", lambda row=row: hypcheck.classify_scene(hypcheck.Prepared(tuple(row[:4])), *few.T[4:])
-    for row in few[::5].tolist():
+    for row in few[::9].tolist():
         yield f"tilted {row}", lambda row=row: hypcheck.classify_scene(row[:4], *few.T[4:], axis=[0, 5e-324, 5e-324])
-    for rows in (upright[::48], tilted[::90]):
+    for rows in (upright[::60], tilted[::45]):
         yield f"clearance of {rows.shape[1]} numbers", lambda rows=rows: hypcheck.clearance(rows)
     for row, _ in sweeps:
         yield f"passage {row}", lambda row=row: _shown(hypcheck.passage(row[:4], row[4:7], row[7:]))

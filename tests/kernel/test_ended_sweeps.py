@@ -176,7 +176,7 @@ ONLY_TOUCHES = {"way-grazing", "way-ring", "tilted-way-ring"}
 def test_each_hit_has_a_time_that_is_right_within_8_units(name, times_as_many):
     """Flat ends are reached head-on, rims along their tangents, and tangencies that end a sweep are exact."""
     family = (SWEEP_FAMILIES | ENDED_SWEEP_FAMILIES)[name]
-    rows = np.ascontiguousarray(family.rows(5, (10 if name.startswith("tilted") else 16) * times_as_many))
+    rows = np.ascontiguousarray(family.rows(5, (8 if name.startswith("tilted") else 12) * times_as_many))
     hits, times = compiled_answer_sweeps(rows)
     assert (hits == 1).sum() > 2 or name in ONLY_TOUCHES
     assert not wrong_times(rows[hits == 1], times[hits == 1])

@@ -65,7 +65,7 @@ def single_passages(world, points, axis=None):
 def test_a_flights_first_contact_is_that_of_the_exact_passages_of_single_pairs(seed, tilted):
     axis = (0.2, -0.1, 1.0) if tilted else None
     mover = Mover(0.3, 0.15, axis=axis or UPRIGHT)
-    world, points = wood(seed, mover=mover, tilted=tilted), flight(seed + 10, 9)
+    world, points = wood(seed, count=24, mover=mover, tilted=tilted), flight(seed + 10, 9)
     found, wanted = world.first_contact(points), single_passages(world, points, axis)
     assert found.hit == (wanted is not None)
     if wanted is None:

@@ -129,7 +129,7 @@ def asked(control, setting, kernel, rows, function="hypcheck_classify"):
     return found
 
 
-COMPILED = ["c", "cpp", "rust"]
+COMPILED = ["c", pytest.param("cpp", marks=pytest.mark.thorough), "rust"]  # C++ is of the same templates as C
 
 
 @pytest.fixture(scope="module")
@@ -272,10 +272,7 @@ PARTS = (
 SUFFIXES = {"c": ".c", "cpp": ".cpp"}
 
 
-in_c = pytest.mark.parametrize(
-    "language",
-    ["c", pytest.param("cpp", marks=pytest.mark.thorough)],  # of the same templates
-)
+in_c = pytest.mark.parametrize("language", COMPILED[:2])
 
 
 @in_c
@@ -376,7 +373,7 @@ def of_size(length):
 @needs_compiler
 @needs_flags
 @pytest.mark.parametrize("precision", ["float64", "float32"])
-@pytest.mark.parametrize("language", ["c", pytest.param("cpp", marks=pytest.mark.thorough), "rust"])
+@pytest.mark.parametrize("language", COMPILED)
 def test_emitted_scene_kernels_are_within_their_bound_where_subnormal_numbers_are_flushed(
     tmp_path, control, language, precision
 ):
@@ -407,7 +404,7 @@ def test_emit_refuses_an_axis_with_a_subnormal_number():
 
 @needs_compiler
 @needs_flags
-@pytest.mark.parametrize("language", ["c", pytest.param("cpp", marks=pytest.mark.thorough), "rust", "python"])
+@pytest.mark.parametrize("language", [*COMPILED, "python"])
 def test_emitted_kernels_for_a_tilted_mover_are_never_wrong_where_subnormal_numbers_are_flushed(
     tmp_path, control, language
 ):
