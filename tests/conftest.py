@@ -199,7 +199,7 @@ def built_in(monkeypatch):
     return spec
 
 
-FEW_FAMILIES = ("tower-body", "uniform", "ring", "axis", "strata", "extreme-float64", "tilted-uniform", "way-still")
+FEW_FAMILIES = ("tower-body", "uniform", "ring", "axis", "extreme-float64", "tilted-uniform", "way-still")
 
 
 @pytest.fixture

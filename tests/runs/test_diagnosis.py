@@ -21,17 +21,18 @@ FAMILIES = ("ring", "ring-neighbourhood", "out-of-regime", "coefficient-zero", "
 ORDINARY = Criterion()
 
 
-def diagnosed(implementation, families=FAMILIES, criterion=ORDINARY):
+def diagnosed(implementation, families=FAMILIES, criterion=ORDINARY, step=1):
     """The causes, None of what is unexplained, with the number of wrong answers; and how many are wrong in all."""
     diagnoses, clean, wrong = {}, [], 0
     for family in families:
         found = load(family)
-        given = np.asarray(implementation(found.rows), dtype=np.int8)
-        scored = score(found.rows, found.positions, Answered.of(given), criterion)
+        rows, positions, ids = found.rows[::step], found.positions[::step], found.ids[::step]
+        given = np.asarray(implementation(rows), dtype=np.int8)
+        scored = score(rows, positions, Answered.of(given), criterion)
         cases = [case for case in scored.judged() if case.status == "wrong"]
-        right = np.flatnonzero(given == found.positions).tolist()
-        named = [((0, case.index), found.ids[case.index]) for case in cases]
-        diagnoses[family] = diagnose(AnsweredRows(found.rows, found.positions, given, criterion), cases, right, named)
+        right = np.flatnonzero(given == positions).tolist()
+        named = [((0, case.index), ids[case.index]) for case in cases]
+        diagnoses[family] = diagnose(AnsweredRows(rows, positions, given, criterion), cases, right, named)
         wrong += len(cases)
         if not cases:
             clean.append(family)
@@ -197,7 +198,7 @@ MIXED = (*FAMILIES, "waist", "axis", "small-integers", "tangent", "degenerate-cr
     ids=["all real roots positive", "between the poles", "between the poles, 1e-6", "three real ones, 1e-3"],
 )
 def test_mixed_faults_of_code_that_computes_roots_are_explained_in_parts(implementation, expected):
-    causes, wrong = diagnosed(implementation, MIXED)
+    causes, wrong = diagnosed(implementation, MIXED, step=3)
     assert expected <= causes.keys()
     assert causes.get(None, 0) <= 0.02 * wrong
     assert sum(causes.values()) == wrong

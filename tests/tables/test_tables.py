@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from hypcheck.answer import answer
@@ -47,7 +47,6 @@ def text_of(row: tuple[float, ...]) -> str:
     return ",".join(map(repr, row))
 
 
-@settings(max_examples=120)
 @example([Pair(5e-324, 1.0, 5.488980354903168e230, 1.0, 5.488980354903168e230, 0.5, 0.0)])  # 4e-463 radii apart
 @example([Pair(3.0, 3.521074803988142e253, 2.0, 1.0, 1.0, 0.0, 0.5)])
 @given(st.lists(pairs, min_size=1, max_size=12))

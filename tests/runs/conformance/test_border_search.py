@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,11 +11,13 @@ import pytest
 from hypcheck import classify
 from hypcheck.cli.main import main
 from hypcheck.geometry.rows import within
+from hypcheck.implementations.description import Description, parse_domain
 from hypcheck.record import read
 from hypcheck.record.lines import GroupLine, ImplementationLine
 from hypcheck.runs.border_search import SearchStep as Step
 from hypcheck.runs.border_search import beside_border, far_numbers, first_of, rows_at, searched
 from hypcheck.runs.judge import Criterion, Status
+from hypcheck.runs.plan import ConformancePlan, searches
 from hypcheck.runs.tally import STATUS_CODES
 from hypcheck.vectors.border_lines import RUNGS, RUNGS_ON_A_SIDE
 from hypcheck.vectors.families import family_of, parse_case_id
@@ -143,8 +146,10 @@ def test_search_is_the_same_twice_and_left_out_where_families_are_named_or_sizes
     once, again = (run("builtin:fast", "--count", "4", "--seed", "9")[1]["search"] for _ in range(2))
     assert once == again
     assert "search" not in run("builtin:fast", "--families", "ring", "--count", "4")[1]
-    sizes = '{"settings": [{"sizes": [2, 5, 1, 0.5], "z": [-9, 9]}]}'
-    assert "search" not in run("builtin:fast", "--domain", sizes, "--count", "4")[1]
+    plan, used = ConformancePlan(("builtin:fast",)), Description("any")
+    sizes = parse_domain('{"settings": [{"sizes": [2, 5, 1, 0.5], "z": [-9, 9]}]}')
+    assert [step.family for step in searches(plan, used)] == ["search"]
+    assert searches(plan, replace(used, domain=sizes)) == ()
 
 
 def test_lines_say_of_a_right_answer_that_it_is_right():

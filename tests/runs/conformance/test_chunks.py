@@ -74,8 +74,7 @@ def test_stored_flip_exponents_of_frozen_vectors_equal_computed_ones(name):
     assert chunks.flip_exponents_of(made, some).tolist() == flip_exponents(made.rows[some]).tolist()
 
 
-@pytest.mark.slow
-def test_number_of_frozen_vectors_is_known_without_reading_them():
-    assert {name: chunks.frozen_count(name) for name in vectors.ALL_NAMES} == {
-        name: len(vectors.load(name).cases) for name in vectors.ALL_NAMES
-    }
+@pytest.mark.parametrize("name", ["ring", "tilted-uniform", "way-still", "ended-rim", "ended-way-disc", "invalid"])
+def test_number_of_frozen_vectors_is_known_without_reading_them(name):
+    """One name of each kind: none can be read whose number is another."""
+    assert chunks.frozen_count(name) == len(vectors.load(name).cases)

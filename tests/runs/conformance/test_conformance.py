@@ -47,9 +47,9 @@ def test_table_2_fails_on_the_ring_and_passes_on_the_scenes_of_the_paper(tmp_pat
 
 
 def test_implementation_with_a_constant_answer_fails(tmp_path, built_in):
-    code, record = gate(tmp_path, built_in(faulty.contact_everywhere), "--families", "uniform,near-tangent-outside")
+    code, record = gate(tmp_path, built_in(faulty.contact_everywhere), "--families", "uniform", count="0")
     assert code == 1
-    assert statuses(record)["wrong"] > 200
+    assert statuses(record)["wrong"] > 60
 
 
 def test_option_fail_on_false_clear_passes_other_wrong_answers(tmp_path, built_in):
@@ -88,10 +88,10 @@ def test_implementation_with_changing_answers_fails(tmp_path, built_in, monkeypa
 
 @pytest.mark.parametrize(
     ("name", "status", "families"),
-    [("dies_on_the_axis", "crash", "extreme-float16,tower-body"), ("raises_at_the_waist", "error", "waist,tower-body")],
+    [("dies_on_the_axis", "crash", "extreme-hair,tower-body"), ("raises_at_the_waist", "error", "waist,tower-body")],
 )
 def test_fault_of_an_implementation_affects_only_the_cases_that_cause_it(tmp_path, name, status, families):
-    code, record = gate(tmp_path, subject(name), "--families", families, "--restarts", "200", count="10")
+    code, record = gate(tmp_path, subject(name), "--families", families, "--restarts", "200", count="0")
     assert code == 1
     found = {line.family: line for line in record.of(GroupLine)}
     assert found["tower-body"].counts.get("right", 0) > 100

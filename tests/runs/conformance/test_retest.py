@@ -42,8 +42,8 @@ def test_retest_finds_answers_that_depend_on_the_previous_moment_of_a_flight(gat
     [("python:tests.runs.faulty:loses_the_second_thread", 1), ("slowly_loses_the_second_thread", 0)],
 )
 def test_retest_asks_the_largest_proven_batch(gate, name, code):
-    count = ("--count", "4000" if code else "1")  # enough questions to grow, though the machine be busy
-    ended, record = gate(name, *count)
+    busy = ("--count", "4000", "--timeout", "60")  # enough to grow, though the machine be busy
+    ended, record = gate(name, *(busy if code else ("--count", "1")))
     assert ended == code
     assert counts(record)["tower-body"].get("nondeterministic", 0) == record.of(ImplementationLine)[0].again.beyond
     assert FULL_QUESTION > 4096

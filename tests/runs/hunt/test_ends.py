@@ -42,7 +42,7 @@ def program(folder, text):
     return f"python:{path}:{re.findall('def (.*)[(]', text)[0]}"
 
 
-@pytest.mark.parametrize(("text", "width", "most"), [(CENTRE_ALONE, 13, 100), (NEVER, 16, 30)])
+@pytest.mark.parametrize(("text", "width", "most"), [(CENTRE_ALONE, 13, 60), (NEVER, 16, 20)])
 def test_a_hunt_asks_about_ends_where_heights_are_taken_and_keeps_what_it_finds(text, width, most, capsys, tmp_path):
     spec, out = program(tmp_path, text), tmp_path / "kept.json"
     assert main(["hunt", spec, "--queries", str(most), "--show", "1", "--out", str(out)]) == 1
