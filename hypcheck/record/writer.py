@@ -18,6 +18,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from datetime import datetime, timezone
+from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any, BinaryIO
@@ -326,7 +327,7 @@ def header(options: Mapping[str, Any], started: datetime, provenance: Provenance
         hypcheck=VERSION,
         started=started.isoformat(timespec="seconds"),
         python=platform.python_version(),
-        versions=_versions(),
+        versions=dict(_versions()),
         machine=Machine(
             system=platform.system(),
             architecture=platform.machine(),
@@ -338,7 +339,8 @@ def header(options: Mapping[str, Any], started: datetime, provenance: Provenance
     )
 
 
-def _versions() -> dict[str, str]:
+@cache
+def _versions() -> Mapping[str, str]:
     """The versions of the libraries a run can use, from their metadata, so that none is loaded."""
     versions = {}
     for name in ("numpy", "sympy", "mpmath", "python-fcl", "coal", "click", "matplotlib"):
