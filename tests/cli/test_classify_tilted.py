@@ -11,11 +11,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hypcheck import classify
-from hypcheck.answer import answer, answer_as_json, answer_as_text
+from hypcheck.answer import answer, answer_as_json, answer_as_text, measured_clearance
 from hypcheck.answers import answers
 from hypcheck.cli.main import main
 from hypcheck.geometry.pair import Pair
 from hypcheck.tables.numbers import exact_text
+from hypcheck.truth.exact import decide
 from tests.cli.test_classify import number
 from tests.kernel.test_tilted_integers import RINGS, small_rows, wide_rows
 from tests.support.pairs import extreme_tilted_rows, nearly_touching_tilted_rows
@@ -81,7 +82,19 @@ def check_printed_proof(row, printed):
 TOUCHING = [[4.0, 1.0, 2.0, 1.0, 3.0, 0.0, 0.0, 1.0, 0.0, 0.0], [1.0, 2.0, 1.0, 0.5, 1.5, 0.0, 0.0, 1.0, 0.0, 0.0]]
 
 
-@pytest.mark.parametrize("row", [*(list(row) for row, _ in RINGS), *TOUCHING, *small_rows(31, 60), *wide_rows(32, 4)])
+WIDE = wide_rows(32, 4)
+
+
+@pytest.mark.parametrize(
+    "row",
+    [
+        *(list(row) for row, _ in RINGS),
+        *TOUCHING,
+        *small_rows(31, 30),
+        *WIDE[:3:2],
+        *(pytest.param(row, marks=pytest.mark.thorough) for row in WIDE[1::2]),
+    ],
+)
 def test_every_proof_that_classify_prints_for_a_leaning_pair_can_be_checked_from_its_text(row):
     found = answer(Pair.from_row(row))
     printed = json.loads(answer_as_json(found))
@@ -114,10 +127,22 @@ def test_classify_answers_a_clearance_below_the_least_float64_with_the_least_tha
     assert (found["position"], found["tangent"], found["clearance"]) == (1, False, 5e-324)
 
 
+HUGE, FLAT = float.fromhex("0x1.fffffffffffe9p+1023"), float.fromhex("0x0.07602de4963fep-1022")
+GAMMA, HEIGHT = float.fromhex("0x1.f26de949a5ee1p-300"), float.fromhex("-0x1.362e3227d0290p-300")
+WIDEST = [HUGE, GAMMA, HUGE, FLAT, 0, 0, HEIGHT, 3, 0, -1]
+
+
+def test_the_clearance_of_an_interior_pair_of_the_widest_range_of_lengths_is_the_least_float():
+    pair = Pair.from_row(WIDEST)
+    decision = decide(pair.lengths)
+    assert (decision.position, decision.tangent, measured_clearance(pair, decision)) == (-1, False, 5e-324)
+    found = answers(np.array([WIDEST]))
+    assert (found.positions[0], found.tangent[0], found.clearance[0]) == (-1, False, 5e-324)
+
+
+@pytest.mark.thorough  # its proof has thousands of bits
 def test_classify_answers_an_interior_pair_of_the_widest_range_of_lengths(capsys):
-    huge, gamma = float.fromhex("0x1.fffffffffffe9p+1023"), float.fromhex("0x1.f26de949a5ee1p-300")
-    d, z = float.fromhex("0x0.07602de4963fep-1022"), float.fromhex("-0x1.362e3227d0290p-300")
-    assert main([*options([huge, gamma, huge, d, 0, 0, z, 3, 0, -1]), "--json"]) == 0
+    assert main([*options(WIDEST), "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert (found["position"], found["tangent"], found["clearance"]) == (-1, False, 5e-324)
 
