@@ -20,6 +20,7 @@ import os
 import tarfile
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 from importlib.resources import files
 from itertools import pairwise
 from pathlib import Path
@@ -197,8 +198,9 @@ def _text(name: str) -> str:
     return _FILES.joinpath("templates", name).read_text(encoding="utf-8")
 
 
+@cache
 def _library() -> dict[str, str]:
-    """The files of three.js by name, as a page holds them."""
+    """The files of three.js by name, as a page holds them: a megabyte, whose packing takes longer than all else."""
     packed = io.BytesIO(_FILES.joinpath("three", "three.tar.xz").read_bytes())
     with tarfile.open(fileobj=packed, mode="r:xz") as archive:
         contents = {member.name: archive.extractfile(member) for member in archive.getmembers()}

@@ -17,8 +17,7 @@ from hypcheck.record import SCHEMA, read
 from hypcheck.record.fields import as_json
 from hypcheck.record.measurements import AccuracyLine, MethodLine, NoiseLine, SpeedLine, WorkloadLine
 from tests.support.records import violations
-
-pytestmark = pytest.mark.usefixtures("text_reports")
+from tests.support.without_drawing import draw_nothing
 
 SMALL = ["--quick", "--processes", "2", "--rounds", "2", "--workers", "1"]
 FEW = replace(plan.QUICK, judged=300, cell=2, map_lines=9, timed=8192)
@@ -28,10 +27,11 @@ RECORD = json.loads(
 )
 
 
-def ended(folder, *options):
-    """The exit code and the record of a run on few rows."""
+def ended(folder, *options, amounts=FEW):
+    """The exit code and the record of a run on few rows, whose reports are in text alone."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(plan, "QUICK", FEW)
+        draw_nothing(patch)
+        patch.setattr(plan, "QUICK", amounts)
         result = CliRunner().invoke(bench, ["--out", str(folder), *SMALL, *options], standalone_mode=False)
     if result.exception is not None and not isinstance(result.exception, SystemExit):
         raise result.exception
@@ -39,62 +39,37 @@ def ended(folder, *options):
     return record.footer.exit_code, record
 
 
-@pytest.fixture(scope="module")
-def small(tmp_path_factory):
-    return ended(tmp_path_factory.mktemp("bench"), *METHODS, "--workloads", "uniform,ring")
-
-
-def test_a_quick_bench_ends_with_0_and_every_line_fits_the_schema(small):
-    code, record = small
+def test_a_quick_bench_judges_and_times_every_chosen_method_and_its_lines_fit_the_schema(tmp_path):
+    """In one test, since the run takes longest."""
+    code, record = ended(tmp_path, *METHODS, "--workloads", "uniform,ring")
     assert code == 0
     for line in record.lines:
         assert violations(as_json(line), RECORD, closed=True) == []
     assert violations(as_json(record.header), RECORD, closed=True) == []
     assert record.header.options["command"] == "bench"
-    assert record.header.options["reference"] == REFERENCE
-
-
-def test_bench_adds_the_reference_to_the_chosen_methods(small):
-    _, record = small
-    assert [line.method for line in record.of(MethodLine)] == [
-        REFERENCE,
-        "table-2-float16",
-        "fast-numpy",
-        "bounding-cylinder",
-    ]
+    assert record.header.options["reference"] == REFERENCE  # which is added to the chosen methods
+    methods = [line.method for line in record.of(MethodLine)]
+    assert methods == [REFERENCE, "table-2-float16", "fast-numpy", "bounding-cylinder"]
     assert [line.workload for line in record.of(WorkloadLine)] == ["uniform", "ring"]
 
-
-def test_bench_judges_every_chosen_method_on_every_chosen_workload(small):
-    _, record = small
     judged = {(line.method, line.workload): line for line in record.of(AccuracyLine)}
     assert len(judged) == 8
     assert judged["fast-numpy", "ring"].wrong == 0
     assert judged[REFERENCE, "ring"].wrong > 0
     assert judged["table-2-float16", "uniform"].reliable_above > judged[REFERENCE, "uniform"].reliable_above
 
-
-def test_bench_times_each_method_in_every_process_and_round(small):
-    _, record = small
     timed = {(line.method, line.workload, line.mode): line for line in record.of(SpeedLine)}
     assert {key[1] for key in timed} == {"uniform"}
     assert {key[0] for key in timed} == {REFERENCE, "fast-numpy", "bounding-cylinder"}
     assert {key[2] for key in timed} == {"batch", "single"}
-    for line in timed.values():
+    for line in timed.values():  # in every process and round
         assert [len(part) for part in line.samples_ns] == [2, 2]
         low, high = line.ratio_ci95
         assert low <= line.ratio <= high
-    assert timed[REFERENCE, "uniform", "batch"].ratio == 1.0
+    alone, in_a_batch = (timed[REFERENCE, "uniform", mode] for mode in ("single", "batch"))
+    assert in_a_batch.ratio == 1.0
+    assert alone.median_ns > 5 * in_a_batch.median_ns  # a row in a numpy call of its own costs more
 
-
-def test_one_row_in_a_numpy_call_of_its_own_costs_more_than_one_row_in_a_batch(small):
-    _, record = small
-    timed = {(line.method, line.mode): line.median_ns for line in record.of(SpeedLine)}
-    assert timed[REFERENCE, "single"] > 5 * timed[REFERENCE, "batch"]
-
-
-def test_bench_records_the_noise_of_each_workload_before_its_speeds(small):
-    _, record = small
     kinds = [line.type for line in record.lines if line.type in ("noise", "speed")]
     assert kinds[:2] == ["noise", "noise"]
     for line in record.of(NoiseLine):

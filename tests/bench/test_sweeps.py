@@ -19,10 +19,9 @@ from hypcheck.implementations.sweeps import SWEEP_SOLVERS
 from hypcheck.record.fields import as_json
 from hypcheck.record.measurements import AccuracyLine, PlacesLine, SpeedLine, WorkloadLine
 from hypcheck.vectors.families import SWEEP_FAMILIES
-from tests.bench.test_run import RECORD, ended
+from tests.bench.test_run import FEW, RECORD, ended
 from tests.support.inside import size_error
 from tests.support.records import violations
-from tests.support.without_drawing import draw_nothing
 from tests.tools.miniatures import NOT_ISOLATED, command
 
 
@@ -58,7 +57,7 @@ def test_bench_compares_all_built_in_methods_for_sweeps_but_two_in_a_quick_run_a
 
 @pytest.mark.parametrize(("tilted", "workload"), [(False, "grazing"), (True, "tunnelling"), (True, "anywhere")])
 def test_the_distance_of_a_judged_sweep_is_near_its_size_error(tilted, workload):
-    plan = BenchPlan(question=PASSAGE, tilted=tilted, workloads=(workload,), amounts=replace(QUICK, judged=144))
+    plan = BenchPlan(question=PASSAGE, tilted=tilted, workloads=(workload,), amounts=replace(QUICK, judged=96))
     (truth,) = workload_truths(plan, None)
     assert isinstance(truth, WorkloadTruth)
     for row, hit, exponent in zip(truth.rows.tolist(), truth.positions.tolist(), truth.exponents, strict=True):
@@ -69,12 +68,13 @@ def test_the_distance_of_a_judged_sweep_is_near_its_size_error(tilted, workload)
             assert 2.0 ** (exponent - 1) <= error.lower <= 2.0 ** (exponent + 2)
 
 
+FEWER = replace(FEW, judged=100)
+
+
 @pytest.fixture(scope="module", params=[(), ("--tilted",)], ids=["upright", "tilted"])
 def small(request, tmp_path_factory):
     chosen = ("--methods", "passage-sampled-4", "--workloads", "tower,tunnelling", "--processes", "1", "--rounds", "1")
-    with pytest.MonkeyPatch.context() as patch:
-        draw_nothing(patch)
-        return ended(tmp_path_factory.mktemp("sweeps"), "--question", "passage", *request.param, *chosen)
+    return ended(tmp_path_factory.mktemp("sweeps"), "--question", "passage", *request.param, *chosen, amounts=FEWER)
 
 
 @pytest.mark.slow

@@ -14,6 +14,7 @@ import pytest
 
 from hypcheck.cli.main import main
 from tests.support.shared_folders import made_once
+from tests.support.without_drawing import COMMAND
 
 PRECIOUS = b"of the user\n"
 
@@ -157,7 +158,7 @@ def test_a_command_that_is_interrupted_before_its_first_result_leaves_every_file
     before = contents(files)
     environment = os.environ | {"PYTHONPATH": str(Path(__file__).parents[2])}
     process = subprocess.Popen(
-        [sys.executable, "-m", "hypcheck", *words],
+        [*COMMAND, *words],
         env=environment, cwd=files, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
     )  # fmt: skip
     try:

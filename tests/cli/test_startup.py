@@ -46,7 +46,7 @@ def test_classify_of_one_pair_loads_neither_numpy_nor_mpmath():
     ("commands", "allowed"),
     [
         ([["cases", "list"], ["emit", "--scene", "tower", "--language", "c"], ["plan", "tower"]], {"numpy"}),
-        ([["simulate", "forest"]], {"numpy", "mpmath"}),
+        ([["simulate", "forest", "--steps", "20"]], {"numpy", "mpmath"}),
         (
             [
                 ["replay", "tower-body/1/1/3", "builtin:fast"],

@@ -98,41 +98,41 @@ def pages(tmp_path_factory):
     return folder
 
 
-def test_the_page_draws_plays_and_answers_keys_and_fingers_in_a_browser_without_a_network(pages, monkeypatch):
+@pytest.mark.parametrize(("width", "scheme"), [pytest.param(1400, "light", marks=pytest.mark.thorough), (390, "dark")])
+def test_the_page_draws_plays_and_answers_keys_and_fingers_in_a_browser_without_a_network(
+    pages, monkeypatch, width, scheme
+):
     monkeypatch.setattr(browser, "FLAGS", (*browser.FLAGS, *FLAGS))
     with browser.opened() as window:
         page = window.page
-        for width, scheme in ((1400, "light"), (390, "dark")):
-            window.visit(pages / "flight.html", width=width)
-            page.emulate_media(color_scheme=scheme)
-            page.wait_for_function("document.body.dataset.frames > 0", timeout=60000)
-            assert page.evaluate("document.documentElement.scrollWidth") <= width
-            assert page.is_hidden("#trouble")
-            assert "contact" in page.inner_text("#said")
+        window.visit(pages / "flight.html", width=width)
+        page.emulate_media(color_scheme=scheme)
+        page.wait_for_function("document.body.dataset.frames > 0", timeout=60000)
+        assert page.evaluate("document.documentElement.scrollWidth") <= width
+        assert page.is_hidden("#trouble")
+        assert "contact" in page.inner_text("#said")
+        drawn = page.evaluate("document.body.dataset.frames")
+        page.focus("#view")
+        page.keyboard.press("ArrowLeft")
+        page.wait_for_function(f"document.body.dataset.frames > {drawn}")
+        page.evaluate("const at = document.getElementById('at'); at.value = 0; at.dispatchEvent(new Event('input'))")
+        assert page.inner_text("#said").startswith("0 of")
+        page.keyboard.press(".")
+        assert not page.inner_text("#said").startswith("0 of")
+        touch = page.context.new_cdp_session(page)
+        for fingers in ([(150, 200)], [(150, 200), (250, 300)]):  # one turns the view, two bring it nearer
+            page.wait_for_timeout(500)  # nothing is drawn while nothing moves
             drawn = page.evaluate("document.body.dataset.frames")
-            page.focus("#view")
-            page.keyboard.press("ArrowLeft")
+            moved = [(x + 40 - number * 60, y + 30) for number, (x, y) in enumerate(fingers)]
+            for kind, points in (("touchStart", fingers), ("touchMove", moved), ("touchEnd", [])):
+                places = [{"x": x, "y": y, "id": number} for number, (x, y) in enumerate(points)]
+                touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": places})
             page.wait_for_function(f"document.body.dataset.frames > {drawn}")
-            page.evaluate(
-                "const at = document.getElementById('at'); at.value = 0; at.dispatchEvent(new Event('input'))"
-            )
-            assert page.inner_text("#said").startswith("0 of")
-            page.keyboard.press(".")
-            assert not page.inner_text("#said").startswith("0 of")
-            touch = page.context.new_cdp_session(page)
-            for fingers in ([(150, 200)], [(150, 200), (250, 300)]):  # one turns the view, two bring it nearer
-                page.wait_for_timeout(500)  # nothing is drawn while nothing moves
-                drawn = page.evaluate("document.body.dataset.frames")
-                moved = [(x + 40 - number * 60, y + 30) for number, (x, y) in enumerate(fingers)]
-                for kind, points in (("touchStart", fingers), ("touchMove", moved), ("touchEnd", [])):
-                    places = [{"x": x, "y": y, "id": number} for number, (x, y) in enumerate(points)]
-                    touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": places})
-                page.wait_for_function(f"document.body.dataset.frames > {drawn}")
-            page.click("#play")
-            assert page.inner_text("#play") == "Pause"
-            assert page.locator("#curve .line").count() == 1
-            assert [each for each in window.said if "GL Driver Message" not in each] == []
-            assert [each for each in window.requests if not each.startswith(("file:", "blob:"))] == []
+        page.click("#play")
+        assert page.inner_text("#play") == "Pause"
+        assert page.locator("#curve .line").count() == 1
+        assert [each for each in window.said if "GL Driver Message" not in each] == []
+        assert [each for each in window.requests if not each.startswith(("file:", "blob:"))] == []
         window.visit(pages / "alone.html")
         page.wait_for_function("document.body.dataset.frames > 0", timeout=60000)
         assert [each for each in window.said if "GL Driver Message" not in each] == []
