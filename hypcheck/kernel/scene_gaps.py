@@ -142,7 +142,7 @@ def _on_wall(of: _Pairs, w: Floats, turn: Floats) -> Floats:
     share = w / of.gamma
     if not of.upright.all():
         across, along = np.cos(turn) - share * np.sin(turn), np.sin(turn) + share * np.cos(turn)
-    if of.upright.any():
+    if of.upright.any() or not len(of.upright):  # of none, a table without rows
         x, y = of.centre[:, 0], of.centre[:, 1]
         length, radius = np.hypot(x, y), np.hypot(1, share)
         cosine, sine = np.where(length > 0, x / length, 1.0), np.where(length > 0, y / length, 0.0)
