@@ -84,6 +84,8 @@ def gaps(sizes: Rows, centres: Rows, axes: Rows | None, spans: Rows, solid: Mask
 def _to_walls(pairs: _Pairs, spans: Rows, farthest: Floats) -> Gaps:
     count = len(pairs.alpha)
     result = Gaps(np.zeros(count), np.full(count, np.inf), np.full((count, 3), np.nan))
+    if not count:
+        return result
     owner, cells = _first_cells(pairs, spans, farthest)
     most = np.zeros(count)
     np.maximum.at(most, owner, np.abs(cells[:, :2]).max(axis=1))
@@ -142,7 +144,7 @@ def _on_wall(of: _Pairs, w: Floats, turn: Floats) -> Floats:
     share = w / of.gamma
     if not of.upright.all():
         across, along = np.cos(turn) - share * np.sin(turn), np.sin(turn) + share * np.cos(turn)
-    if of.upright.any() or not len(of.upright):  # of none, a table without rows
+    if of.upright.any():
         x, y = of.centre[:, 0], of.centre[:, 1]
         length, radius = np.hypot(x, y), np.hypot(1, share)
         cosine, sine = np.where(length > 0, x / length, 1.0), np.where(length > 0, y / length, 0.0)
