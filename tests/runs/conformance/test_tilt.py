@@ -119,7 +119,7 @@ def test_an_implementation_that_ignores_the_axis_is_wrong_on_tilted_spheroids_al
 
 @pytest.mark.slow
 def test_fault_about_a_tilted_spheroid_affects_only_its_case_and_is_recorded_with_its_axis(tmp_path):
-    code, record = verified(tmp_path, f"{SPEC}raises_far_over", "--families", LEANING, count="60")
+    code, record = verified(tmp_path, f"{SPEC}raises_far_over", "--families", LEANING, count="0")
     faults = [fault for line in record.of(GroupLine) for fault in line.faults if fault.status == "error"]
     assert code == 1
     assert faults

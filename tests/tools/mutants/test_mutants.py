@@ -60,7 +60,6 @@ SAMPLE = {
 
 FEW = {
     "signs.c0": "uniform",
-    "tilted.transposed_rotation": "tilted-uniform",
     "passages.late_times": "way-still",
     "correct.whole_numbers": "ring",
 }
@@ -85,7 +84,7 @@ def test_verify_kills_or_passes_a_sample_of_each_mutant_as_expected_and_not_othe
 
 def test_unchanged_base_of_the_mutants_answers_every_family_rightly():
     for family in select(["*", "extreme"]):
-        rows = family.rows(3, 60)
+        rows = family.rows(3, 25)
         assert exactly.position(rows).tolist() == hypcheck.classify(rows).tolist(), family.name
 
 
