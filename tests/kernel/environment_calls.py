@@ -147,7 +147,7 @@ def calls(pairs, wide, sweeps, scenes):
         yield f"Prepared {row}", lambda row=row: hypcheck.classify_scene(hypcheck.Prepared(tuple(row[:4])), *few.T[4:])
     for row in few[::9].tolist():
         yield f"tilted {row}", lambda row=row: hypcheck.classify_scene(row[:4], *few.T[4:], axis=[0, 5e-324, 5e-324])
-    for rows in (upright[::60], tilted[::45]):
+    for rows in (upright[::60], tilted[1::45]):
         yield f"clearance of {rows.shape[1]} numbers", lambda rows=rows: hypcheck.clearance(rows)
     for row, _ in sweeps:
         yield f"passage {row}", lambda row=row: _shown(hypcheck.passage(row[:4], row[4:7], row[7:]))
