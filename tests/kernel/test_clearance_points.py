@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import cache
 
 import numpy as np
 import pytest
@@ -159,8 +160,13 @@ def test_the_error_of_an_upright_touch_holds_for_a_multiplier_that_is_wrong(wron
         assert np.median(off / np.abs(found.point).sum(axis=1)) > abs(wrong) / 1000
 
 
+@cache
+def nearest_of(row):
+    return [np.array(each) for each in nearest_points(Pair.from_row(row))]
+
+
 def nearest_off(row, point):
-    return min(np.linalg.norm(np.array(each) - point) for each in nearest_points(Pair.from_row(row)))
+    return min(np.linalg.norm(each - point) for each in nearest_of(tuple(row)))
 
 
 @pytest.mark.parametrize("wrong", [1e-9, 1e-6, -1e-3, 0.2, 40.0, -2.0])

@@ -36,16 +36,12 @@ def some_sweeps(seed, count, *, tilted=False):
     return np.concatenate([sizes, start, end, axis], axis=1)
 
 
-@pytest.mark.parametrize("name", SWEEP_NAMES)
-def test_the_compiled_kernel_answers_no_frozen_sweep_wrongly_and_decides_most(name):
-    cases = load(name)
-    hits, times = compiled_answer_sweeps(cases.rows)
-    decided = hits != CANNOT_SAY
-    assert (hits[decided] == cases.positions[decided]).all()
-    assert decided.all() or name in TOUCHING
-    assert np.isnan(times[hits != 1]).all()
-    by_numpy, _ = numpy_kernel_answer_sweeps(cases.rows)
-    assert ((by_numpy == CANNOT_SAY) | (by_numpy == cases.positions)).all()
+def test_the_compiled_kernel_decides_every_frozen_sweep_but_those_that_touch():
+    """That it decides none wrongly is tested in tests/test_corpus.py, as of all that decide."""
+    for name in SWEEP_NAMES:
+        hits, times = compiled_answer_sweeps(load(name).rows)
+        assert (hits != CANNOT_SAY).all() or name in TOUCHING, name
+        assert np.isnan(times[hits != 1]).all(), name
 
 
 @pytest.mark.parametrize(("count", "tilted"), [(300, False), (80, True)])
