@@ -25,7 +25,7 @@ import sympy
 from hypcheck.derivation import pencil
 from hypcheck.derivation.links import GENERIC_CUBIC
 from hypcheck.derivation.pencil import LAMBDA, A, B, P, Q
-from hypcheck.geometry.pair import Pair, Position
+from hypcheck.geometry.pair import Lengths, Pair, Position
 from hypcheck.truth import exact
 from hypcheck.truth.certificate import Certificate, check_certificate
 from hypcheck.truth.prove import prove
@@ -116,7 +116,8 @@ def facts(point: Point) -> PointFacts:
     """The facts of a point."""
     A, B, P, Q = point.a**2, point.c**2, point.r**2, point.z**2
     c0, c1, c2 = (_polynomials()[name](A, B, P, Q) for name in ("c0", "c1", "c2"))
-    return _of_coefficients(point, c0, c1, c2, exact.position(point.pair.lengths))
+    pair = Lengths.of((point.a, point.c, 1, 1, point.r, 0, point.z))
+    return _of_coefficients(point, c0, c1, c2, exact.position(pair))
 
 
 def with_c2(facts: PointFacts, c2: Fraction) -> PointFacts:
