@@ -84,7 +84,7 @@ def test_terminal_summary_has_colour_only_if_requested(code):
 
 
 @pytest.mark.parametrize("old", ["table-2-float32", "ring/1/1/7", "python-fcl cannot be imported", "fast path", "ring"])
-@settings(max_examples=25)
+@settings(max_examples=12)
 @given(foreign=record_samples.FOREIGN)
 def test_terminal_summary_escapes_control_characters_of_foreign_text(old, foreign):
     changed = record_samples.rewritten([*record_samples.lines(), DISAGREEMENT, EXACT_WRONG], old, foreign)
