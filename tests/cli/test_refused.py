@@ -14,7 +14,7 @@ import pytest
 
 from hypcheck.cli.main import main
 from tests.support.shared_folders import made_once
-from tests.support.without_drawing import COMMAND
+from tests.support.without_drawing import COMMAND, draw_nothing
 
 PRECIOUS = b"of the user\n"
 
@@ -84,7 +84,11 @@ REFUSED = [
 def _make(folder):
     """The files of a user: runs with reports, a project, frozen vectors, and whatever the commands would replace."""
     run = folder / RUN
-    assert main(["verify", "builtin:fast", "--families", "tower-body", "--count", "2", "--out", str(run)]) == 0
+    with pytest.MonkeyPatch.context() as patch:
+        draw_nothing(patch)
+        assert main(["verify", "builtin:fast", "--families", "tower-body", "--count", "2", "--out", str(run)]) == 0
+    for name in ("report.html", "map.svg"):  # which take a second to draw
+        (run / name).write_bytes(PRECIOUS)
     (run / "notes.txt").write_bytes(PRECIOUS)
     (run / "record.jsonl.part").write_bytes((run / "record.jsonl").read_bytes()[:-200])  # of a run that was killed
     for copy in ("reports/bench", "reports/engines/bench", "in-the-way"):

@@ -39,7 +39,16 @@ def crossing(some):
     return hits.tolist(), np.where(hits, start / (start - end), np.nan)
 
 
-@pytest.mark.parametrize("words", [(), ("binary",), ("times",), ("times", "binary"), ("times", "leaning", "binary")])
+@pytest.mark.parametrize(
+    "words",
+    [
+        pytest.param((), marks=pytest.mark.thorough),
+        ("binary",),
+        ("times",),
+        pytest.param(("times", "binary"), marks=pytest.mark.thorough),
+        ("times", "leaning", "binary"),
+    ],
+)
 def test_a_command_answers_ways_in_text_and_binary_with_and_without_times(words):
     some = ways()
     hits, times = truth(some)
@@ -73,7 +82,7 @@ def test_a_python_function_returns_hits_and_times_and_refuses_an_invalid_way():
     assert np.flatnonzero(refused.answers == 127).tolist() == [3]
 
 
-@pytest.mark.parametrize("flags", [(), ("-DTIMES",), ("-DTIMES", "-DTILT")])
+@pytest.mark.parametrize("flags", [(), pytest.param(("-DTIMES",), marks=pytest.mark.thorough), ("-DTIMES", "-DTILT")])
 def test_a_library_for_ways_is_called_by_its_function_for_passage(flags, tmp_path):
     library = compiled("passage", tmp_path / "passage.so", *SHARED, *flags)
     some = ways(700)
