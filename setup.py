@@ -13,6 +13,7 @@ from pathlib import Path
 from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
 from setuptools.command.build_py import build_py
+from setuptools.modified import newer_group
 
 lzma = None
 with suppress(ImportError):  # some builds of Python lack it, and could not read what is packed
@@ -36,7 +37,7 @@ class BuildWithCases(build_py):
             for path, target in zip(CASES, self._targets(), strict=True):
                 self.mkpath(str(target.parent))
                 if target.suffix == ".xz":
-                    target.write_bytes(lzma.compress(path.read_bytes(), preset=9))
+                    target.write_bytes(lzma.compress(path.read_bytes()))
                 else:
                     self.copy_file(str(path), str(target))
 
@@ -98,6 +99,8 @@ class BuildWithLauncher(build_ext):
             super().build_extension(ext)
             return
         target = Path(self.get_ext_fullpath(ext.name))
+        if not (self.force or newer_group([*ext.sources, *ext.depends], str(target), "newer")):
+            return
         objects = self.compiler.compile(
             ext.sources, output_dir=self.build_temp, depends=ext.depends, extra_postargs=["-std=gnu11", "-O2", "-g0"]
         )

@@ -96,7 +96,8 @@ def build(variant: Variant, home: Path) -> None:
         shutil.copyfile(ROOT / name, tree / name)
     if not ALL:
         take_what_is_compiled(tree)
-    build = [sys.executable, "-m", "build", *([] if ALL else ["--no-isolation"]), "--outdir", dist]
+    here = [] if ALL else ["--no-isolation", "--skip-dependency-check"]
+    build = [sys.executable, "-m", "build", *here, "--outdir", dist]
     forms = (
         ["--sdist", "--wheel"] if variant.source == "wheel" else []
     )  # without a form the wheel is made from the sdist
@@ -124,20 +125,30 @@ def make_environment(folder: Path, *wanted: str) -> Path:
     """
     venv.create(folder, symlinks=True)
     python = folder / "bin/python"
-    site = Path(quietly(python, "-c", "import sysconfig; print(sysconfig.get_path('purelib'))").strip())
+    site = site_packages(python)
     for name in dependencies("hypcheck", *wanted):
         link(metadata.distribution(name), site)
         write_scripts(metadata.distribution(name), python)
     return python
 
 
+def site_packages(python: Path) -> Path:
+    """Where the interpreter looks for what is installed."""
+    return Path(quietly(python, "-c", "import sysconfig; print(sysconfig.get_path('purelib'))").strip())
+
+
 def install(home: Path) -> None:
-    """Install the wheel into both environments."""
+    """Install the wheel into both environments; `make test` links what is installed in the first into the other."""
     (wheel,) = (home / "dist").glob("*.whl")
-    for folder, wanted in (("environment", ()), ("user", USER)):
-        pip = (sys.executable, "-m", "pip", "--python", make_environment(home / folder, *wanted))
+    bare, user = make_environment(home / "environment"), make_environment(home / "user", *USER)
+    for python in (bare, user) if ALL else (bare,):
+        pip = (sys.executable, "-m", "pip", "--python", python)
         quietly(*pip, "install", "--no-compile", "--no-deps", "--quiet", "--disable-pip-version-check", wheel)
         quietly(*pip, "check", "--disable-pip-version-check")
+    if not ALL:
+        (hypcheck,) = metadata.distributions(name="hypcheck", path=[str(site_packages(bare))])
+        link(hypcheck, site_packages(user))
+        write_scripts(hypcheck, user)
 
 
 def dependencies(*wanted: str) -> set[str]:
@@ -168,7 +179,8 @@ def link(distribution: metadata.Distribution, folder: Path) -> None:
 def write_scripts(distribution: metadata.Distribution, python: Path) -> None:
     """Write the commands of the distribution beside the interpreter, as pip would."""
     for entry in distribution.entry_points.select(group="console_scripts"):
-        lines = f"import sys\nfrom {entry.module} import {entry.attr}\nsys.exit({entry.attr}())\n"
+        call = f"import sys\n    from {entry.module} import {entry.attr}\n    sys.exit({entry.attr}())"
+        lines = f"if __name__ == '__main__':  # processes that it starts read it, too\n    {call}\n"
         script = python.parent / entry.name
         script.write_text(f"#!{python}\n{lines}", encoding="utf-8")
         script.chmod(0o755)
