@@ -10,7 +10,6 @@ import operator
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import lru_cache
 
 import numpy as np
 import pytest
@@ -21,7 +20,7 @@ import hypcheck
 from hypcheck.geometry.pair import Pair
 from tests.support import fractions_truth, tilted_fractions
 from tests.support.corpus import Questions
-from tests.support.deciders import CANNOT_SAY, DECIDERS, Decider, answers_of
+from tests.support.deciders import ALL, CANNOT_SAY, DECIDERS, Decider, answers_of
 from tests.support.inside import heights_position, least_position
 from tests.support.strategies import rows_of
 
@@ -237,20 +236,22 @@ PROPERTIES = (
 )
 
 
-def asked(decider, groups, check):
-    """Run a check with drawn questions, as often as the decider allows."""
-    if decider.lacks():
-        pytest.skip(decider.lacks())
+EXAMPLES = 3
+"""The examples of a property, each of two to six rows, of which every decider is asked."""
 
-    @settings(max_examples=min(decider.examples, settings.default.max_examples))
+
+def asked(groups, check, fits=lambda decider: True):
+    """Run a check of each decider of such rows with the same drawn questions."""
+    deciders = [decider for decider in DECIDERS if decider.drawn and groups in decider.takes and fits(decider)]
+    present = [decider for decider in deciders if not decider.lacks()]  # tests/test_corpus.py says which lack something
+
+    @settings(max_examples=EXAMPLES)
     @given(st.data())
     def run(data):
-        check(Questions.of(data.draw(st.lists(rows_of(groups), min_size=1, max_size=6)), groups), data.draw)
+        questions = Questions.of(data.draw(st.lists(rows_of(groups), min_size=2, max_size=6)), groups)
+        check(present, questions, data.draw)
 
     run()
-
-
-ASKED = [(decider, groups) for decider in DECIDERS if decider.drawn for groups in decider.takes]
 
 
 def named(*parts):
@@ -258,45 +259,54 @@ def named(*parts):
     return pytest.param(*parts, id=": ".join(str(part) or "upright" for part in parts))
 
 
+DRAWN = [groups for groups in ALL if any(decider.drawn and groups in decider.takes for decider in DECIDERS)]
+
+
 @pytest.mark.parametrize(
-    ("decider", "groups", "known"),
-    [named(*asked, known) for asked in ASKED for known in PROPERTIES if known.fits(*asked)],
+    ("groups", "known"),
+    [
+        named(groups, known)
+        for groups in DRAWN
+        for known in PROPERTIES
+        if any(decider.drawn and groups in decider.takes and known.fits(decider, groups) for decider in DECIDERS)
+    ],
 )
-def test_answers_of_every_decider_have_every_property(decider, groups, known):
-    def check(questions, draw):
+def test_answers_of_every_decider_have_every_property(groups, known):
+    def check(deciders, questions, draw):
         before, after = known.change(questions, draw)
-        for row, first, second in zip(
-            before.rows.tolist(), answers_of(decider, before), answers_of(decider, after), strict=True
-        ):
-            assert CANNOT_SAY in (first, second) or known.holds(first, second), row
+        rows = before.rows.tolist()
+        for decider in deciders:
+            for row, first, second in zip(rows, answers_of(decider, before), answers_of(decider, after), strict=True):
+                assert CANNOT_SAY in (first, second) or known.holds(first, second), (decider.name, row)
 
-    asked(decider, groups, check)
+    asked(groups, check, lambda decider: known.fits(decider, groups))
 
 
-@pytest.mark.parametrize(("decider", "groups"), [named(*asked) for asked in ASKED])
-def test_answers_of_every_decider_do_not_depend_on_order_or_batches(decider, groups):
-    def check(questions, draw):
+@pytest.mark.parametrize("groups", [named(groups) for groups in DRAWN])
+def test_answers_of_every_decider_do_not_depend_on_order_or_batches(groups):
+    def check(deciders, questions, draw):
         order = draw(st.permutations(range(len(questions))))
-        together = answers_of(decider, questions)
-        assert answers_of(decider, questions[order]) == [together[index] for index in order]
         cut = draw(st.integers(1, len(questions)))
-        parts = [part for part in (questions[:cut], questions[cut:]) if len(part)]
-        assert [answer for part in parts for answer in answers_of(decider, part)] == together
+        parts = [questions[part] for part in (order[:cut], order[cut:]) if part]
+        for decider in deciders:
+            together = answers_of(decider, questions)
+            apart = [answer for part in parts for answer in answers_of(decider, part)]
+            assert apart == [together[index] for index in order], decider.name
 
-    asked(decider, groups, check)
-
-
-@pytest.mark.parametrize(("decider", "groups"), [named(*asked) for asked in ASKED])
-def test_every_decider_answers_drawn_questions_as_decisions_in_fractions(decider, groups):
-    def check(questions, draw):
-        for row, answer in zip(questions.rows.tolist(), answers_of(decider, questions), strict=True):
-            allowed = {truth_of(tuple(row), groups)} | ({CANNOT_SAY} if decider.abstains else set())
-            assert answer in allowed, row
-
-    asked(decider, groups, check)
+    asked(groups, check)
 
 
-@lru_cache(100_000)  # the same rows are drawn for each decider
+@pytest.mark.parametrize("groups", [named(groups) for groups in DRAWN])
+def test_every_decider_answers_drawn_questions_as_decisions_in_fractions(groups):
+    def check(deciders, questions, draw):
+        truth = [truth_of(tuple(row), groups) for row in questions.rows.tolist()]
+        for decider in deciders:
+            for row, true, answer in zip(questions.rows.tolist(), truth, answers_of(decider, questions), strict=True):
+                assert answer == true or (decider.abstains and answer == CANNOT_SAY), (decider.name, row)
+
+    asked(groups, check)
+
+
 def truth_of(row, groups):
     """The answer to a row, by decisions in fractions; about a way, at nine times, and then by hypcheck.passage."""
     position = tilted_fractions.exact_position if "axis" in groups else fractions_truth.exact_position
@@ -314,13 +324,16 @@ def truth_of(row, groups):
     return int(hypcheck.passage(sizes, start, end, axis or None).hit)
 
 
-@pytest.mark.parametrize(("decider", "groups"), [named(*asked) for asked in ASKED if "end" in asked[1]])
-def test_a_way_without_length_is_answered_as_the_position(decider, groups):
-    truth = tilted_fractions.exact_position if "axis" in groups else fractions_truth.exact_position
+@pytest.mark.parametrize("groups", [named(groups) for groups in DRAWN if "end" in groups])
+def test_a_way_without_length_is_answered_as_the_position(groups):
+    position = tilted_fractions.exact_position if "axis" in groups else fractions_truth.exact_position
 
-    def check(questions, draw):
+    def check(deciders, questions, draw):
         still = replace(questions, end=questions.center)
-        for row, answer in zip(replace(still, end=None).rows.tolist(), answers_of(decider, still), strict=True):
-            assert answer in (int(truth(row) == 0), CANNOT_SAY), row
+        rows = replace(still, end=None).rows.tolist()
+        truth = [int(position(row) == 0) for row in rows]
+        for decider in deciders:
+            for row, true, answer in zip(rows, truth, answers_of(decider, still), strict=True):
+                assert answer in (true, CANNOT_SAY), (decider.name, row)
 
-    asked(decider, groups, check)
+    asked(groups, check)

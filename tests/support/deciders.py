@@ -71,11 +71,10 @@ class Decider:
     """What decides: its name, how it is asked, and what it takes.
 
     `takes` are the sets of groups that it answers. `abstains` is the share of cases about which it may say that it
-    cannot, and `every` says that `make test` asks it each so many-th case alone. `examples` limits the examples of a
-    property, where one costs a process. `refuses` is false where callers check rows before. `takes_any_array` says that
-    rows may be an array of any layout and type, or lists. `drawn` is false where rows that are drawn are not asked: it
-    needs what frozen cases have, or is what the others are compared with. `lacks` is the reason why it cannot be asked
-    here, or None.
+    cannot, and `every` says that `make test` asks it each so many-th case alone. `refuses` is false where callers check
+    rows before. `takes_any_array` says that rows may be an array of any layout and type, or lists. `drawn` is false
+    where rows that are drawn are not asked: it needs what frozen cases have, or is what the others are compared with.
+    `lacks` is the reason why it cannot be asked here, or None.
     """
 
     name: str
@@ -83,7 +82,6 @@ class Decider:
     takes: tuple[str, ...] = POSITIONS
     abstains: float = 0.0
     every: int = 1
-    examples: int = 3
     refuses: bool = True
     takes_any_array: bool = False
     drawn: bool = True
@@ -285,6 +283,7 @@ def of_kernel(name: str, value: str, questions: Questions) -> list[int]:
     return pickle.load(asked.stdout)  # noqa: S301 - of our own process
 
 
+@cache
 def lacks_level(level: str) -> str | None:
     """Why the compiled kernel cannot use an instruction set here, or None."""
     words = [sys.executable, "-c", "import hypcheck; hypcheck.classify([[1, 2, 1, 1, 5, 0, 0]])"]
@@ -311,7 +310,41 @@ def emitted(method: str, language: str) -> Callable[[np.ndarray], np.ndarray]:
     suffix = {"c": "c", "cpp": "cpp", "rust": "rs", "javascript": "mjs", "python": "py"}[language]
     file = folder() / f"{method}.{suffix}"
     assert main(["emit", "--method", method, "--language", language, "--output", str(file)]) == 0
+    if language == "javascript":
+        return partial(asked_of_node, node(file))
     return asking_pairs(library_of(file, language), language)
+
+
+NODE = """
+import { readSync, writeSync } from "node:fs";
+const { predicate, tilted, passage } = await import(process.argv[1]);
+const taken = (count) => {
+  const bytes = Buffer.alloc(count);
+  for (let at = 0, more = 1; at < count; at += more)
+    if (!(more = readSync(0, bytes, at, count - at, null))) process.exit();
+  return new Float64Array(bytes.buffer, bytes.byteOffset, count / 8);
+};
+for (;;) {
+  const [count, wide] = taken(16), rows = taken(8 * count * wide);
+  const asked = { 7: predicate, 10: tilted, 13: passage }[wide];
+  const one = (_, at) => asked(...rows.subarray(wide * at, wide * at + wide));
+  writeSync(1, new Int8Array(count).map(one));
+}
+"""
+
+
+def node(file: Path) -> subprocess.Popen[bytes]:
+    """A node that answers rows by the kernel in a file: one starts more slowly than it answers."""
+    words = ["node", "--input-type=module", "--eval", NODE, str(file)]
+    return subprocess.Popen(words, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+
+
+def asked_of_node(process: subprocess.Popen[bytes], rows: np.ndarray) -> np.ndarray:
+    process.stdin.write(np.array(rows.shape, float).tobytes() + np.ascontiguousarray(rows).tobytes())
+    process.stdin.flush()
+    answers = np.frombuffer(process.stdout.read(len(rows)), np.int8)
+    assert len(answers) == len(rows), "node ended"
+    return answers
 
 
 def of_emitted(method: str, language: str, questions: Questions) -> list[int]:
@@ -330,7 +363,7 @@ def header() -> ctypes.CDLL:
     with tempfile.TemporaryDirectory(dir=folder()) as place:
         core = Path(hypcheck.__file__).parent / "kernel" / "core"
         source = '#define HYPCHECK_IMPLEMENTATION\n#include "hypcheck.h"\n'
-        return shared_library(Path(place), source, "-O1", "-I", str(core))
+        return shared_library(Path(place), source, "-O0", "-I", str(core))
 
 
 def of_header(questions: Questions) -> Answers:
@@ -356,8 +389,6 @@ def lacks_language(language: str) -> str | None:
 
 LANGUAGES = ("c", "cpp", "rust", "javascript", "python")
 LEVELS = ("plain", "sse2", "avx2", "avx512")
-PROCESSES = {"javascript": 3}
-"""The examples of a property for a language in which each question starts a process."""
 
 DECIDERS = (
     Decider("hypcheck.classify", of_rows, takes=POSITIONS + ENDED, takes_any_array=True),
@@ -370,7 +401,7 @@ DECIDERS = (
     Decider("hypcheck.Scene.classify", partial(by_row, of_scene), every=12),
     Decider("hypcheck.Scene.position", partial(by_row, of_scene_step), every=12),
     Decider("hypcheck.clearance", of_clearance, takes_any_array=True),
-    Decider("hypcheck classify, the command", of_command, every=2, examples=3),
+    Decider("hypcheck classify, the command", of_command, every=2),
     Decider(
         "the numpy kernel",
         partial(of_kernel, "HYPCHECK_KERNEL", "numpy"),
@@ -392,7 +423,6 @@ DECIDERS = (
             f"emitted {language}",
             partial(of_emitted, "exact", language),
             takes=UPRIGHT,
-            examples=PROCESSES.get(language, 5),
             lacks=partial(lacks_language, language),
         )
         for language in LANGUAGES
@@ -424,16 +454,15 @@ DECIDERS = (
     ),
     Decider("builtin:exact-integers", partial(of_method, "exact-integers"), takes=UPRIGHT, refuses=False),
     Decider("the float filter", of_float_filter, takes=POSITIONS + ENDED),
-    Decider("oracle: exact", partial(of_oracle, "exact"), every=12, examples=3, refuses=False),
-    Decider("oracle: nearest", partial(of_oracle, "nearest"), every=4, examples=3, refuses=False),
-    Decider("oracle: roots", partial(of_oracle, "roots"), every=8, examples=3, refuses=False),
-    Decider("oracle: heights", partial(of_oracle, "heights"), every=16, examples=3, refuses=False),
+    Decider("oracle: exact", partial(of_oracle, "exact"), every=12, refuses=False),
+    Decider("oracle: nearest", partial(of_oracle, "nearest"), every=4, refuses=False),
+    Decider("oracle: roots", partial(of_oracle, "roots"), every=8, refuses=False),
+    Decider("oracle: heights", partial(of_oracle, "heights"), every=16, refuses=False),
     Decider(
         "oracle: mesh",
         partial(of_oracle, "mesh"),
         takes=POSITIONS + ENDED,
         every=24,
-        examples=3,
         abstains=0.4,
         refuses=False,
         lacks=ORACLES["mesh"].available,
