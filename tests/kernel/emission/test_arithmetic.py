@@ -383,8 +383,8 @@ def test_emitted_scene_kernels_are_within_their_bound_where_subnormal_numbers_ar
         folder = tmp_path / str(length)  # a library is loaded once for each name
         folder.mkdir()
         kernel = library(folder, language, emitted(plan, language, COMMAND))
-        worst, count = worst_error(partial(asked, control, (NEAREST, 1), kernel), plan, 24)
-        assert count > 100
+        worst, count = worst_error(partial(asked, control, (NEAREST, 1), kernel), plan, 14)
+        assert count > 50
         assert worst <= plan.bound_u
 
 
@@ -404,7 +404,7 @@ def test_emit_refuses_an_axis_with_a_subnormal_number():
 
 @needs_compiler
 @needs_flags
-@pytest.mark.parametrize("language", [*COMPILED, "python"])
+@pytest.mark.parametrize("language", [*COMPILED, pytest.param("python", marks=pytest.mark.thorough)])
 def test_emitted_kernels_for_a_tilted_mover_are_never_wrong_where_subnormal_numbers_are_flushed(
     tmp_path, control, language
 ):
@@ -415,8 +415,8 @@ def test_emitted_kernels_for_a_tilted_mover_are_never_wrong_where_subnormal_numb
         folder.mkdir()
         ask = asking_in(language, folder, control, emitted(plan, language, COMMAND))
         for setting in ((NEAREST, 0), (NEAREST, 1)):
-            worst, count = worst_error(partial(ask, setting), plan, 16)
-            assert count > 50
+            worst, count = worst_error(partial(ask, setting), plan, 8)
+            assert count > 25
             assert worst <= plan.bound_u
     turned = np.random.default_rng(1).normal(size=(400, 3))
     near = turned[:, :2] / np.hypot(*turned[:, :2].T)[:, None] * np.linspace(1.6, 2.4, 400)[:, None]
