@@ -13,7 +13,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 
 import hypcheck
@@ -245,7 +245,7 @@ def asked(groups, check, fits=lambda decider: True):
     deciders = [decider for decider in DECIDERS if decider.drawn and groups in decider.takes and fits(decider)]
     present = [decider for decider in deciders if not decider.lacks()]  # tests/test_corpus.py says which lack something
 
-    @settings(max_examples=EXAMPLES)
+    @settings(max_examples=EXAMPLES, phases=[Phase.generate])  # to shrink a failure, all would be asked for minutes
     @given(st.data())
     def run(data):
         questions = Questions.of(data.draw(st.lists(rows_of(groups), min_size=2, max_size=6)), groups)
