@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
-
 import pytest
 
 from hypcheck.cli.main import main
@@ -12,30 +9,6 @@ from hypcheck.errors import Exit
 from hypcheck.vectors.cases import read_cases
 from hypcheck.vectors.checking import faults_of
 from tests.runs.faulty import contact_everywhere
-
-OTHERS = """
-import os
-import numpy as np
-
-def contact(rows):
-    return np.zeros(len(rows), dtype=np.int8)
-
-def seven(rows):
-    return np.full(len(rows), 7)
-
-def silent(rows):
-    return np.full(len(rows), 2)
-
-def dies(rows):
-    os._exit(3)
-"""
-
-
-@pytest.fixture
-def others(tmp_path):
-    path = tmp_path / "others.py"
-    path.write_text(OTHERS)
-    return lambda name: f"python:{path}:{name}"
 
 
 def told(capsys, *arguments):
@@ -100,13 +73,3 @@ def test_rows_that_a_hunt_found_are_added_to_a_vector_file(capsys, built_in, tmp
     assert after.cases[: len(before.cases)] == before.cases
     assert len(after.cases) > len(before.cases)
     assert after.head == before.head
-
-
-def test_hunt_loads_no_library_that_it_does_not_use(others):
-    code = (
-        "import sys; from hypcheck.cli.main import main;"
-        f"main(['hunt', {others('contact')!r}, '--queries', '300']);"
-        "print(*sorted({'sympy', 'mpmath', 'fcl', 'matplotlib'} & set(sys.modules)), 'loaded', file=sys.stderr)"
-    )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stderr.splitlines()[-1] == "loaded"
