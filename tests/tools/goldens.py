@@ -27,6 +27,7 @@ from xml.etree import ElementTree as Xml
 
 from hypcheck.cli.main import main as hypcheck
 from hypcheck.report.formats import REPORTS
+from hypcheck.report.write import FOR_PROGRAMS
 from tests.report.record_samples import every_line
 
 FOLDER = Path(__file__).resolve().parents[1] / "report" / "goldens"
@@ -96,17 +97,29 @@ def kept(run: str) -> dict[str, str]:
 
 def made(run: str) -> tuple[dict[str, str], str]:
     """What `hypcheck report` writes of a run's record, by the names of the goldens, and the page without a mask."""
-    found, page = _written(run, [], [*REPORTS])
-    against = RUNS[run].against
-    if against:
-        with patch.dict(sys.modules, {"matplotlib": None}):
-            words = ["--against", str(FOLDER / against)]
-            compared, _ = _written(run, words, [name for name, report in REPORTS.items() if report.compares])
-        found |= {f"{CHANGES}/{name}": text for name, text in compared.items()}
-    return found, page
+    found = _written(run, [], [*REPORTS])
+    page = found.pop(_WHOLE_PAGE)
+    return found | _compared(run), page
 
 
-def _written(run: str, words: list[str], formats: list[str]) -> tuple[dict[str, str], str]:
+def undrawn(run: str) -> dict[str, str]:
+    """Those of them that programs read and that compare, which have no plots."""
+    return _written(run, [], [*FOR_PROGRAMS]) | _compared(run)
+
+
+_WHOLE_PAGE = "the page without a mask"
+
+
+def _compared(run: str) -> dict[str, str]:
+    if not RUNS[run].against:
+        return {}
+    with patch.dict(sys.modules, {"matplotlib": None}):
+        words = ["--against", str(FOLDER / RUNS[run].against)]
+        texts = _written(run, words, [name for name, report in REPORTS.items() if report.compares])
+    return {f"{CHANGES}/{name}": text for name, text in texts.items() if name != _WHOLE_PAGE}
+
+
+def _written(run: str, words: list[str], formats: list[str]) -> dict[str, str]:
     with TemporaryDirectory() as out, _working_in(FOLDER / run):
         chosen = [word for name in formats for word in ("--format", name)]
         with redirect_stdout(StringIO()):
@@ -114,7 +127,9 @@ def _written(run: str, words: list[str], formats: list[str]) -> tuple[dict[str, 
         if code:
             raise RuntimeError(f"hypcheck report ends with {code} for {run}")
         texts = {_golden(path.name): masked(path) for path in sorted(Path(out).iterdir())}
-        return texts, Path(out, REPORTS["html"].file).read_text("utf-8")
+        if "html" in formats:
+            texts[_WHOLE_PAGE] = Path(out, REPORTS["html"].file).read_text("utf-8")
+        return texts
 
 
 @contextmanager
