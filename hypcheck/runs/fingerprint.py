@@ -16,14 +16,13 @@ import os
 import shutil
 import struct
 import sys
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import lru_cache
 from importlib.machinery import PathFinder
 from importlib.util import cache_from_source
 from pathlib import Path
-from typing import NamedTuple
 
 import hypcheck
 from hypcheck.errors import InputError, system_reason
@@ -194,14 +193,13 @@ def code_fingerprint() -> str:
 class FileSnapshot:
     """The files of a run at its start, to be compared with those at its end: hypcheck's own, and those under test.
 
-    `tested` holds the sha256 of the files under test, by path. The files at the end are always read. At the start of
-    the second run of a process those are not read again that nobody has written to since the first.
+    `tested` holds the sha256 of the files under test, by path.
     """
 
     def __init__(self, tested: Mapping[str, str]) -> None:
         self._tested = dict(tested)
         self.program = code_fingerprint()
-        self._ours = _own_files(_read_if_changed)
+        self._ours = _own_files()
 
     def record_changes(self, recorder: Recorder) -> list[str]:
         """Sentences about files that changed, hypcheck's own first; the record gets them as lines that fail the run."""
@@ -213,7 +211,7 @@ class FileSnapshot:
         return changes
 
     def _changes(self) -> Iterator[str]:
-        now = _own_files(_read)
+        now = _own_files()
         for path in sorted({*self._ours, *now}):
             before, after = self._ours.get(path), now.get(path)
             if before != after and not _is_compiled(path, before, after):
@@ -233,40 +231,7 @@ def _is_compiled(path: str, before: str | None, after: str | None) -> bool:
     return path.endswith(".pyc") and (before is None or after is None)
 
 
-class _Read(NamedTuple):
-    """A file as it was read: its state before that, its first bytes, and the sha256 of its content."""
-
-    state: tuple[int, ...]
-    begin: bytes
-    sha256: str
-
-
-_LAST_READ: dict[str, _Read] = {}
-"""What this process read last, by path."""
-
-
-def _read(path: str) -> _Read:
-    state, content = _state(path), _content_of(path)
-    found = _LAST_READ[path] = _Read(state, content[:_HEADER], _sha256_of_bytes(content))
-    return found
-
-
-def _read_if_changed(path: str) -> _Read:
-    """What was read last, if the file has the same state."""
-    known = _LAST_READ.get(path)
-    return known if known is not None and known.state == _state(path) else _read(path)
-
-
-def _state(path: str) -> tuple[int, ...]:
-    """What changes whenever somebody writes to a file; empty if there is none."""
-    try:
-        found = os.stat(path)
-    except OSError:
-        return ()
-    return found.st_dev, found.st_ino, found.st_size, found.st_mtime_ns, found.st_ctime_ns
-
-
-def _own_files(read: Callable[[str], _Read]) -> dict[str, str]:
+def _own_files() -> dict[str, str]:
     """The sha256 of every file of the package and of the frozen vectors, by path.
 
     Compiled Python counts only if Python would load it without checking its source.
@@ -275,13 +240,13 @@ def _own_files(read: Callable[[str], _Read]) -> dict[str, str]:
     for top, folders, names in os.walk(_PACKAGE):
         folders[:] = [name for name in folders if name != "__pycache__"]
         for path in (os.path.join(top, name) for name in names):
-            hashes[path] = read(path).sha256
+            hashes[path] = _sha256_of_bytes(_content_of(path))
             compiled = cache_from_source(path) if path.endswith(".py") else ""
             if compiled and os.path.exists(compiled):
-                found, state = read(compiled), os.stat(path)
-                if found.begin[4:] == struct.pack("<3I", 0, int(state.st_mtime) % 2**32, state.st_size % 2**32):
-                    hashes[compiled] = found.sha256
-    return hashes | {str(path): read(str(path)).sha256 for path in folder().glob("*.json*")}
+                content, state = _content_of(compiled), os.stat(path)
+                if content[4:_HEADER] == struct.pack("<3I", 0, int(state.st_mtime) % 2**32, state.st_size % 2**32):
+                    hashes[compiled] = _sha256_of_bytes(content)
+    return hashes | {str(path): _sha256_of_bytes(_content_of(str(path))) for path in folder().glob("*.json*")}
 
 
 def _content_of(path: str) -> bytes:

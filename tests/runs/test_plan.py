@@ -92,7 +92,7 @@ def test_changed_files_of_hypcheck_and_of_the_implementation_are_named_and_many_
     tested = tmp_path / "tested.py"
     tested.write_text("new")
     ours = {f"hypcheck/{number}.py": "old" for number in range(MAX_FILES_NAMED + 1)}
-    monkeypatch.setattr(fingerprint, "_own_files", lambda read: dict(ours))
+    monkeypatch.setattr(fingerprint, "_own_files", lambda: dict(ours))
     snapshot = FileSnapshot({str(tested): "of the old", str(tmp_path / "gone.py"): "of what is gone"})
     ours.update(dict.fromkeys(list(ours)[2:], "new"))
     del ours["hypcheck/0.py"]
@@ -111,22 +111,6 @@ def test_changed_files_of_hypcheck_and_of_the_implementation_are_named_and_many_
     assert any("hypcheck/added.py was added while" in each for each in every)
     assert f"{tested}, which is under test, was changed while it was asked" in every
     assert f"{tmp_path / 'gone.py'}, which is under test, was removed while it was asked" in every
-
-
-def test_a_change_during_a_run_is_found_whatever_its_file_tells_and_one_between_two_runs_of_a_process_is_none(
-    monkeypatch, tmp_path
-):
-    monkeypatch.setattr(fingerprint, "_PACKAGE", tmp_path)
-    path = tmp_path / "judge.py"
-    for before, then in (("a", "b"), ("c", "d")):
-        path.write_text(before)
-        snapshot = FileSnapshot({})
-        assert not list(snapshot._changes())
-        path.write_text(then)
-        with monkeypatch.context() as patch:
-            patch.setattr(fingerprint, "_state", lambda path: fingerprint._LAST_READ[path].state)
-            (told,) = snapshot._changes()
-        assert told == f"hypcheck's own file {path} was changed while an implementation was asked"
 
 
 def test_ratios_and_errors_beyond_float64_are_infinite_or_the_smallest_number():

@@ -170,7 +170,7 @@ if __name__ == "__main__":
     os.environ.pop("LD_PRELOAD", None)
     draw_nothing(type("Patch", (), {"setitem": staticmethod(lambda table, name, value: table.update({name: value}))}))
     in_small_steps(setattr, single_rows=10)
-    ours = fingerprint._own_files(fingerprint._read)  # reading them again would be a fourth of a run
-    fingerprint._own_files = lambda read: ours
+    ours = fingerprint._own_files()  # reading them again would be a fourth of a run
+    fingerprint._own_files = lambda: ours
     os.environ["HYPCHECK_ISOLATE"] = "off"
     print(json.dumps(findings(Path(sys.argv[1]), [int(word) for word in sys.argv[2:]])))  # noqa: T201
