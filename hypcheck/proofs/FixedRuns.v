@@ -1,7 +1,6 @@
 (** Stage 3, continued: the steps that Coq reads in the C, run on words, stay within the intervals that are computed for them.
 
-    LimbsRuns.v proves that the functions of the header compute what is said of words here, but for hc_fixed_times and hc_fixed_down,
-    whose shifts are taken as multiplication and division by a power of two. *)
+    LimbsRuns.v proves that the functions of the header compute what is said of words here. *)
 
 Require Import List String ZArith Reals Lra Lia Psatz Bool.
 From Hypcheck Require Import Steps Fixed.
@@ -63,6 +62,26 @@ Proof.
   - pose proof (pattern_of_negative n k S ltac:(lia)) as P; destruct (Z.leb_spec (W / 2) (high_word n)); unfold pattern in *; numbers; lia.
   - pose proof (pattern_of_unsigned n k S ltac:(numbers; lia)) as P; destruct (Z.leb_spec (W / 2) (high_word n)); unfold pattern in *; numbers; lia.
 Qed.
+
+(** The words of so many bits; hc_fixed_up and hc_fixed_down, products by powers of two, these rounded down. *)
+Definition words_of m := Words (m mod W) (m / W).
+Definition shifted_up n k := words_of ((pattern n * 2 ^ k) mod bits128).
+Definition shifted_down n k := words_of ((signed_value n / 2 ^ k) mod bits128).
+
+Lemma words_stand k : stands (words_of (k mod bits128)) k.
+Proof.
+  unfold stands, is_number, pattern, words_of; cbn [low_word high_word].
+  assert (R : 0 <= k mod bits128 < bits128) by (apply Z.mod_pos_bound; reflexivity).
+  set (m := k mod bits128) in *; clearbody m; pose proof (Z.div_mod m W ltac:(discriminate)).
+  split; [split; [apply word_mod | split; [apply Z.div_pos; [lia | reflexivity] | apply Z.div_lt_upper_bound; [reflexivity | exact (proj2 R)]]] | lia].
+Qed.
+Lemma down_stands n k : stands (shifted_down n k) (signed_value n / 2 ^ k).
+Proof. apply words_stand. Qed.
+
+(** hc_fixed_sign: 1 or -1 for a number that is farther from 0 than the bound; -bound - 1 is taken for no farther. *)
+Definition sign_of n bound : comparison := let v := signed_value n in if bound <? v then Gt else if v <? - bound - 1 then Lt else Eq.
+(** hc_fixed_bits: those of the number, or of -1 less it, and 1 for none. *)
+Definition bits_of n := let v := signed_value n in 1 + Z.log2 (if v <? 0 then - v - 1 else v).
 
 Lemma masked_is_right n k m : stands n k -> - (bits128 / 2) <= k < bits128 / 2 ->
   masked n m = if k <? 0 then m else Words 0 0.
@@ -186,8 +205,8 @@ Definition runs (s : step) : Prop := let n := name s in match call_of s with
   | Signed a c => num n = signed_product (num a) (num c) /\ x n = halves a c
   | BothSigned a c => num n = both_signed_product (num a) (num c) /\ x n = halves a c
   | Square a => num n = square (num a) /\ x n = halves a a
-  | Moved by_name a c => let k := shift by_name in 0 <= k /\ is_number (num n)
-    /\ pattern (num n) = pattern (product (num a) (num c)) / 2 ^ k /\ x n = (halves a c / IZR (2 ^ k))%R
+  | Moved by_name a c => let k := shift by_name in 0 <= k /\ num n = shifted_down (product (num a) (num c)) k
+    /\ x n = (halves a c / IZR (2 ^ k))%R
   | Other => False end.
 
 Definition with_two known a c (f : range -> range -> option range) := match look a known, look c known with
@@ -204,7 +223,7 @@ Definition range_of known (s : step) : option range := match call_of s with
   | BothSigned a c => with_two known a c (fun r q => provided ((low r <? 0) && (low q <? 0)) (times_range r q))
   | Square a => with_two known a a (fun r _ => provided (low r <? 0) (times_range r r))
   | Moved _ a c => with_two known a c (fun r q =>
-      provided ((0 <=? low r) && (0 <=? low q) && fits (times_range r q)) (moved_down (times_range r q)))
+      provided ((0 <=? low r) && (0 <=? low q) && (high (times_range r q) <? bits128 / 2)) (moved_down (times_range r q)))
   | Other => None end.
 
 Fixpoint ranges known (l : list step) : option (list (string * range)) := match l with
@@ -257,18 +276,15 @@ Proof.
     exists k; rewrite RN, RX; split; [exact U | split; [apply product_within with v w |]; assumption].
   - destruct R as [RN RX]; destruct (square_stands (num a) v S) as (k & U & V); [apply (fits_signed p v (x a)); assumption |].
     exists k; rewrite RN, RX; split; [exact U | split; [apply product_within with v v |]; assumption].
-  - set (k := shift m) in R; destruct R as (K0 & RN & RP & RX); destruct (product_stands (num a) (num c) v w S T) as (t & U & V);
+  - set (k := shift m) in R; destruct R as (K0 & RN & RX); destruct (product_stands (num a) (num c) v w S T) as (t & U & V);
       [apply (fits_unsigned p v (x a)) | apply (fits_unsigned q w (x c)) |]; try assumption.
     assert (TI : within (times_range p q) t (halves a c)) by (apply product_within with v w; assumption).
     assert (T0 : 0 <= t).
     { destruct V as [_ V]; apply V; destruct I as [I _]; destruct J as [J _]; lia. }
-    assert (TP : 0 <= t < bits128).
-    { split; [exact T0 |]; destruct TI as [[_ TI] _]; match goal with X : fits (times_range p q) = true |- _ => unfold fits in X;
-        destruct (low (times_range p q) <? 0); [apply andb_prop in X as [_ X] |]; apply Z.ltb_lt in X; numbers; lia end. }
+    assert (TP : 0 <= t < bits128 / 2).
+    { split; [exact T0 |]; destruct TI as [[_ TI] _]; match goal with X : (_ <? bits128 / 2) = true |- _ => apply Z.ltb_lt in X; lia end. }
     exists (t / 2 ^ k); rewrite RX; split; [| split; [apply moved_within |]; assumption].
-    split; [exact RN |]; rewrite RP, (pattern_of_unsigned _ t U TP); symmetry; apply Z.mod_small.
-    assert (0 < 2 ^ k) by (apply Z.pow_pos_nonneg; lia).
-    split; [apply Z.div_pos; lia |]; apply Z.div_lt_upper_bound; nia.
+    rewrite RN, <- (signed_value_is _ t U ltac:(numbers; lia)); apply down_stands.
 Qed.
 
 Theorem ranges_hold l : forall known found, all_hold known -> Forall runs l -> ranges known l = Some found -> all_hold found.

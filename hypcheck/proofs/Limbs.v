@@ -133,13 +133,14 @@ Fixpoint parameters_of (fuel : nat) (ws : list string) : option (list (kind * st
 Fixpoint without_storage (ws : list string) := match ws with
   | w :: rest => if is_in w ["static"; "inline"] then without_storage rest else ws | [] => [] end.
 
-(** Text for limbs of 64 bits, or for others. *)
+(** Text for limbs of 64 bits, or for others; and for compilers that have __builtin_clzll. *)
+Definition builtins := ["#"; "if"; "defined"; "("; "__GNUC__"; ")"; "||"; "defined"; "("; "__clang__"; ")"].
 Fixpoint lines_for (fuel : nat) (limbs keeps : bool) (ws : list string) : list string := match fuel, ws with
-  | S f, w :: rest => match behind ["#"; "if"; "HC_LIMB_BITS"; "=="; "64"] ws, behind ["#"; "else"] ws, behind ["#"; "endif"] ws with
-    | Some (_, more), _, _ => lines_for f limbs limbs more
-    | _, Some (_, more), _ => lines_for f limbs (negb keeps) more
-    | _, _, Some (_, more) => lines_for f limbs true more
-    | _, _, _ => if keeps then w :: lines_for f limbs keeps rest else lines_for f limbs keeps rest end
+  | S f, w :: rest => match behind ["#"; "if"; "HC_LIMB_BITS"; "=="; "64"] ws, behind ["#"; "else"] ws, behind ["#"; "endif"] ws, behind builtins ws with
+    | Some (_, more), _, _, _ => lines_for f limbs limbs more
+    | _, Some (_, more), _, _ => lines_for f limbs (negb keeps) more
+    | _, _, Some (_, more), _ | _, _, _, Some (_, more) => lines_for f limbs true more
+    | _, _, _, _ => if keeps then w :: lines_for f limbs keeps rest else lines_for f limbs keeps rest end
   | _, _ => [] end.
 
 (** The name, and what is read. *)
@@ -167,7 +168,8 @@ Definition made_of t z : option Z := match t with
 Definition converted t u z : option Z := match t with
   | Int => match u with Int => Some z | _ => made_of u z end
   | _ => if Nat.leb (rank t) (rank u) then Some z else made_of u z end.
-Definition counted t k (z : option Z) := if (0 <=? k) && (k <? width t) then z else None.
+Definition counted {A} t k (z : option A) := if (0 <=? k) && (k <? width t) then z else None.
+Definition unless_zero {A} k (z : option A) := if k =? 0 then None else z.
 
 Definition same a b := if a =? b then 1 else 0.
 Definition chosen c (a b : Z) := if c =? 0 then b else a.
@@ -186,7 +188,10 @@ Definition infix_of o t x u y : option value := let v := wider t u in
 
 (** What a function that is called computes. *)
 Inductive model := OfWords (f : Z -> Z -> number) | OfNumbers (f : number -> number -> number) | OfNumber (f : number -> Z)
-  | OfProducts (f : number -> number -> long) | OfLongs (f : long -> long -> bool -> long).
+  | OfProducts (f : number -> number -> long) | OfLongs (f : long -> long -> bool -> long)
+  | OfBits (f : Z -> Z) (* of a word that is not 0 *) | OfShift (f : number -> Z -> number) (* by 0 .. 127 *).
+Definition kind_of_answer m := match m with
+  | OfNumber _ => Plain U64 | OfBits _ => Plain Int | OfProducts _ | OfLongs _ => Struct 4 | OfWords _ | OfNumbers _ | OfShift _ => Struct 2 end.
 
 Definition record n := Record [low_word n; high_word n].
 Definition long_record n := Record [w0 n; w1 n; w2 n; w3 n].
@@ -198,22 +203,44 @@ Definition answer (m : model) (given : list value) : option value := match m, gi
   | OfLongs f, [Record [a; b; c; d]; Record [e; g; h; i]; Val Int k] => match k with
     | 0 => Some (long_record (f (Long a b c d) (Long e g h i) false)) | 1 => Some (long_record (f (Long a b c d) (Long e g h i) true))
     | _ => None end
+  | OfBits f, [Val U64 a] => unless_zero a (Some (Val Int (f a)))
+  | OfShift f, [Record [a; b]; Val Int k] => counted Wide k (Some (record (f (Words a b) k)))
   | _, _ => None end.
+
+(** What a choice has for its kind, whichever it is; the other one may be undefined. *)
+Definition common j k := match j, k with
+  | Some (Plain t), Some (Plain u) => Some (Plain (wider t u))
+  | Some (Struct m), Some (Struct n) => if Nat.eqb m n then j else None
+  | _, _ => None end.
+Definition of_kind k v := match k, v with
+  | Plain t, Some (Val u z) => try x <- converted u t z; Some (Val t x) | Struct _, Some (Record _) => v | _, _ => None end.
+Definition either z v w := match v, w with
+  | Some (Val t x), Some (Val _ y) => Some (Val t (chosen z x y))
+  | Some (Record l), Some (Record m) => Some (Record (map (fun p => chosen z (fst p) (snd p)) (combine l m)))
+  | _, _ => if z =? 0 then w else v end.
 
 Section Meaning.
 Variable known : list (string * model).
 
 Definition cells := list (string * cell).
 
+Fixpoint kind_in (now : cells) (e : expression) : option kind := match e with
+  | Named n => try c <- look n now; match c with Plainly t _ => Some (Plain t) | Fields l => Some (Struct (List.length l)) end
+  | Constant t _ | As t _ => Some (Plain t)
+  | Infix o l r => if is_in o ["<<"; ">>"] then kind_in now l
+    else if is_in o ["+"; "-"; "*"; "&"; "|"; "^"] then common (kind_in now l) (kind_in now r) else Some (Plain Int)
+  | Choice _ a b => common (kind_in now a) (kind_in now b)
+  | Called f _ => try m <- look f known; Some (kind_of_answer m)
+  | Part _ _ => Some (Plain U64)
+  | Braces _ => None end.
+
 Fixpoint value_of (now : cells) (e : expression) : option value := match e with
   | Named n => try c <- look n now; match c with
     | Plainly t z => try k <- z; Some (Val t k) | Fields l => try k <- every l; Some (Record k) end
   | Constant t z => Some (Val t z)
   | Infix o l r => try a <- value_of now l; try b <- value_of now r; match a, b with Val t x, Val u y => infix_of o t x u y | _, _ => None end
-  | Choice c a b => try v <- value_of now c; try w <- value_of now a; try w' <- value_of now b; match v, w, w' with
-    | Val _ z, Val t x, Val u y => try x' <- converted t (wider t u) x; try y' <- converted u (wider t u) y; Some (Val (wider t u) (chosen z x' y'))
-    | Val _ z, Record l, Record l' => Some (Record (map (fun p => chosen z (fst p) (snd p)) (combine l l')))
-    | _, _, _ => None end
+  | Choice c a b => match value_of now c, common (kind_in now a) (kind_in now b) with
+    | Some (Val _ z), Some k => either z (of_kind k (value_of now a)) (of_kind k (value_of now b)) | _, _ => None end
   | Called f given => try m <- look f known; try l <- every (map (value_of now) given); answer m l
   | Part e i => match value_of now i with Some (Val Int k) => match e with
     | Named n => match look n now with Some (Fields l) => try z <- nth_error l (Z.to_nat k); try x <- z; Some (Val U64 x) | _ => None end

@@ -80,17 +80,6 @@ End Fixed_point.
 
 (** ** The coefficients, and what is asked at the poles. *)
 
-(** hc_fixed_down: a number in two's complement divided by a power of two, rounded down. *)
-Definition down n k := let m := ((signed_value n / 2 ^ k) mod bits128)%Z in Words (m mod W) (m / W).
-
-Lemma down_stands n k : stands (down n k) (signed_value n / 2 ^ k).
-Proof.
-  unfold stands, is_number, pattern, down; cbn [low_word high_word].
-  assert (R : (0 <= (signed_value n / 2 ^ k) mod bits128 < bits128)%Z) by (apply Z.mod_pos_bound; reflexivity).
-  set (m := ((signed_value n / 2 ^ k) mod bits128)%Z) in *; clearbody m; pose proof (Z.div_mod m W ltac:(discriminate)).
-  split; [split; [apply word_mod | split; [apply Z.div_pos; [lia | reflexivity] | apply Z.div_lt_upper_bound; [reflexivity | exact (proj2 R)]]] | lia].
-Qed.
-
 Section Poles.
 
 Variables (num : string -> number) (x : string -> R) (shift : string -> Z).
@@ -99,12 +88,12 @@ Hypothesis Squares : all_hold num x squares.
 
 (** n2, as the C makes it of two of the terms. *)
 Hypotheses (S0 : (0 <= shift "by_t")%Z) (S1 : (0 <= shift "by_q")%Z)
-  (Number_2 : num "n2" = minus (down (num "radial_2") (shift "by_t")) (down (num "axial_2") (shift "by_q")))
+  (Number_2 : num "n2" = minus (shifted_down (num "radial_2") (shift "by_t")) (shifted_down (num "axial_2") (shift "by_q")))
   (Value_2 : x "n2" = (x "radial_2" / IZR (2 ^ shift "by_t") - x "axial_2" / IZR (2 ^ shift "by_q"))%R).
 
 (** A number moved down. *)
 Lemma moved_holds n q k : holds num x n q -> (high q < bits128 / 2)%Z -> (0 <= k)%Z ->
-  exists v, stands (down (num n) k) v /\ within (moved_down q) v (x n / IZR (2 ^ k)).
+  exists v, stands (shifted_down (num n) k) v /\ within (moved_down q) v (x n / IZR (2 ^ k)).
 Proof.
   intros (v & S & I & F) H K; exists (v / 2 ^ k)%Z; assert (V : signed_value (num n) = v).
   { apply signed_value_is; [exact S |]; destruct I as [I _]; unfold fits in F; destruct (Z.ltb_spec (low q) 0);
@@ -241,9 +230,7 @@ Variables m r N : R.
 Hypotheses (N0 : 0 < N) (M0 : 0 < m) (R0 : 0 < r) (XN : x' "N" = m * r ^ 3 * N) (X2 : x' "n2" = m * r ^ 2 * (N * c2 A B P Q))
   (X1 : x' "n1" = m * r * (N * c1 A B P Q)) (XP : x' "ps" = m * - (N * c0 A B P Q)).
 
-(** hc_fixed_sign, and what the C answers by the signs; nothing where they do not tell. *)
-Definition sign_of n bound : comparison := let v := signed_value n in if (bound <? v)%Z then Gt else if (v <? - bound)%Z then Lt else Eq.
-
+(** What the C answers by the signs; nothing where they do not tell. *)
 Definition fixed_answer (delta c2 c1 offset_B slope_B offset_A slope_A middle : comparison) (wide : bool) : option answer :=
   match delta, c2, c1 with
   | Lt, _, _ => Some Contact
@@ -269,7 +256,7 @@ Let by_sign n bound (v w j : R) : 0 < j -> v = j * w -> ((bound < signed_value n
 Proof.
   intros J E [G1 G2]; unfold sign_of; destruct (Z.ltb_spec bound (signed_value n)) as [H | _].
   - apply G1 in H; apply Rmult_lt_reg_l with j; lra.
-  - destruct (Z.ltb_spec (signed_value n) (- bound)) as [H | _]; [| exact I]; apply G2 in H; apply Rmult_lt_reg_l with j; lra.
+  - destruct (Z.ltb_spec (signed_value n) (- bound - 1)) as [H | _]; [| exact I]; assert (H' : (signed_value n < - bound)%Z) by lia; apply G2 in H'; apply Rmult_lt_reg_l with j; lra.
 Qed.
 
 (** Stage 3 of the C answers with the position. *)

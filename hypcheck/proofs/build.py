@@ -55,7 +55,7 @@ PRINTED = ("Steps", "Programs", HEADER_TEXT, "Printed", "Fixed", "FixedRuns", "R
 
 COMPOSED = (
     *("Stages", "StageTwoAnswers", "Underflow", "StageOne", "StageTwoRuns"),
-    *("StageThree", "StageFive", "Long", "StageFour", "Limbs", "LimbsRuns"),
+    *("StageThree", "StageFive", "Long", "StageFour", "Limbs", "LimbsRuns", "ShiftRuns"),
 )
 """All stages in one theorem, Stages.whatever_stage_answers; from a stage's numbers to the position; the C of words."""
 
@@ -310,9 +310,9 @@ def weakened() -> tuple[Weakened, ...]:
 
 @cache
 def changed_functions() -> tuple[Weakened, ...]:
-    """LimbsRuns.v with one change of the header's functions of words, all of them; each must be refused."""
+    """LimbsRuns.v or ShiftRuns.v with one change of a function of words that it speaks of; each must be refused."""
     changes = printed_c.function_changes()
-    return tuple(Weakened("LimbsRuns", "HeaderText.functions", new, what) for new, what in changes)
+    return tuple(Weakened(printed_c.PROVED_IN[name], "HeaderText.functions", new, what) for name, new, what in changes)
 
 
 CONTROL = Weakened("Checker", "Definition less", "Definition less", "nothing")

@@ -20,14 +20,25 @@ _PART = re.compile(
     re.MULTILINE | re.DOTALL,
 )
 _BOUND = re.compile(r"^#define HC_(?:fixed_)?(coefficient|pole|delta|middle|MOST_GROWN) (\d+)$", re.MULTILINE)
-FUNCTIONS = (
+_SUMS_AND_PRODUCTS = (
     *("hc_fixed_full", "hc_fixed_full_signed", "hc_fixed_plus", "hc_fixed_minus", "hc_fixed_negative"),
     *("hc_fixed_product", "hc_fixed_signed_product", "hc_fixed_both_signed_product", "hc_fixed_square"),
     *("hc_long_product", "hc_long_sum", "hc_long_signed_product"),
 )
-"""The functions of the header that add and multiply numbers of 128 and 256 bits."""
+_SHIFTS_AND_SIGNS = (
+    *("hc_highest_bit", "hc_fixed_up", "hc_fixed_down", "hc_fixed_times", "hc_fixed_bits", "hc_fixed_sign"),
+    *("hc_long_is_zero", "hc_long_is_negative"),
+)
+FUNCTIONS = (*_SUMS_AND_PRODUCTS, *_SHIFTS_AND_SIGNS)
+"""The functions of the header that compute with numbers of 128 and 256 bits."""
 
-_FUNCTION = r"^static inline \w+ {}\((?:[^\n]*\}}$|.*?^\}}$)"
+PROVED_IN = {
+    **dict.fromkeys(_SUMS_AND_PRODUCTS, "LimbsRuns"),
+    **dict.fromkeys(_SHIFTS_AND_SIGNS, "ShiftRuns"),
+}
+"""The Coq file that says what each of them computes."""
+
+_FUNCTION = r"^static (?:inline )?\w+ {}\((?:[^\n]*\}}$|.*?^\}}$)"
 _HEAD = "Require Import List String ZArith.\nImport ListNotations.\nOpen Scope string_scope.\n"
 _OPERATORS = {"+": "-", "-": "+", "*": "/", "/": "*", ">": "<", "<": ">", ">=": "<=", "<=": ">="}
 _CALLS = {
@@ -54,10 +65,16 @@ _CALLS = {
     "by_q": "by_t",
 }
 _WORD = {
-    **dict(zip("+-*&^|<", "-++|&&>", strict=True)),
+    **dict(zip("+-*&^|<>", "-++|&&><", strict=True)),
     **dict(zip(("<<", ">>", "+=", "-=", ".low", ".high"), (">>", "<<", "-=", "+=", ".high", ".low"), strict=True)),
+    **dict(zip(("==", "!=", "&&", "||"), ("!=", "==", "||", "&&"), strict=True)),
 }
-_CHANGED = re.compile(r"(?<= )(?:[-+*&^|<]|<<|>>|[-+]=)(?= )|(?<![\w.])\d+\b(?!}}|, 0}})|\.(?:low|high)\b")
+_CHANGED = re.compile(
+    r"(?<= )(?:[-+*&^|<>]|<<|>>|[-+]=|[=!]=|&&|\|\|)(?= )|(?<![\w.])(?<![^{]\{)\d+\b(?!}}|, 0}})|\.(?:low|high)\b"
+)
+_MEANS_THE_SAME = ("by < 128 ?", "mask << 0 <<")
+"""Changes of hc_fixed_down that change no value: 127 bits, and the sign in a bit that already has it."""
+
 _DEFINED = re.compile(r"^(?:const \w+ |HC_INTEGER\()(\w+)", re.MULTILINE)
 _STATEMENT = re.compile(r"const \w+ \w+ = |HC_INTEGER\(\w+, \d+\); ")
 
@@ -75,13 +92,13 @@ def parts(header: str) -> list[tuple[str, str]]:
 
 
 def functions(header: str) -> list[str]:
-    """The texts of the functions that add and multiply words."""
+    """The texts of the functions that compute with words."""
     found = [re.search(_FUNCTION.format(name), header, re.MULTILINE | re.DOTALL) for name in FUNCTIONS]
     return [text[0] for text in found if text]
 
 
 def header_text() -> str:
-    """HeaderText.v: the printed parts, and the functions that add and multiply words, as texts of Coq."""
+    """HeaderText.v: the printed parts, and the functions that compute with words, as texts of Coq."""
     text = HEADER.read_text(encoding="utf-8")
     rows = ";\n".join(f"  ({_quoted(name)}, {_quoted(part)}%text)" for name, part in parts(text))
     bounds = "; ".join(f'("{name.lower()}", {value})' for name, value in _BOUND.findall(text))
@@ -111,22 +128,29 @@ def changes(each: int, seed: int) -> list[Change]:
     return found
 
 
-def function_changes() -> Iterator[tuple[str, str]]:
-    """Every change of a constant, an operation or a part of a number in the functions: Coq's list of texts, and what.
+def function_changes() -> Iterator[tuple[str, str, str]]:
+    """Every change of a constant, an operation or a part of a number in the functions.
 
-    The last two words of `{{0, 0, 0, 0}}` are not changed: others are put there before they are read.
+    It is given as the function, Coq's list of all texts, and what is changed. Not changed is a number in whose place
+    another is put before it is read: the last two words of `{{0, 0, 0, 0}}`, the first of `{0, 0}`. Nor is what
+    means the same.
     """
     texts = functions(HEADER.read_text(encoding="utf-8"))
-    for place, text in enumerate(texts):
-        start = text.index("{") + 1
-        for word in _CHANGED.finditer(text[start:]):
-            new = _WORD.get(word[0]) or str(int(word[0]) + 1)
-            changed = text[: start + word.start()] + new + text[start + word.end() :]
-            if "#if" in text and word.start() > text[start:].index("#else"):
-                break
-            listed = [*texts[:place], changed, *texts[place + 1 :]]
-            rows = "; ".join(f"text_of (list_byte_of_string {_quoted(row)})" for row in listed)
-            yield f"[{rows}]", f"{new} for {word[0]} in {FUNCTIONS[place]}, character {start + word.start()}"
+    for place, (name, text) in enumerate(zip(FUNCTIONS, texts, strict=True)):
+        start = text.index("\n", text.index("#if")) if "#if" in text else text.index("{") + 1
+        stop = text.index("#else") if "#else" in text else len(text)
+        for word in _CHANGED.finditer(text, start, stop):
+            for new in [_WORD[word[0]]] if word[0] in _WORD else _numbers_beside(word[0]):
+                changed = text[: word.start()] + new + text[word.end() :]
+                if any(same in changed for same in _MEANS_THE_SAME):
+                    continue
+                listed = [*texts[:place], changed, *texts[place + 1 :]]
+                rows = "; ".join(f"text_of (list_byte_of_string {_quoted(row)})" for row in listed)
+                yield name, f"[{rows}]", f"{new} for {word[0]} in {name}, character {word.start()}"
+
+
+def _numbers_beside(number: str) -> list[str]:
+    return [str(int(number) + by) for by in (1, -1) if int(number) + by >= 0]
 
 
 def _value(line: str) -> tuple[str, str] | None:
