@@ -197,6 +197,12 @@ def test_changes_of_functions_of_words_reach_every_function_and_change_one_word_
         assert sum(left != right for left, right in zip(unchanged, new, strict=True)) == 1
 
 
+def test_each_function_of_words_is_changed_in_the_file_that_says_what_it_computes():
+    for change in build.changed_functions():
+        name = re.search(r" in (\w+),", change.allows)[1]
+        assert f'called "{name}"' in build.source(change.file)
+
+
 def test_prove_with_soundness_compiles_what_the_checker_rests_on_alone(tools):
     tools.assume(CLOSED, "")
     code, output = tools.prove("--soundness")
