@@ -6,6 +6,7 @@ places of all faults among them, and what the sizes of other places make of thes
 
 from __future__ import annotations
 
+from functools import cache
 from itertools import combinations, product
 
 import numpy as np
@@ -24,19 +25,16 @@ FAMILIES = (
 )
 
 
+@cache
 def rows_of_every_regime():
+    """Rows, and their positions."""
     frozen = np.vstack([load(name).rows[::12] for name in FAMILIES])
     sizes, places = (1, 2, 5), (0, 1, 3, 4)
     small = [[a, c, b, 1, x, 0, z] for a, c, b, x, z in product(sizes, sizes, (1, 3), places, places)]
     ring = [[1, 2, 1, 1, 2.5, 0, 0], [7, 7, 1, 1, 10, 0, 0], [2, 0.5, 1, 1, 4, 0, 0]]
-    return np.vstack([frozen, small, ring]).astype(np.float64)
+    rows = np.vstack([frozen, small, ring]).astype(np.float64)
+    return tuple(map(tuple, rows.tolist())), classify(rows)
 
-
-ROWS = rows_of_every_regime()
-TRUTH = classify(ROWS)
-ASKED = tuple(map(tuple, ROWS.tolist()))
-SOME = ASKED[::2], TRUTH[::2]
-"""Enough for a slip, which errs in every regime."""
 
 PRINTED = {
     **TABLE_2,
@@ -81,17 +79,20 @@ PLACES = {
 """Formulas that are right but for one fault, by the cause."""
 
 
-def wrong(formula, asked=ASKED, truth=TRUTH):
-    return np.flatnonzero(np.array(positions(formula, asked)) != truth)
+def wrong(formula, every=1):
+    """The places of wrong answers to every row, or to every so many-th."""
+    rows, truth = rows_of_every_regime()
+    return np.flatnonzero(np.array(positions(formula, rows[::every])) != truth[::every])
 
 
 def false_clear(formula):
-    return set(np.flatnonzero((TRUTH == 0) & (np.array(positions(formula, ASKED)) != 0)).tolist())
+    rows, truth = rows_of_every_regime()
+    return set(np.flatnonzero((truth == 0) & (np.array(positions(formula, rows)) != 0)).tolist())
 
 
 def test_coefficient_form_for_all_regimes_is_right_on_all_rows_of_these_tests():
     assert wrong(EVERYWHERE).size == 0
-    assert (np.bincount(TRUTH + 1) > 50).all()
+    assert (np.bincount(rows_of_every_regime()[1] + 1) > 50).all()
 
 
 @pytest.mark.parametrize("name", PLACES)
@@ -210,8 +211,9 @@ FORMULA_ERRORS |= dict(coefficient_errors())
 
 @pytest.mark.parametrize("name", FORMULA_ERRORS)
 def test_remedy_of_a_slip_leaves_no_wrong_answer_of_a_formula_with_that_slip(name):
-    assert wrong(FORMULA_ERRORS[name], *SOME).size > 0
-    assert wrong(applied(FORMULA_ERRORS[name], BY_NAME[name].remedy), *SOME).size == 0
+    # Half of the rows: a formula that errs does so in every regime.
+    assert wrong(FORMULA_ERRORS[name], 2).size > 0
+    assert wrong(applied(FORMULA_ERRORS[name], BY_NAME[name].remedy), 2).size == 0
 
 
 def test_remedies_of_all_formula_errors_and_places_together_do_no_harm_to_a_right_formula():
@@ -219,4 +221,4 @@ def test_remedies_of_all_formula_errors_and_places_together_do_no_harm_to_a_righ
 
 
 def test_rows_of_these_tests_are_valid():
-    assert all(trouble_with_row(tuple(row)) is None for row in ROWS.tolist())
+    assert all(trouble_with_row(row) is None for row in rows_of_every_regime()[0])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import cache
 
 import pytest
 
@@ -10,18 +11,22 @@ from tests.kernel.constant_proofs import PROOFS
 from tests.tools.evidence.c_sites import HEADER, Mutant, schemata
 from tests.tools.evidence.kernel_explained import TABLE, Rule, at_equality, changed, rules, told_by_proof
 
-MUTANTS = schemata(HEADER.read_text(encoding="utf-8"))[1]
+
+@cache
+def mutants():
+    """The mutants of the header, which take a second to be found."""
+    return schemata(HEADER.read_text(encoding="utf-8"))[1]
 
 
 def test_every_explanation_matches_a_mutant_of_the_header():
     for rule in rules():
-        mine = [mutant for mutant in MUTANTS if re.fullmatch(rule.functions, mutant.function)]
+        mine = [mutant for mutant in mutants() if re.fullmatch(rule.functions, mutant.function)]
         for change in rule.changes:
             assert any(Rule("", rule.functions, (change,)).explains(mutant) for mutant in mine), (rule, change)
 
 
 def test_every_function_named_in_an_explanation_has_mutants():
-    functions = {mutant.function for mutant in MUTANTS}
+    functions = {mutant.function for mutant in mutants()}
     for rule in rules():
         assert any(re.fullmatch(rule.functions, function) for function in functions), rule
         assert rule.reason.endswith("."), rule
@@ -30,7 +35,7 @@ def test_every_function_named_in_an_explanation_has_mutants():
 def test_every_constant_whose_mutants_are_excused_by_room_has_a_derivation():
     for rule in rules():
         if rule.reason.startswith("Room:"):
-            for mutant in MUTANTS:
+            for mutant in mutants():
                 if re.fullmatch(rule.functions, mutant.function):
                     assert mutant.function.removeprefix("HC_") in PROOFS
 
@@ -70,6 +75,6 @@ def test_mutant_of_the_decision_program_is_killed_by_the_proved_rule_for_all_sig
 
 
 def test_mutant_of_a_constant_is_killed_by_the_derivation_of_that_constant():
-    (half, twice) = (mutant for mutant in MUTANTS if mutant.function == "HC_u_12")
+    (half, twice) = (mutant for mutant in mutants() if mutant.function == "HC_u_12")
     assert (told_by_proof(half), told_by_proof(twice)) == ("derivation", "derivation")
-    assert {told_by_proof(mutant) for mutant in MUTANTS if mutant.function == "HC_greatest_l"} == {None}
+    assert {told_by_proof(mutant) for mutant in mutants() if mutant.function == "HC_greatest_l"} == {None}
