@@ -8,7 +8,8 @@ VERSION = $(shell $(BIN)/python -c 'import hypcheck; print(hypcheck.__version__)
 BIN := $(VENV)/bin
 # Bytecode is made for the modules that are used, which are few. The tree is found by its path: a finder would take a tenth
 # of the time in which a process starts, and tests start a thousand.
-INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile --config-settings editable_mode=compat --editable
+# setuptools warns at each such install that there will be others.
+INSTALL := PYTHONWARNINGS=ignore $(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile --config-settings editable_mode=compat --editable
 
 # The bytecode of what `make verify` loads, so that its first run takes no longer than others.
 COMPILED := $(BIN)/python -c 'from hypcheck.derivation import printed_equations, proofs; from hypcheck.report import write; from hypcheck.runs import self_check; write.import_all()'
@@ -160,6 +161,8 @@ $(BIN)/python:
 		echo "hypcheck needs Python 3.10 or later; $(PYTHON) is $$($(PYTHON) --version 2>&1). Name another: make PYTHON=python3.12" >&2; exit 2; }
 	@$(PYTHON) -m venv $(VENV) || { \
 		echo "$(PYTHON) cannot make a virtual environment; on Debian and Ubuntu install python3-venv" >&2; rm -rf $(VENV); exit 2; }
+	@# A pip as old as Python itself takes twice as long to choose versions; where there is no newer one it will do.
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile --retries 1 --upgrade pip 2>/dev/null || true
 
 KERNEL := setup.py hypcheck/kernel/core/binding.c hypcheck/kernel/core/columns.h hypcheck/kernel/core/at_once.h hypcheck/kernel/core/hypcheck.h hypcheck/implementations/calls.c $(wildcard hypcheck/isolation/*.[ch])
 $(VENV)/ready: pyproject.toml $(KERNEL) | $(BIN)/python
