@@ -8,7 +8,7 @@ VERSION = $(shell $(BIN)/python -c 'import hypcheck; print(hypcheck.__version__)
 BIN := $(VENV)/bin
 # Bytecode is made for the modules that are used, which are few. The tree is found by its path: a finder would take a tenth
 # of the time in which a process starts, and tests start a thousand.
-# setuptools warns at each such install that there will be others.
+# setuptools warns at each such install that it will drop the mode `compat` one day.
 INSTALL := PYTHONWARNINGS=ignore $(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile --config-settings editable_mode=compat --editable
 
 # The bytecode of what `make verify` loads, so that its first run takes no longer than others.

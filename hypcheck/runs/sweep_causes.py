@@ -1,7 +1,8 @@
 """Causes about sweeps: positions tested in place of the sweep, columns mistaken, times of first contact wrong.
 
 A rule about the input answers the sweep that its sentence in causes.toml says. A rule about times gives the given
-answer where only the time is wrong, in its way.
+answer where only the time is wrong, in its way. Places at times between the ends are rounded: they name a cause, and
+judge nothing.
 """
 
 from __future__ import annotations
@@ -31,7 +32,9 @@ _MOST_SWEEPS = 512
 def _touches(answered: AnsweredRows, times: Floats | float) -> Answers:
     """Whether the spheroid is in contact at these times of the sweeps: 0 is the start, 1 the end."""
     rows, times = answered.rows, np.full((1, len(answered.rows)), times).T
-    centres = (1 - times) * rows[:, 4:7] + times * rows[:, 7:10]
+    start, end = rows[:, 4:7], rows[:, 7:10]
+    with np.errstate(over="ignore"):  # rounded beyond the largest float64, a centre would be no valid row
+        centres = np.clip((1 - times) * start + times * end, np.minimum(start, end), np.maximum(start, end))
     return np.asarray(classify(np.hstack([rows[:, :4], centres, rows[:, 10:]])) == 0, dtype=np.int8)
 
 
