@@ -85,7 +85,7 @@ def pairs_of(
     _add(columns, spread(named, _POINTS))
     if axis is not None:
         _add(columns, named_points("axis", axis, AXIS))
-    if len(heights) == len(HEIGHTS) and not _are_default(heights):
+    if len(heights) == len(HEIGHTS) and not mean_no_ends(heights):
         _add(columns, dict(zip(HEIGHTS, heights, strict=True)))
     if not columns:
         raise InputError(f"there are no pairs: {_FORMS}")
@@ -119,7 +119,8 @@ def spread(named: Mapping[str, Argument], points: Mapping[str, Sequence[str]]) -
     return columns
 
 
-def _are_default(heights: Sequence[Argument]) -> bool:
+def mean_no_ends(heights: Sequence[Argument]) -> bool:
+    """Whether z_min, z_max and solid are the numbers that a hyperboloid without ends has."""
     low, high, solid = heights
     return all(np.ndim(height) == 0 for height in heights) and low == -math.inf and high == math.inf and not solid
 

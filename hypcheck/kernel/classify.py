@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from hypcheck.errors import InputError
 from hypcheck.float_environment import in_default_environment
 from hypcheck.geometry import pair
-from hypcheck.geometry.forms import Answers, Argument, pairs_of, points_or_columns
+from hypcheck.geometry.forms import Answers, Argument, mean_no_ends, pairs_of, points_or_columns
 from hypcheck.geometry.rows import (
     PAIRS,
     Columns,
@@ -162,10 +162,8 @@ def classify(
     array([-1,  1], dtype=int8)
     """
     number = required(question, threads, on_invalid)
-    if len(pairs) in (2, 4) and isinstance(pairs[0], Prepared):
-        prepared, *center = pairs
-        options: Any = {"on_invalid": on_invalid, "question": question, "threads": threads, "margin": margin}
-        return classify_scene(prepared, *center, **{"out": out, "axis": axis} | options)
+    if pairs and isinstance(pairs[0], Prepared):
+        pairs, axis = (pairs[0].sizes, *pairs[1:]), _axis_of(pairs[0], axis, columns)
     call = pairs_of(pairs, columns, axis, (z_min, z_max, solid))
     if call.single and out is not None:
         raise InputError("out is given, but the answer to one pair is a number; give out only with rows")
@@ -214,6 +212,9 @@ def classify_scene(
     out: Positions | None = None,
     *,
     axis: ArrayLike | None = None,
+    z_min: ArrayLike = -math.inf,
+    z_max: ArrayLike = math.inf,
+    solid: ArrayLike = False,
     margin: float = 0.0,
     on_invalid: Literal["raise", "flag"] = "raise",
     question: Question = "position",
@@ -223,25 +224,22 @@ def classify_scene(
 
     `sizes` are alpha, gamma, b, d; `x`, `y`, `z` are float64 (n,) each, or single numbers for all centres; or `x` alone
     are points, (n, 3) or (3,). `axis` is the spheroid's axis as in classify: (3,) for all centres, or (n, 3); without
-    it the spheroid is upright. The first centre or axis that is not valid raises InputError (its index counted from 0)
-    and `out` is not changed; with on_invalid="flag" such centres are marked 127, all of them if the one axis is not
-    valid. Sizes that are not valid are always refused. `sizes` may also be Prepared(sizes, axis), with no other axis.
+    it the spheroid is upright. `z_min`, `z_max`, `solid` are the hyperboloid's ends, as in classify. The first centre,
+    axis or end that is not valid raises InputError (its index counted from 0) and `out` is not changed; with
+    on_invalid="flag" such centres are marked 127, all of them if the one axis is not valid. Sizes that are not valid
+    are always refused. `sizes` may also be Prepared(sizes, axis), with no other axis.
     """
     number = required(question, threads, on_invalid)
     if isinstance(sizes, Prepared):
-        if axis is not None:
-            raise InputError("axis is given, and the scene was prepared with its own; it must be given once")
-        axis, sizes = sizes.axis, sizes.sizes
+        axis, sizes = _axis_of(sizes, axis), sizes.sizes
     four = _sizes(sizes)
     center = points_or_columns(x, y, z)
-    if margin:
-        columns = {
-            **dict(zip(pair.SIZES, four, strict=True)),
-            **dict(zip(pair.CENTER, map(np.atleast_1d, center), strict=True)),
-        }
-        answers = classify(columns, axis=axis, margin=margin, on_invalid=on_invalid, question=question, threads=threads)
-        _require_fitting(out, len(np.atleast_1d(answers)))
-        return _into(out, np.asarray(answers, np.int8))
+    if margin or not mean_no_ends((z_min, z_max, solid)):
+        ends: Any = {"z_min": z_min, "z_max": z_max, "solid": solid, "margin": margin}
+        options: Any = {"on_invalid": on_invalid, "question": question, "threads": threads}
+        answers = np.atleast_1d(np.asarray(classify(four, *center, axis=axis, **ends, **options), np.int8))
+        _require_fitting(out, len(answers))
+        return _into(out, answers)
     axes = None if axis is None else _axes(axis)
     if axes is not None and axes.ndim == 2:
         return _answered(four, center, (*axes.T,), out, (on_invalid, question, number))
@@ -255,6 +253,15 @@ def classify_scene(
     if refused and on_invalid == "raise":
         raise _not_finite((u, v, w))
     return _into(out, result)
+
+
+def _axis_of(
+    prepared: Prepared, axis: ArrayLike | None, columns: Mapping[str, ArrayLike] | None = None
+) -> pair.Axis | None:
+    """The axis of a prepared scene. Raises InputError if the call gives one too, whole or by its columns."""
+    if axis is not None or not {"axis", *pair.AXIS}.isdisjoint(columns or ()):
+        raise InputError("axis is given, and the scene was prepared with its own; it must be given once")
+    return prepared.axis
 
 
 _Options = tuple[str, Question, "int | None"]

@@ -64,6 +64,34 @@ def test_prepared_sizes_take_points_and_columns_as_sizes_do(ask):
         assert ask(hypcheck.Prepared(SIZES), *POINTS.T, **more).tolist() == by_truth(ROWS)
 
 
+@pytest.mark.parametrize("sizes", [SIZES, hypcheck.Prepared(SIZES), hypcheck.Prepared(SIZES, (0.3, 0.1, 0.9))])
+@pytest.mark.parametrize("more", [{}, {"margin": 0.4}])
+def test_one_spheroid_beside_hyperboloids_that_end_has_the_answers_of_its_rows(sizes, more):
+    axis = getattr(sizes, "axis", None) or (0.0, 0.0, 1.0)
+    ended = [(*row, *axis, -1.0, top, 1.0) for row, top in zip(ROWS, (4.0, 5.0, 9.0, 2.0), strict=True)]
+    expected = hypcheck.classify(ended, **more).tolist() if more else by_truth(ended)
+    ends = {"z_min": -1, "z_max": [4, 5, 9, 2], "solid": True}
+    for ask in (hypcheck.classify, hypcheck.classify_scene):
+        for points in ((POINTS,), POINTS.T):
+            out = np.zeros(4, np.int8)
+            assert ask(sizes, *points, **ends, **more, out=out) is out
+            assert out.tolist() == expected
+    alone = hypcheck.classify(sizes, POINTS[0], z_min=-1, z_max=4, solid=1, **more)
+    assert (alone, type(alone)) == (expected[0], int)
+    assert hypcheck.classify_scene(sizes, POINTS[0], z_min=-1, z_max=4, solid=1, **more).tolist() == expected[:1]
+
+
+def test_beside_prepared_sizes_no_argument_goes_unread():
+    prepared = hypcheck.Prepared(SIZES)
+    for axis in ({"axis": (1, 0, 0)}, {"axis_x": 1, "axis_y": 0, "axis_z": 0}):
+        with pytest.raises(InputError, match=r"axis is given, and the scene was prepared with its own"):
+            hypcheck.classify(prepared, POINTS, **axis)
+    with pytest.raises(InputError, match="there is no argument 'height' here"):
+        hypcheck.classify(prepared, POINTS, height=3)
+    with pytest.raises(InputError, match="z_min must be less than z_max"):
+        hypcheck.classify(prepared, POINTS, z_min=3, z_max=1)
+
+
 def test_all_forms_have_the_same_answers_without_the_compiled_kernel():
     code = (
         "import hypcheck, tests.kernel.test_call_forms as t\n"

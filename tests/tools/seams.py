@@ -203,7 +203,10 @@ ASKED: Mapping[str, Callable[[Groups], None]] = {
     "`hypcheck.classify(rows)`": rows_of_arrays(hypcheck.classify),
     "`hypcheck.classify` of columns by name": lambda groups: hypcheck.classify(columns(groups)),
     "`hypcheck.clearance(rows)`": rows_of_arrays(hypcheck.clearance),
-    "`hypcheck.classify_scene`": keywords(lambda **axis: hypcheck.classify_scene(SIZES, 2.5, 0.0, 0.25, **axis), AXIS),
+    "`hypcheck.classify_scene`": keywords(
+        lambda **others: hypcheck.classify_scene(SIZES, 2.5, 0.0, 0.25, **others),
+        {**AXIS, "heights": lambda: GROUPS["heights"]},
+    ),
     "`hypcheck.clearance` of columns by name": lambda groups: hypcheck.clearance(columns(groups)),
     "`hypcheck.position`": keywords(
         lambda **others: hypcheck.position(*SIZES, 2.5, 0.0, 0.25, **others),

@@ -312,7 +312,8 @@ static const struct {
 } described[3] = {
     {py_classify, "classify(*pairs, axis=None, z_min=-1e999, z_max=1e999, solid=False, margin=0.0, out=None, on_invalid='raise', "
                   "question='position', threads=None, **columns)\n--\n\n"},
-    {py_classify_scene, "classify_scene(sizes, x, y=None, z=None, out=None, *, axis=None, margin=0.0, on_invalid='raise', "
+    {py_classify_scene, "classify_scene(sizes, x, y=None, z=None, out=None, *, axis=None, z_min=-1e999, z_max=1e999, "
+                        "solid=False, margin=0.0, on_invalid='raise', "
                         "question='position', threads=None)\n--\n\n"},
     {py_position, "position(*pairs, axis=None, z_min=-1e999, z_max=1e999, solid=False, margin=0.0, **columns)\n--\n\n"},
 };
