@@ -425,4 +425,4 @@ def an_axis_each(folder: Path, rounds: int) -> Iterator[KernelLine]:
     says = f"{timing.rate_text(samples['rows'])}; numpy: {timing.rate_text(samples['eigh'])}"
     yield target("numpy.linalg.eigh").line(timing.times_as_fast(samples["rows"], samples["eigh"]), says)
     says = f"{timing.rate_text(samples['touching'])}; a product: {samples['product'].median_ns:.3g} ns"
-    yield target("near contact, leaning").line(timing.times_as_long(samples["touching"], samples["product"]), says)
+    yield target("near contact, tilted").line(timing.times_as_long(samples["touching"], samples["product"]), says)

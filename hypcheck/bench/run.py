@@ -16,7 +16,7 @@ from hypcheck.bench.c_library import compiled
 from hypcheck.bench.contender import Contender
 from hypcheck.bench.contenders import COMPILER, contenders
 from hypcheck.bench.plan import PASSAGE, BenchPlan
-from hypcheck.bench.workloads import leaning_scenes, scene_of
+from hypcheck.bench.workloads import scene_of, tilted_scenes
 from hypcheck.errors import Exit, InputError, NothingJudgedError, RunOutcome, UnavailableError
 from hypcheck.implementations.description import QUESTIONS
 from hypcheck.implementations.meshes import COAL, FCL
@@ -33,7 +33,7 @@ def stages(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome) -> Sequence
         return (Stage("the fast path", targets.steps(), lambda advance: _kernel(plan, recorder, outcome, advance)),)
     if plan.forest:
         return (_forest(plan, recorder, outcome),)
-    tilted_movers = leaning_scenes(plan.scenes)
+    tilted_movers = tilted_scenes(plan.scenes)
     if plan.scenes and not tilted_movers and not plan.tilted:
         if plan.chosen:
             raise InputError("--scene measures only scenes; other choices are allowed only if its mover is tilted")

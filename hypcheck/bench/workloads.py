@@ -376,7 +376,7 @@ TILTED_SWEEP_WORKLOADS = _by_name(
 """Those of sweeps of tilted spheroids, by name, in the order of the record."""
 
 
-def leaning_scenes(names: tuple[str, ...]) -> list[str]:
+def tilted_scenes(names: tuple[str, ...]) -> list[str]:
     """The scenes whose mover is tilted, or may be. Raises InputError for a scene that does not exist."""
     return [name for name in names if is_tilted(read_scene(name).mover.axis)]
 

@@ -321,7 +321,7 @@ def headed(direction: Direction, indices: NDArray[np.int64]) -> Direction:
     return direction[0][indices], direction[1][indices]
 
 
-def leaning_interior(sizes: Sizes, at: Columns, axis: Columns) -> Mask:
+def tilted_interior(sizes: Sizes, at: Columns, axis: Columns) -> Mask:
     """A mask of the interior spheroids, decided exactly, (n,); each has a centre and an axis."""
     alpha, gamma, b, d = sizes
     longest = max(b, d)
@@ -337,7 +337,7 @@ def _positions(sizes: Sizes, at: Columns, axis: Columns) -> Positions:
 
 
 @dataclass(frozen=True, slots=True)
-class Lean:
+class Tilt:
     """Quadcopters tilted by an angle with this cosine and sine towards horizontal directions; arrays (n,)."""
 
     toward: Direction
@@ -345,7 +345,7 @@ class Lean:
     sine: float
 
     @classmethod
-    def by(cls, degrees: float, toward: Direction) -> Lean:
+    def by(cls, degrees: float, toward: Direction) -> Tilt:
         """Quadcopters tilted by `degrees` from the vertical."""
         cosine, sine = any_angle(np.array(degrees))
         return cls(toward, float(cosine), float(sine))
@@ -365,21 +365,21 @@ class Lean:
         shortened = forward * self.cosine
         return shortened * ahead - across * beside, shortened * beside + across * ahead, -self.sine * forward
 
-    def of(self, indices: NDArray[np.int64]) -> Lean:
+    def of(self, indices: NDArray[np.int64]) -> Tilt:
         """The tilts at these indices."""
-        return Lean(headed(self.toward, indices), self.cosine, self.sine)
+        return Tilt(headed(self.toward, indices), self.cosine, self.sine)
 
 
-def valid_leaning(craft: Craft, at: Columns, heading: Direction, lean: Lean) -> tuple[Mask, Mask]:
+def valid_tilted(craft: Craft, at: Columns, heading: Direction, tilt: Tilt) -> tuple[Mask, Mask]:
     """Masks of the valid positions (the body or every rotor is interior), and of positions with an interior body."""
-    body = leaning_interior(craft.sizes, at, lean.axis)
+    body = tilted_interior(craft.sizes, at, tilt.axis)
     valid = body.copy()
     near = np.flatnonzero(~body)
     arms = craft.arms(headed(heading, near))
-    four = lean.of(np.tile(near, ROTORS))
+    four = tilt.of(np.tile(near, ROTORS))
     offsets = four.tilted(craft.arm * arms[0], craft.arm * arms[1])
     x, y, z = (np.tile(column, ROTORS) + offset for column, offset in zip(of(at, near), offsets, strict=True))
-    rotors = leaning_interior(craft.rotor, (x, y, z), four.axis)
+    rotors = tilted_interior(craft.rotor, (x, y, z), four.axis)
     valid[near] = all_four(rotors)
     return valid, body
 
@@ -406,7 +406,7 @@ class PitchVerdicts(VerdictCounts):
         move = x - moves.start[0][some], y - moves.start[1][some]
         back = move[0] * heading[0] + move[1] * heading[1] < 0
         toward = np.where(back, -heading[0], heading[0]), np.where(back, -heading[1], heading[1])
-        valid, body = valid_leaning(craft, (x, y, z), heading, Lean.by(degrees, toward))
+        valid, body = valid_tilted(craft, (x, y, z), heading, Tilt.by(degrees, toward))
         upright = np.asarray(classify_scene(craft.sizes, x, y, z) == Position.INTERIOR)
         accepted = moves.accepted[some]
         self.moves += len(some)
@@ -439,10 +439,10 @@ def near_wall(craft: Craft, degrees: float, seed: int, count: int = CENTRES) -> 
     outward = np.ones_like(x), np.zeros_like(x)
     counts: dict[str, Any] = {"centres": count}
     for name, toward in (("anywhere", any_angle(draw.between(count, -180.0, 180.0))), ("outward", outward)):
-        leaning = _positions(craft.sizes, at, Lean.by(degrees, toward).axis)
-        changed = upright != leaning
+        tilted = _positions(craft.sizes, at, Tilt.by(degrees, toward).axis)
+        changed = upright != tilted
         counts[name] = {
             "changed": int(np.count_nonzero(changed)),
-            "dangerous": int(np.count_nonzero(changed & (leaning == Position.CONTACT))),
+            "dangerous": int(np.count_nonzero(changed & (tilted == Position.CONTACT))),
         }
     return counts

@@ -191,7 +191,7 @@ def require_ordinary(scene: SceneModel) -> None:
 
     Also raise InputError if anything is tilted, which the printed procedures do not model.
     """
-    if scene.leaning:
+    if scene.tilted:
         raise InputError(
             f"the scene {scene.name!r} has something tilted; simulations fly and walk upright among what is "
             "upright: leave out axis (simulate tower --pitch tilts)"

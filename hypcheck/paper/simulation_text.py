@@ -272,10 +272,10 @@ def _ways(ways: dict[str, Any]) -> Iterator[str]:
     )
 
 
-def pitch_lines(lean: dict[str, Any]) -> Iterator[str]:
+def pitch_lines(tilt: dict[str, Any]) -> Iterator[str]:
     """The changes that a tilted quadcopter causes, line by line."""
-    yield f"Tilted by {lean['degrees']:g} degrees into each movement ahead or back, which Procedure 2.b does not know:"
-    total, moves = lean["total"], lean["total"]["moves"]
+    yield f"Tilted by {tilt['degrees']:g} degrees into each movement ahead or back, which Procedure 2.b does not know:"
+    total, moves = tilt["total"], tilt["total"]["moves"]
     for name, what, refused in (
         ("", "its answer is wrong about", "needlessly refused"),
         ("body_", "the body alone is judged wrongly for", "clear only tilted"),
@@ -283,7 +283,7 @@ def pitch_lines(lean: dict[str, Any]) -> Iterator[str]:
         wrong, dangerous = total[f"{name}wrong"], total[f"{name}dangerous"]
         yield f"  of {counted(moves, 'horizontal move')} {what} {wrong:,}{_share(wrong, moves)}:"
         yield f"    {dangerous:,} dangerous, clear only upright; {wrong - dangerous:,} {refused}"
-    near = lean["near_wall"]
+    near = tilt["near_wall"]
     yield f"  of {counted(near['centres'], 'centre')} within b of the wall the body's position is another"
     for name, what in (("anywhere", "tilted anywhere"), ("outward", "tilted along the radius, outwards")):
         changed, dangerous = near[name]["changed"], near[name]["dangerous"]

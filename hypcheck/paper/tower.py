@@ -179,20 +179,20 @@ class FlownBlock:
 
 def fly_block(block: FlightBlock) -> FlownBlock:
     """The results of a block's runs, with exact verdicts on sweeps if it is `watched`, on tilt, and on ends."""
-    ways, leaning, ends, degrees = MoveVerdicts(), PitchVerdicts(), EndVerdicts(), block.pitch
+    ways, tilted, ends, degrees = MoveVerdicts(), PitchVerdicts(), EndVerdicts(), block.pitch
 
     def observe(moves: Moves) -> None:
         if block.watched:
             ways.watch(block.craft, moves)
         if degrees is not None:
-            leaning.watch(block.craft, degrees, moves)
+            tilted.watch(block.craft, degrees, moves)
         if block.ends:
             ends.watch(block.craft, moves)
 
     draw = Draw("tower-flight", VERSION, block.seed, float(block.speed), float(block.time), block.number)
     step = block.speed * block.time
     tallies = fly(block.craft, block.flight, step, block.moves, draw, block.lanes, observe)
-    return FlownBlock(tallies, ways, leaning, ends)
+    return FlownBlock(tallies, ways, tilted, ends)
 
 
 def blocks(

@@ -169,6 +169,6 @@ class SceneModel:
     walk: Walk | None = None
 
     @property
-    def leaning(self) -> bool:
+    def tilted(self) -> bool:
         """Whether anything in it is tilted, or may."""
         return is_tilted(self.mover.axis) or any(is_tilted(body.axis) for body in self.hyperboloids)

@@ -122,7 +122,7 @@ def _scene(top: TomlTable) -> model.SceneModel:
         if moving is not None:
             if endless:
                 top.refuse(f"[{key}] is of a scene in which a height is infinite; leave out such a height", key)
-            if scene.leaning:
+            if scene.tilted:
                 top.refuse(
                     f"[{key}] is of a scene in which something is tilted; simulations fly and walk upright among what "
                     "is upright: leave out axis (simulate tower --pitch tilts the craft)",

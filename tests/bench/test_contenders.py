@@ -70,7 +70,7 @@ def test_an_engine_builds_the_mesh_of_a_scene_once_and_answers_rows_of_several_s
     assert way.meshes == {}
 
 
-def test_nearest_point_method_for_leaning_spheroids_answers_as_exact_fractions_do():
+def test_nearest_point_method_for_tilted_spheroids_answers_as_exact_fractions_do():
     rows = np.array([(*row, 1.0, 0.0, 1.0) for row in ROWS.tolist()])
     way = contenders(BenchPlan(amounts=QUICK, tilted=True))["nearest-point"].load()
     answers = way.answer(rows).tolist()

@@ -59,7 +59,7 @@ def small(monkeypatch):
 
 
 def test_targets_of_rows_near_contact_name_the_bits_of_the_integers_that_are_multiplied():
-    for name in ("near contact", "near contact, leaning"):
+    for name in ("near contact", "near contact, tilted"):
         assert target(name).text.endswith(f"in products of integers of {32 * WORDS} bits")
         assert target(name).at_most
 

@@ -36,7 +36,7 @@ name = "tower"
 alpha = 2.0
 gamma = 17.8
 height = [-17.8, 17.8]
-{leaning}
+{tilted}
 
 [mover]
 b = 0.25
@@ -45,9 +45,9 @@ axis = {axis}
 """
 
 
-def scene(folder, axis, leaning=""):
+def scene(folder, axis, tilted=""):
     path = folder / "scene.toml"
-    path.write_text(SCENE.format(axis=axis, leaning=leaning), encoding="utf-8")
+    path.write_text(SCENE.format(axis=axis, tilted=tilted), encoding="utf-8")
     return str(path)
 
 
@@ -131,7 +131,7 @@ def test_the_report_of_bench_tilted_names_its_workload_and_reference(small):
 
 
 @pytest.mark.parametrize("axis", ["[0.3, 0.1, 1.0]", '"free"'])
-def test_bench_scene_with_a_leaning_mover_asks_rows_in_its_region_and_near_contact(tmp_path, axis):
+def test_bench_scene_with_a_tilted_mover_asks_rows_in_its_region_and_near_contact(tmp_path, axis):
     name = scene(tmp_path, axis)
     for each in scene_workloads(name).values():
         rows = each.rows(1, 200)
@@ -144,7 +144,7 @@ def test_bench_scene_with_a_leaning_mover_asks_rows_in_its_region_and_near_conta
     assert all(not line.wrong for line in record.of(AccuracyLine) if line.method in ("fast-numpy", "exact-oracle"))
 
 
-def test_bench_refuses_a_scene_with_a_leaning_hyperboloid(tmp_path):
+def test_bench_refuses_a_scene_with_a_tilted_hyperboloid(tmp_path):
     name = scene(tmp_path, '"free"', "axis = [0.1, 0.0, 1.0]")
     with pytest.raises(InputError, match="the hyperboloid 'tower' is tilted"):
         ended(tmp_path, "--scene", name)
@@ -167,7 +167,7 @@ def test_bench_tilted_refuses_methods_and_workloads_that_it_does_not_have(tmp_pa
         ended(tmp_path, *options)
 
 
-def test_bench_refuses_a_leaning_scene_together_with_another_scene(tmp_path):
+def test_bench_refuses_a_tilted_scene_together_with_another_scene(tmp_path):
     with pytest.raises(InputError, match="is tilted; measure that scene alone"):
         ended(tmp_path, "--scene", scene(tmp_path, '"free"'), "--scene", "tower")
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from hypcheck.paper.flights import Moves
-from hypcheck.paper.motion import Lean, PitchVerdicts, leaning_interior, near_wall, valid_leaning
+from hypcheck.paper.motion import PitchVerdicts, Tilt, near_wall, tilted_interior, valid_tilted
 from hypcheck.paper.quadcopter import any_angle, craft_of
 from hypcheck.paper.tower import TowerPlan, simulate_tower
 from hypcheck.scene.reading import read_scene
@@ -29,45 +29,45 @@ def near_the_wall(count, seed=5):
 
 
 @pytest.mark.parametrize("degrees", [0.0, 20.0, 45.0, 90.0])
-def test_interior_test_of_a_leaning_spheroid_agrees_with_exact_fractions(degrees):
+def test_interior_test_of_a_tilted_spheroid_agrees_with_exact_fractions(degrees):
     at, toward = near_the_wall(16)
-    axis = Lean.by(degrees, toward).axis
-    found = leaning_interior(CRAFT.sizes, at, axis)
+    axis = Tilt.by(degrees, toward).axis
+    found = tilted_interior(CRAFT.sizes, at, axis)
     expected = [exact_position((*CRAFT.sizes, *row)) == -1 for row in zip(*at, *axis, strict=True)]
     assert found.tolist() == expected
     assert 0 < sum(expected) < 16
 
 
-def test_axis_of_a_leaning_craft_has_the_pitch_angle_to_the_vertical_and_points_ahead():
+def test_axis_of_a_tilted_craft_has_the_pitch_angle_to_the_vertical_and_points_ahead():
     toward = any_angle(np.array([0.0, 30.0, 200.0]))
-    x, y, z = Lean.by(35.0, toward).axis
+    x, y, z = Tilt.by(35.0, toward).axis
     assert np.allclose(x**2 + y**2 + z**2, 1)
     assert np.allclose(z, np.cos(np.radians(35)))
     assert np.allclose((x * toward[0] + y * toward[1]), np.sin(np.radians(35)))
 
 
-def test_leaning_vectors_keep_their_length_and_stay_across_the_axis():
+def test_tilted_vectors_keep_their_length_and_stay_across_the_axis():
     toward = any_angle(np.linspace(-170, 170, 9))
-    lean = Lean.by(25.0, toward)
+    tilt = Tilt.by(25.0, toward)
     along, aside = any_angle(np.linspace(-100, 260, 9))
-    way = lean.tilted(along, aside)
+    way = tilt.tilted(along, aside)
     assert np.allclose(sum(each**2 for each in way), 1)
-    assert np.allclose(sum(a * b for a, b in zip(way, lean.axis, strict=True)), 0)
-    ahead = lean.tilted(*toward)
+    assert np.allclose(sum(a * b for a, b in zip(way, tilt.axis, strict=True)), 0)
+    ahead = tilt.tilted(*toward)
     assert np.allclose(ahead[2], -np.sin(np.radians(25)))  # tilted ahead, its front is lower
-    beside = lean.tilted(-toward[1], toward[0])
+    beside = tilt.tilted(-toward[1], toward[0])
     assert np.allclose(beside, (-toward[1], toward[0], np.zeros(9)))
 
 
-def test_leaning_craft_is_valid_where_its_body_or_all_its_rotors_are_interior():
+def test_tilted_craft_is_valid_where_its_body_or_all_its_rotors_are_interior():
     at, heading = near_the_wall(12)
-    lean = Lean.by(30.0, heading)
-    valid, body = valid_leaning(CRAFT, at, heading, lean)
+    tilt = Tilt.by(30.0, heading)
+    valid, body = valid_tilted(CRAFT, at, heading, tilt)
     arms = CRAFT.arms(heading)
-    four = Lean.by(30.0, tuple(np.tile(each, 4) for each in heading))
+    four = Tilt.by(30.0, tuple(np.tile(each, 4) for each in heading))
     ways = np.stack(four.tilted(CRAFT.arm * arms[0], CRAFT.arm * arms[1]))
     for place, centre in enumerate(zip(*at, strict=True)):
-        axis = [float(each[place]) for each in lean.axis]
+        axis = [float(each[place]) for each in tilt.axis]
         inside = exact_position((*CRAFT.sizes, *centre, *axis)) == -1
         places = [np.array(centre) + ways[:, place + 12 * rotor] for rotor in range(4)]
         rotors = [exact_position((*CRAFT.rotor, *map(float, each), *axis)) == -1 for each in places]
@@ -91,16 +91,16 @@ def test_pitch_counts_equal_the_sum_of_single_exact_decisions():
     counts = PitchVerdicts()
     counts.watch(CRAFT, 40.0, moves_at(at, heading, back=back, accepted=accepted))
     toward = tuple(np.where(back, -each, each) for each in heading)
-    valid, _ = valid_leaning(CRAFT, at, heading, Lean.by(40.0, toward))
+    valid, _ = valid_tilted(CRAFT, at, heading, Tilt.by(40.0, toward))
     assert counts.moves == 30
     assert counts.wrong == (valid != accepted).sum()
     assert counts.dangerous == (accepted & ~valid).sum()
-    axis = Lean.by(40.0, toward).axis
+    axis = Tilt.by(40.0, toward).axis
     rows = list(zip(*at, *axis, strict=True))
-    leaning = np.array([exact_position((*CRAFT.sizes, *row)) == -1 for row in rows])
+    tilted = np.array([exact_position((*CRAFT.sizes, *row)) == -1 for row in rows])
     upright = np.array([exact_position((*CRAFT.sizes, *row[:3], 0, 0, 1)) == -1 for row in rows])
-    assert counts.body_wrong == (leaning != upright).sum() > 0
-    assert counts.body_dangerous == (upright & ~leaning).sum()
+    assert counts.body_wrong == (tilted != upright).sum() > 0
+    assert counts.body_dangerous == (upright & ~tilted).sum()
 
 
 def test_pitch_counts_omit_vertical_moves_and_turns():

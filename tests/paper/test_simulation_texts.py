@@ -37,7 +37,7 @@ def flown():
     return simulate_tower(TowerPlan(short, 7, 5.0, 0.2, 0, continuous=False), None, lambda _: None)
 
 
-def test_the_text_about_leaning_has_dangerous_and_needless_answers_apart():
+def test_the_text_about_tilted_has_dangerous_and_needless_answers_apart():
     assert list(pitch_lines(LEANS)) == [
         "Tilted by 20 degrees into each movement ahead or back, which Procedure 2.b does not know:",
         "  of 1,000 horizontal moves its answer is wrong about 30 (3.000 %):",
@@ -94,12 +94,12 @@ def test_the_text_of_the_tower_says_what_touches_on_the_ways_of_flights_and_of_t
     assert "  10 accepted vertical moves: 1 touches (10.000 %), 1 from their beginning and 0 on the way" in one
 
 
-def test_the_text_of_the_tower_ends_with_leaning_before_the_statement(flown):
+def test_the_text_of_the_tower_ends_with_tilted_before_the_statement(flown):
     text = list(tower_lines({**flown, "pitch": LEANS}))
-    leaning = list(pitch_lines(LEANS))
-    start = text.index(leaning[0])
-    assert text[start : start + len(leaning)] == leaning
-    assert text[start - 1] == text[start + len(leaning)] == ""
+    tilted = list(pitch_lines(LEANS))
+    start = text.index(tilted[0])
+    assert text[start : start + len(tilted)] == tilted
+    assert text[start - 1] == text[start + len(tilted)] == ""
 
 
 def stop(number):

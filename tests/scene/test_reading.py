@@ -95,13 +95,13 @@ def test_axes_of_a_scene_are_read_without_normalisation():
     scene = parse_scene(TILTED)
     assert [body.axis for body in scene.hyperboloids] == [(0.0, -1.0, 3.0), UPRIGHT]
     assert scene.mover.axis == (0.5, 0.0, 2.0)
-    assert scene.leaning
+    assert scene.tilted
     assert parse_scene(TILTED.replace("[0.5, 0, 2]", '"free"')).mover.axis == FREE
 
 
 def test_a_vertical_axis_is_upright_whatever_its_length_and_sense():
     text = TILTED.replace("[0, -1, 3]", "[0, 0, -3]").replace("[0.5, 0, 2]", "[0, 0, 1e300]")
-    assert not parse_scene(text).leaning
+    assert not parse_scene(text).tilted
     parted = WHOLE.replace("d = 0.15", "d = 0.15\naxis = [0, 0, -2]")
     assert len(parse_scene(parted).mover.parts) == 1
 

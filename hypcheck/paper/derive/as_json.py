@@ -15,7 +15,7 @@ from hypcheck.derivation.program import Operations
 from hypcheck.paper.derive.latex import formula
 from hypcheck.paper.derive.selection import Selection
 from hypcheck.paper.ledger.entry import Evidence, LedgerEntry
-from hypcheck.paper.ledger.points import LeaningWitness, PointWitness
+from hypcheck.paper.ledger.points import PointWitness, TiltedWitness
 from hypcheck.proof_text import proof_as_json
 from hypcheck.version import VERSION
 
@@ -88,7 +88,7 @@ def _evidence(evidence: Evidence) -> dict[str, Any]:
     return {
         **_fields(evidence, "kind", "text", "holds", "chain"),
         "witnesses": list(map(_witness, evidence.witnesses)),
-        "leaning": list(map(_leaning, evidence.leaning)),
+        "leaning": list(map(_tilted, evidence.tilted)),
     }
 
 
@@ -107,7 +107,7 @@ def _witness(witness: PointWitness) -> dict[str, Any]:
     }
 
 
-def _leaning(witness: LeaningWitness) -> dict[str, Any]:
+def _tilted(witness: TiltedWitness) -> dict[str, Any]:
     certificate = witness.certificate
     return {
         "shows": witness.shows,

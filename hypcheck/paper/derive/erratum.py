@@ -22,7 +22,7 @@ from hypcheck.paper.ledger.book import entries
 from hypcheck.paper.ledger.checks import by_12
 from hypcheck.paper.ledger.counts import figures
 from hypcheck.paper.ledger.entry import LedgerEntry
-from hypcheck.paper.ledger.points import LeaningWitness, PointFacts, PointWitness
+from hypcheck.paper.ledger.points import PointFacts, PointWitness, TiltedWitness
 from hypcheck.paper.tower import PRINTED
 from hypcheck.tables.streams import replace_output
 from hypcheck.version import VERSION
@@ -50,7 +50,7 @@ def _values(ledger: dict[str, LedgerEntry]) -> dict[str, str]:
         "version": VERSION,
         **_counterexamples(ledger),
         **_quadcopters(ledger),
-        **_leaning(ledger["Section 3.2, pitch"]),
+        **_tilted(ledger["Section 3.2, pitch"]),
         **_steps(),
         "delta-axis": _times_a_power(figures()["delta_on_the_axis"]),
         "delta-wall": _times_a_power(figures()["delta_near_the_wall"]),
@@ -113,21 +113,21 @@ def _point(coordinates: Iterable[Fraction | float]) -> str:
     return f"$({','.join(map(str, coordinates))})$"
 
 
-def _leaning(entry: LedgerEntry) -> dict[str, str]:
+def _tilted(entry: LedgerEntry) -> dict[str, str]:
     """The pair that is clear upright and in contact tilted."""
-    witnesses = [witness for evidence in entry.evidence for witness in evidence.leaning]
+    witnesses = [witness for evidence in entry.evidence for witness in evidence.tilted]
     (dangerous,) = (witness for witness in witnesses if witness.certificate.position is Position.CONTACT)
     return _words_of(dangerous)
 
 
-def _words_of(witness: LeaningWitness) -> dict[str, str]:
+def _words_of(witness: TiltedWitness) -> dict[str, str]:
     alpha, gamma, b, d, *rest = (f"{number:g}" for number in witness.pair.row)
     return {
-        "leaning-sizes": rf"$\alpha={alpha}$, $\gamma={gamma}$, $b={b}$, $d={d}$",
-        "leaning-centre": f"$({','.join(rest[:3])})$",
-        "leaning-axis": f"$({','.join(rest[3:])})$",
-        "leaning-upright": witness.vertical.position.label,
-        "leaning-position": witness.certificate.position.label,
+        "tilted-sizes": rf"$\alpha={alpha}$, $\gamma={gamma}$, $b={b}$, $d={d}$",
+        "tilted-centre": f"$({','.join(rest[:3])})$",
+        "tilted-axis": f"$({','.join(rest[3:])})$",
+        "tilted-upright": witness.vertical.position.label,
+        "tilted-position": witness.certificate.position.label,
     }
 
 

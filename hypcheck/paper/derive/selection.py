@@ -130,7 +130,7 @@ def details(entry: LedgerEntry, *, in_full: bool = False) -> Iterator[tuple[str,
     for evidence in entry.evidence:
         if not evidence.holds:
             yield FAILS, evidence.text
-        elif (evidence.witnesses or evidence.leaning) and not in_full:
+        elif (evidence.witnesses or evidence.tilted) and not in_full:
             yield "found", evidence.text
     if entry.correction:
         yield "right", entry.correction

@@ -136,7 +136,7 @@ def _in_full(chosen: Selection) -> Iterator[str]:
 def _evidence(evidence: Evidence) -> Iterator[str]:
     """A reason and whether it holds; witnesses as rows that can be classified, each with its certificate."""
     indent = 4 + _TITLE
-    if not (evidence.witnesses or evidence.leaning):
+    if not (evidence.witnesses or evidence.tilted):
         yield from formula(f"{evidence.kind}: {evidence.text}", indent, selection.remark(evidence.holds))
     for witness in evidence.witnesses:
         yield from formula(described(witness.facts), indent, selection.remark(evidence.holds and witness.holds))
@@ -144,15 +144,15 @@ def _evidence(evidence: Evidence) -> Iterator[str]:
         yield f"{'':{indent + 4}}{_command(witness.facts.point.pair)}"
         for line in proof_lines(witness.facts.point.pair, witness.certificate):
             yield from paragraph(line, indent + 4)
-    for leaning in evidence.leaning:
-        yield from formula(leaning.text, indent, selection.remark(evidence.holds and leaning.holds))
-        yield from paragraph(leaning.shows, indent + 4)
-        axis = " ".join(f"{number:g}" for number in leaning.pair.axis)
-        yield f"{'':{indent + 4}}{_command(leaning.upright)} --axis {axis}"
+    for tilted in evidence.tilted:
+        yield from formula(tilted.text, indent, selection.remark(evidence.holds and tilted.holds))
+        yield from paragraph(tilted.shows, indent + 4)
+        axis = " ".join(f"{number:g}" for number in tilted.pair.axis)
+        yield f"{'':{indent + 4}}{_command(tilted.upright)} --axis {axis}"
         for line in (
-            *proof_lines(leaning.pair, leaning.certificate),
+            *proof_lines(tilted.pair, tilted.certificate),
             "Without --axis:",
-            *proof_lines(leaning.upright, leaning.vertical),
+            *proof_lines(tilted.upright, tilted.vertical),
         ):
             yield from paragraph(line, indent + 4)
 

@@ -250,7 +250,7 @@ def tilted_spheroid_is_another() -> Evidence:
     return Evidence("identity", "it is not 0", sympy.simplify(_mixed_term()) != 0)
 
 
-def changed_by_leaning() -> Evidence:
+def changed_by_tilt() -> Evidence:
     """The simplest pairs in the regime of Procedures 2.a and 2.b whose position changes when they are tilted."""
     searches = (
         points.first_change(
@@ -266,7 +266,7 @@ def changed_by_leaning() -> Evidence:
         or f"nothing found among {sum(item.tried for item in searches):,} pairs"
     )
     return Evidence(
-        "search", text, len(witnesses) == len(searches) and all(item.holds for item in witnesses), leaning=witnesses
+        "search", text, len(witnesses) == len(searches) and all(item.holds for item in witnesses), tilted=witnesses
     )
 
 
@@ -317,7 +317,7 @@ CHECKS: dict[str, Callable[[], Evidence]] = {
         discriminant_and_coefficients, listed_patterns, patterns_in_coq, same_cubic_of_interior_and_contact,
         same_cubic_of_exterior_and_contact, misled_by_12, regime_of_section_4, roots_of_f, scaling_of_the_spheroid,
         mirrored_cubic, constant_of_the_cubic, squares_of_t1_and_t2, radius_at_a_height, probabilities,
-        spheroid_after_a_turn, tilted_spheroid, tilted_spheroid_is_another, changed_by_leaning,
+        spheroid_after_a_turn, tilted_spheroid, tilted_spheroid_is_another, changed_by_tilt,
         counts.divisions_of_table_2, counts.operations_of_the_sizes, counts.operations_of_roots,
         counts.directions_of_rotors, counts.share_of_discriminants, counts.discriminants_closest_to_zero,
         counts.discriminant_is_no_distance, counts.discriminant_falls_at_each_height, counts.greatest_share,

@@ -42,7 +42,7 @@ class Evidence:
     holds: bool
     witnesses: tuple[points.PointWitness, ...] = ()
     chain: str = ""
-    leaning: tuple[points.LeaningWitness, ...] = ()
+    tilted: tuple[points.TiltedWitness, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -84,7 +84,7 @@ class LedgerEntry:
         if self.verdict == DEFINITION:
             return ()
         means = {_PROVED_BY.get(evidence.kind, "") for evidence in self.evidence}
-        if any(evidence.witnesses or evidence.leaning for evidence in self.evidence):
+        if any(evidence.witnesses or evidence.tilted for evidence in self.evidence):
             means.add("witness")
         return tuple(word for word in ("Coq", "sympy", "exhaustive", "witness") if word in means)
 

@@ -330,7 +330,7 @@ AXES = tuple(
 
 
 @dataclass(frozen=True, slots=True)
-class LeaningWitness:
+class TiltedWitness:
     """A pair with the certificates of two positions: tilted and upright; `shows` is the shown fact in words."""
 
     pair: Pair
@@ -362,7 +362,7 @@ class LeaningWitness:
         return words.replace("-", "−")
 
 
-def first_change(before: Position, after: Position, shows: str, largest: int = LARGEST) -> Search[LeaningWitness]:
+def first_change(before: Position, after: Position, shows: str, largest: int = LARGEST) -> Search[TiltedWitness]:
     """The simplest pair with the position `before` upright and `after` tilted, both proved."""
     tried = 0
     for numbers in quadcopter_pairs(largest):
@@ -373,7 +373,7 @@ def first_change(before: Position, after: Position, shows: str, largest: int = L
             tried += 1
             pair = Pair.from_row((*numbers, *axis))
             if exact.position(pair.lengths) is after:
-                return Search(tried, LeaningWitness(pair, prove(pair), prove(vertical), shows))
+                return Search(tried, TiltedWitness(pair, prove(pair), prove(vertical), shows))
     return Search(tried, None)
 
 
