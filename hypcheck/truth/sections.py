@@ -31,10 +31,11 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from hypcheck.geometry.pair import Lengths
+from hypcheck.truth.polynomial_roots import roots_from_0_to_1
 from hypcheck.truth.polynomials import (
     Polynomial,
     changes_between,
@@ -178,23 +179,23 @@ class Sections:
     def wall_crosses(self, low: int, high: int) -> bool:
         """Whether points of the wall between two heights lie inside the spheroid, and not on its surface alone.
 
-        Between two roots next to each other of the critical polynomial the least e of the circles keeps its sign.
+        Between two roots next to each other of the critical polynomial the least e of the circles keeps its sign: one
+        height in each gap is asked, and the two ends, for the gaps that they cut.
         """
         f = self.critical
-        chain, pending = _chain(f, derivative(f)), [(Fraction(low), Fraction(high))]
-        while pending:
-            first, last = pending.pop()
-            ends_at_roots = [self.sign(f, height) == 0 for height in (first, last)]
-            if any(
-                not at_root and not self.circle_misses(height)
-                for height, at_root in zip((first, last), ends_at_roots, strict=True)
-            ):
-                return True
-            inner = self.roots(chain, first, last) - ends_at_roots[1]
-            if inner + sum(ends_at_roots) > 1:
-                middle = (first + last) / 2
-                pending += [(first, middle), (middle, last)]
-        return False
+        if any(self.sign(f, end) and not self.circle_misses(end) for end in (low, high)):
+            return True
+        first, last = self.between(low, high)
+        if first >= last:
+            return False
+        roots = roots_from_0_to_1(primitive(_coefficients_between(f, first, last)))
+        gaps = ((below + above) / 2 for (_, below), (above, _) in itertools.pairwise(roots))
+        by_variable = replace(self, unit=1)
+        return any(
+            sign_with_root(at, -low, self.unit) > 0 > sign_with_root(at, -high, self.unit)
+            and not by_variable.circle_misses(at)
+            for at in (first + (last - first) * gap for gap in gaps)
+        )
 
     @property
     def critical(self) -> Polynomial:

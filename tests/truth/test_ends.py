@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import time
 from dataclasses import replace
 from fractions import Fraction
 
@@ -85,6 +86,26 @@ STEEP = (189762196.0, 1.0, 2604.0, 1.0, 0.0, 156261249365.0, 0.0, 0.0, 1.0, 3.0,
 
 HAIR = (456.0000000000002, 408.0, 6.0, 10.0, 0.0, 494.0, -180.0, 0.0, 0.0, 1.0, -170.0, -125.92588435866463, 0.0)
 """Clear of a rim by less than a clearance is rounded by: the frozen row ended-rim-neighbourhood-0010."""
+
+
+NEEDLE = {
+    "alpha": 8.918735195595878e27,
+    "gamma": 195135224502.64587,
+    "b": 2.3377896839480636e-55,
+    "d": 2.1119469073753615e72,
+    "start": (-2.0084740505778577e34, 3.4117899724542157e33, -1.763986608877674e34),
+    "end": (-3.0419490871855027e-53, -1.2861582759925909e-53, -6.256981653755749e-53),
+    "axis": (-1.2644927908197123, 0.5187849208779641, -1.142518017652492),
+    "z_min": -2.089454385324576e47,
+    "z_max": 1.0219078811547866e27,
+}
+"""It pierces the wall between heights 10⁻⁵⁵ apart: in halves of its length they are apart after 500 steps."""
+
+
+def test_a_needle_that_pierces_the_wall_at_heights_close_together_is_decided_in_seconds():
+    before = time.process_time()
+    assert hypcheck.passage(**NEEDLE).hit
+    assert time.process_time() - before < 5  # 23 s where all roots were counted at each halving, 1.8 s now
 
 
 def test_bounds_of_a_disc_that_tell_nothing_of_a_nearer_wall_decide_nothing_wrongly():
