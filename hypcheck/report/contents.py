@@ -34,6 +34,7 @@ from hypcheck.report.document import (
     count,
     prose,
     table,
+    with_code,
 )
 from hypcheck.report.facts import Failure, cause_facts
 from hypcheck.report.measured import measured_methods
@@ -152,7 +153,7 @@ def cause_sections(record: Record) -> Iterator[Section]:
             Code(facts.name),
             facts.line.sentence + (f" ({facts.line.claim})" if facts.line.claim else ""),
             facts.families(6),
-            facts.line.remedy,
+            with_code(facts.line.remedy),
             (error_text(facts.line.worst), ": ", Code(facts.replay)),
         )
         for facts in causes

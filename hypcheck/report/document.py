@@ -45,13 +45,23 @@ Text = Union[str, Code, Strong, Emphasis, "tuple[Text, ...]"]
 """Running text: a string, a marked part, or a tuple of parts."""
 
 _MARKS = re.compile(r"`([^`]+)`|\*\*(.+?)\*\*|\*(.+?)\*")
+_CODE_MARKS = re.compile(r"`([^`]+)`()()")
 
 
 def prose(words: str) -> Text:
     """Text of hypcheck whose marks are parsed: `code`, **strong** and *emphasised*; never call it with foreign text."""
+    return _marked(words, _MARKS)
+
+
+def with_code(words: str) -> Text:
+    """Text whose only marks are those of `code`, such as a remedy that a record holds."""
+    return _marked(words, _CODE_MARKS)
+
+
+def _marked(words: str, marks: re.Pattern[str]) -> Text:
     parts: list[Text] = []
     end = 0
-    for mark in _MARKS.finditer(words):
+    for mark in marks.finditer(words):
         code, strong, emphasis = mark.groups()
         parts.append(words[end : mark.start()])
         parts.append(Code(code) if code else Strong(strong) if strong else Emphasis(emphasis))

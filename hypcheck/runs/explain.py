@@ -58,7 +58,7 @@ _ABOUT = {
 }
 
 _SHOWN = {
-    Scope.PLACE: "in one place: elsewhere its answers are right",
+    Scope.PLACE: "at rows of one kind: elsewhere its answers are right",
     Scope.ROUNDING: "where roundings decide: the same code is right in exact arithmetic",
     Scope.EVERYWHERE: "at every row where it makes a difference: most wrong answers of a run have this cause then",
 }
