@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from hypcheck.implementations.frames import WIDTH
 from hypcheck.isolation.launch import masked
-from hypcheck.messages import escaped
+from hypcheck.messages import escaped, printable, shortened
 
 KEPT = 16_384
 """The number of last bytes of standard error that are kept: the output before a program's end says the most."""
@@ -21,8 +21,9 @@ def foreign_text(text: object, width: int = WIDTH) -> str:
 
 
 def quoted(data: bytes | bytearray) -> str:
-    """Bytes as a sentence quotes them."""
-    return f"'{foreign_text(bytes(data[:320]).decode('utf-8', 'replace'), 80)}'"
+    """Bytes as a sentence quotes them, each blank as it is: one too many may be the fault."""
+    lines = masked(bytes(data[:320]).decode("utf-8", "replace")).splitlines()
+    return f"'{shortened(printable(' '.join(lines)), 80)}'"
 
 
 class OutputTail:

@@ -28,6 +28,7 @@ from tests.tools.miniatures import (
 HANGS = ("silent", "short", "drips", "loops")
 FAULTS = {
     "prints_before": (Outcome.PROTOCOL, r"wrote 'computing the discriminant \.\.\.' where '\d+ 1' had to come"),
+    "pads": (Outcome.PROTOCOL, r"wrote '(\d+)     1' where '\1 1' had to come"),
     "stale": (Outcome.PROTOCOL, r"replied to question \d+ again, when \d+ was asked"),
     "silent": (Outcome.PROTOCOL, r"replied to question \d+ before question \d+"),
     "short": (Outcome.PROTOCOL, r"its reply was short: the next one came after 0 of 1 answers"),
@@ -35,7 +36,7 @@ FAULTS = {
     "wrong_count": (Outcome.PROTOCOL, "announced 2 answers to 1 rows"),
     "answers_3": (Outcome.PROTOCOL, "answered 3; it must be one of -1, 0, 1 or 2"),
     "answers_nan": (Outcome.PROTOCOL, "answer 1 of 1 is 'nan'; it must be an integer"),
-    "drips": (Outcome.TIMEOUT, r"only '\d+' of a reply within 0.7 s"),
+    "drips": (Outcome.TIMEOUT, r"only '\d+ +' of a reply within 0.7 s"),
     "leaves": (Outcome.CRASH, "ended by itself with exit status 1; stderr: terminate called after .*out_of_range"),
     "segfaults": (Outcome.CRASH, "ended by SIGSEGV"),
     "segfaults_with_children": (Outcome.CRASH, "ended by SIGABRT"),
