@@ -1,9 +1,11 @@
-"""What a caller may write for pairs: rows, a table of columns by name, or sizes and centres; all are broadcast.
+"""What a caller may write for pairs and sweeps: rows, a table of columns by name, or sizes and points; all broadcast.
 
     (rows)  (table)  (sizes, points)  (sizes, x, y, z)  (alpha, gamma, b, d, points)  (alpha, gamma, b, d, x, y, z)
+    (rows)  (table)  (sizes, start, end)  (alpha, gamma, b, d, start, end)
 
-`points` is one point (3,) or many (n, 3); each other value is a number or a column (n,). The rest is named: `axis`, one
-(3,) or an axis for each row (n, 3); `z_min`, `z_max`, `solid`; and in place of any of these the columns themselves.
+`points`, `start` and `end` are one point (3,) or many (n, 3); each other value is a number or a column (n,). The last
+points may be named: center, start, end. So is the rest: `axis`, one (3,) or an axis for each row (n, 3); `z_min`,
+`z_max`, `solid`; and in place of any of these the columns themselves. No value is given twice.
 """
 
 from __future__ import annotations
@@ -11,16 +13,17 @@ from __future__ import annotations
 import math
 import reprlib
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import takewhile
 from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import AXIS, CENTER, COLUMNS, HEIGHTS, SIZES, trouble_with_row
-from hypcheck.geometry.rows import PAIRS, Rows, as_numbers, as_rows, names_of, require_valid
+from hypcheck.geometry.pair import AXIS, CENTER, END, HEIGHTS, SIZES, START, WITHOUT_ENDS, trouble_with_row
+from hypcheck.geometry.rows import PAIRS, Layout, Rows, as_numbers, as_rows, names_of, require_valid
 from hypcheck.messages import counted, escaped
 
 Argument: TypeAlias = Any
@@ -29,18 +32,52 @@ Argument: TypeAlias = Any
 Answers: TypeAlias = Any
 """An array with an answer for each pair, or a number for one pair of numbers."""
 
-_FORMS = (
+
+@dataclass(frozen=True)
+class Form:
+    """How questions of one kind are written: the layout of their rows, the points behind the sizes, and a sentence.
+
+    `points` stand for three columns each, in their order; `apart`: these columns may be given in place of the points.
+    `other_names` are those of columns that have two.
+    """
+
+    layout: Layout
+    points: Mapping[str, Sequence[str]]
+    apart: Sequence[str]
+    sentence: str
+    other_names: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def named(self) -> Mapping[str, Sequence[str]]:
+        """All names that stand for three columns, one point (3,) or points (n, 3)."""
+        return {**self.points, "axis": AXIS}
+
+
+PAIR = Form(
+    PAIRS,
+    {"center": CENTER},
+    CENTER,
     "it takes rows, a table of columns by name, or sizes and centres: (sizes, points), (sizes, x, y, z), "
-    "(alpha, gamma, b, d, points) or (alpha, gamma, b, d, x, y, z)"
+    "(alpha, gamma, b, d, points) or (alpha, gamma, b, d, x, y, z)",
 )
+
+SWEEP = Form(
+    Layout(SIZES + CENTER + END),
+    {"start": CENTER, "end": END},
+    (),
+    "passage takes (sizes, start, end), (alpha, gamma, b, d, start, end), rows or a table",
+    dict(zip(START, CENTER, strict=True)),
+)
+"""Sweeps as rows and tables have them: the centre at the start is x, y, z; the protocol calls it x0, y0, z0."""
 
 
 @dataclass(frozen=True)
-class Pairs:
-    """The pairs of a call: a value for each name of a column, or rows that were given whole."""
+class Questions:
+    """The pairs or sweeps of a call: a value for each name of a column, or rows that were given whole."""
 
     columns: Mapping[str, Argument]
     given: Rows | None = None
+    form: Form = PAIR
 
     @cached_property
     def single(self) -> bool:
@@ -59,10 +96,10 @@ class Pairs:
         )
 
     def rows(self) -> Rows:
-        """The rows, float64 of 7, 10 or 13 columns. Raises InputError; their values are not checked."""
+        """The rows, float64, of any width that the layout has. Raises InputError; their values are not checked."""
         if self.given is not None:
             return self.given
-        return as_rows(self.columns, tilted=True, heights=True)
+        return as_rows(self.columns, tilted=True, heights=True, layout=self.form.layout)
 
     def require_valid(self, rows: Rows) -> None:
         """Raise InputError about the first invalid row; for a single pair the message has no index."""
@@ -72,50 +109,49 @@ class Pairs:
         require_valid(rows)
 
 
-def pairs_of(
+def questions_of(
     arguments: Sequence[Argument],
     named: Mapping[str, Argument],
     axis: ArrayLike | None = None,
-    heights: Sequence[Argument] = (-math.inf, math.inf, False),
-) -> Pairs:
-    """The pairs of a call. Raises InputError for other numbers of arguments, and for a column that is given twice."""
+    heights: Sequence[Argument] = WITHOUT_ENDS,
+    form: Form = PAIR,
+) -> Questions:
+    """The pairs or sweeps of a call. Raises InputError for other numbers of arguments, and for what is given twice."""
     columns: dict[str, Argument] = {}
-    require_known(named, (*PAIRS.ended, "center"))
-    _add(columns, _by_position(arguments))
-    _add(columns, spread(named, _POINTS))
+    _require_known(named, form)
+    _add(columns, _by_position(arguments, named, form))
+    _add(columns, _spread(named, form))
     if axis is not None:
         _add(columns, named_points("axis", axis, AXIS))
-    if len(heights) == len(HEIGHTS) and not mean_no_ends(heights):
+    if not mean_no_ends(heights):
         _add(columns, dict(zip(HEIGHTS, heights, strict=True)))
     if not columns:
-        raise InputError(f"there are no pairs: {_FORMS}")
+        raise InputError(f"there are no pairs: {form.sentence}")
     rows = columns.pop("rows", None)
     if rows is None:
-        return Pairs(columns)
+        return Questions(columns, form=form)
     if not columns:
-        return Pairs({}, rows)
-    whole = dict(zip(PAIRS.columns(rows.shape[1]), rows.T, strict=True))
+        return Questions({}, rows, form)
+    whole = dict(zip(form.layout.columns(rows.shape[1]), rows.T, strict=True))
     _add(whole, columns)
-    return Pairs(whole)
+    return Questions(whole, form=form)
 
 
-_POINTS: Mapping[str, Sequence[str]] = {"center": CENTER, "axis": AXIS}
-"""Names that stand for three columns, one point (3,) or points (n, 3)."""
-
-
-def require_known(named: Mapping[str, Argument], known: Sequence[str]) -> None:
+def _require_known(named: Mapping[str, Argument], form: Form) -> None:
     """Raise InputError about a name that no argument has."""
+    known = (*form.layout.ended, *form.points)
     for name in named:
-        if name not in known:
+        if name not in known and name not in form.other_names:
             columns = f"what pairs are written with is {', '.join(known)}"
             raise InputError(f"there is no argument {escaped(repr(name), 60)} here; {columns}")
 
 
-def spread(named: Mapping[str, Argument], points: Mapping[str, Sequence[str]]) -> dict[str, Argument]:
+def _spread(named: Mapping[str, Argument], form: Form) -> dict[str, Argument]:
     """Values by the names of columns; some names mean three columns. Raises InputError for a column given twice."""
     columns: dict[str, Argument] = {}
-    for name, value in named.items():
-        _add(columns, named_points(name, value, points[name]) if name in points else {name: value})
+    for given, value in named.items():
+        name = form.other_names.get(given, given)
+        _add(columns, named_points(name, value, form.named[name]) if name in form.named else {name: value})
     return columns
 
 
@@ -132,38 +168,47 @@ def _add(columns: dict[str, Argument], others: Mapping[str, Argument]) -> None:
         columns[name] = value
 
 
-def _by_position(arguments: Sequence[Argument]) -> dict[str, Argument]:
-    count = len(arguments)
+def _by_position(arguments: Sequence[Argument], named: Mapping[str, Argument], form: Form) -> dict[str, Argument]:
+    """The columns of the arguments without names; of points, the last may be among the named."""
+    count, unnamed = len(arguments), tuple(takewhile(lambda name: name not in named, form.points))
     if count == 0:
         return {}
-    if count == 1:
-        return _whole(arguments[0])
-    if count in (2, 4):
-        sizes, center = sizes_of(arguments[0]), arguments[1:]
-    elif count in (5, 7):
-        sizes, center = dict(zip(SIZES, arguments, strict=False)), arguments[len(SIZES) :]
-    else:
-        raise InputError(f"{counted(count, 'argument')}: {_FORMS}")
-    points = named_points("the centre", center[0]) if len(center) == 1 else dict(zip(CENTER, center, strict=True))
-    return {**sizes, **points}
+    if count == 1 and (unnamed or names_of(arguments[0]) is not None):
+        return _whole(arguments[0], form)
+    if len(unnamed) < len(form.points) and count - len(form.points) in (1, len(SIZES)):
+        raise InputError(f"{next(name for name in form.points if name in named)} is given twice; it must be given once")
+    for places in (unnamed, form.apart):
+        if places is form.apart and len(unnamed) < len(form.points):
+            continue
+        sizes, points = arguments[: count - len(places)], arguments[count - len(places) :]
+        if len(sizes) in (1, len(SIZES)):
+            columns = sizes_of(sizes[0]) if len(sizes) == 1 else dict(zip(SIZES, sizes, strict=True))
+            for name, value in zip(places, points, strict=True):
+                subject = "the centre" if name == "center" else name
+                columns |= named_points(subject, value, form.points[name]) if name in form.points else {name: value}
+            return columns
+    missing = [name for name in form.points if name not in named]
+    if 0 < len(missing) < len(form.points):
+        raise InputError(f"{form.sentence}; {missing[0]} is missing")
+    raise InputError(f"{counted(count, 'argument')}: {form.sentence}")
 
 
-def _whole(value: Argument) -> dict[str, Argument]:
+def _whole(value: Argument, form: Form) -> dict[str, Argument]:
     """A table by its columns; an array of rows, or one row."""
     names = names_of(value)
     if names is not None:
-        return spread({name: value[name] for name in names}, _POINTS)
+        return _spread({name: value[name] for name in names}, form)
     if not isinstance(value, np.ndarray) and not isinstance(value, str) and isinstance(value, Sequence):
         flat = value and not isinstance(value[0], (Sequence, np.ndarray))
     else:
         flat = isinstance(value, np.ndarray) and value.ndim == 1
+    layout = form.layout
     if flat and len(value):
-        row = as_numbers(
-            "the row is", value, f"it must be {len(COLUMNS)} numbers, {', '.join(COLUMNS)}, or rows of them"
-        )
-        rows = as_rows(row[None], tilted=True, heights=True)
-        return dict(zip(PAIRS.columns(rows.shape[1]), rows[0].tolist(), strict=True))
-    return {"rows": as_rows(value, tilted=True, heights=True)}
+        wanted = f"it must be {len(layout.upright)} numbers, {', '.join(layout.upright)}, or rows of them"
+        row = as_numbers("the row is", value, wanted)
+        rows = as_rows(row[None], tilted=True, heights=True, layout=layout)
+        return dict(zip(layout.columns(rows.shape[1]), rows[0].tolist(), strict=True))
+    return {"rows": as_rows(value, tilted=True, heights=True, layout=layout)}
 
 
 def sizes_of(sizes: Argument) -> dict[str, Argument]:

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from hypcheck.errors import InputError
 from hypcheck.float_environment import in_default_environment
 from hypcheck.geometry import pair
-from hypcheck.geometry.forms import Answers, Argument, mean_no_ends, pairs_of, points_or_columns
+from hypcheck.geometry.forms import Answers, Argument, mean_no_ends, points_or_columns, questions_of
 from hypcheck.geometry.rows import (
     PAIRS,
     Columns,
@@ -164,7 +164,7 @@ def classify(
     number = required(question, threads, on_invalid)
     if pairs and isinstance(pairs[0], Prepared):
         pairs, axis = (pairs[0].sizes, *pairs[1:]), _axis_of(pairs[0], axis, columns)
-    call = pairs_of(pairs, columns, axis, (z_min, z_max, solid))
+    call = questions_of(pairs, columns, axis, (z_min, z_max, solid))
     if call.single and out is not None:
         raise InputError("out is given, but the answer to one pair is a number; give out only with rows")
     if call.scene and not margin:

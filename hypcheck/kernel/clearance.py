@@ -24,7 +24,7 @@ from numpy.typing import ArrayLike
 
 from hypcheck.errors import InputError
 from hypcheck.float_environment import in_default_environment
-from hypcheck.geometry.forms import Argument, pairs_of
+from hypcheck.geometry.forms import Argument, questions_of
 from hypcheck.geometry.pair import REFUSED, TILTED_COLUMNS, Pair, Position, trouble_with
 from hypcheck.geometry.rows import PAIRS, Floats, Indices, Mask, Positions, Rows, invalid
 from hypcheck.kernel.choice import POSITION_OF, Question, required
@@ -64,7 +64,7 @@ def clearance(
     array([0.6, 0.8, 0. ])
     """
     number = required("position", threads, on_invalid)
-    call = pairs_of(pairs, columns, axis, (z_min, z_max, solid))
+    call = questions_of(pairs, columns, axis, (z_min, z_max, solid))
     queries = call.rows()
     result = clearances(queries, number)
     if on_invalid == "raise" and (result.position == REFUSED).any():

@@ -79,6 +79,9 @@ def passage(
     single = 3 <= len(sizes_and_points) <= 5 and not columns and not any(isinstance(end, list) for end in heights)
     if single and not any(map(_has_rows, (*sizes_and_points, axis))):
         sizes, start, end, *axes = map(_of_python, sizes_and_points)
+        for name, twice in (("axis", axes and axis is not None), ("upward", axes[1:] and upward is not None)):
+            if twice:
+                raise InputError(f"{name} is given twice; it must be given once")
         direction = axes[0] if axes else _of_python(axis)
         tower, (low, high, flat) = axes[1] if axes[1:] else _of_python(upward), heights
         return swept.passage(sizes, start, end, direction, tower, z_min=low, z_max=high, solid=flat)
@@ -100,8 +103,7 @@ def _by_position(
     ways: tuple[Argument, ...], columns: dict[str, Argument]
 ) -> tuple[tuple[Argument, ...], dict[str, Argument]]:
     """Named arguments in order of position, if these are all sizes, a start and an end."""
-    places = ((), ("start", "end"), ("end",))  # what is missing behind no, one, or two arguments
-    names = (*SIZES, "start", "end")[len(ways) :] if len(ways) in (0, 4, 5) else places[min(len(ways), 2)]
+    names = (*SIZES, "start", "end")[len(ways) :] if len(ways) in (0, 4, 5) else ("sizes", "start", "end")[len(ways) :]
     if set(columns) != set(names):
         return ways, columns
     return (*ways, *(columns[name] for name in names)), {}

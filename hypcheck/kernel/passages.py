@@ -15,21 +15,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from hypcheck.errors import InputError
 from hypcheck.float_environment import in_default_environment
-from hypcheck.geometry.forms import Argument, named_points, require_known, sizes_of, spread
-from hypcheck.geometry.pair import AXIS, CENTER, END, HEIGHTS, REFUSED, SIZES, START, WITHOUT_ENDS
+from hypcheck.geometry.forms import SWEEP, Argument, questions_of
+from hypcheck.geometry.pair import REFUSED, WITHOUT_ENDS
 from hypcheck.geometry.rows import (
     CANNOT_SAY,
     SWEEPS,
     Floats,
     Indices,
-    Layout,
     Mask,
     Positions,
     Rows,
-    as_rows,
-    names_of,
     require_valid,
 )
 from hypcheck.kernel.in_use import kernel
@@ -105,54 +101,11 @@ def passages(
     heights: Sequence[Argument],
 ) -> Passages:
     """The results for sweeps in a form that hypcheck.passage accepts. Raises InputError."""
-    given, single = _rows_of(sweeps, columns, axis, heights)
-    rows = np.ascontiguousarray(given)
-    require_valid(rows, layout=_LAYOUT)
+    call = questions_of(sweeps, columns, axis, heights, SWEEP)
+    rows = np.ascontiguousarray(call.rows())
+    require_valid(rows, layout=SWEEP.layout)
     hits = _hits(rows)
-    return Passages(bool(hits[0]) if single else hits, lambda sweep: (_interval(rows[sweep].tolist()), 0))
-
-
-def _rows_of(
-    sweeps: Sequence[Argument], columns: Mapping[str, Argument], axis: ArrayLike | None, heights: Sequence[Argument]
-) -> tuple[Rows, bool]:
-    """Rows of sweeps, and whether they are one sweep of numbers."""
-    values: dict[str, Argument] = {}
-    columns = {_NEW.get(name, name): value for name, value in columns.items()}
-    require_known(columns, (*_LAYOUT.ended, "start", "end"))
-    if len(sweeps) == 1 and not columns and axis is None and names_of(sweeps[0]) is None:
-        single = np.ndim(sweeps[0]) == 1
-        rows = as_rows([sweeps[0]] if single else sweeps[0], tilted=True, heights=True, layout=_LAYOUT)
-        return rows, single
-    if len(sweeps) == 1:
-        names = names_of(sweeps[0])
-        if names is None and not {"start", "end"}.isdisjoint(columns):
-            raise InputError(f"{_FORMS}; start or end is missing")
-        if names is None:
-            raise InputError("rows of sweeps have their own axis and heights; these cannot be given beside them")
-        values = spread({_NEW.get(name, name): sweeps[0][name] for name in names}, _POINTS)
-    elif len(sweeps) in (3, 6):
-        values = sizes_of(sweeps[0] if len(sweeps) == 3 else sweeps[:4])
-        values |= named_points("start", sweeps[-2]) | named_points("end", sweeps[-1], END)
-    elif sweeps or not columns:
-        raise InputError(f"{_FORMS}, not {len(sweeps)} arguments")
-    values |= spread(columns, _POINTS)
-    if axis is not None:
-        values |= named_points("axis", axis, AXIS)
-    if any(np.ndim(height) or height != usual for height, usual in zip(heights, WITHOUT_ENDS, strict=True)):
-        values |= dict(zip(HEIGHTS, heights, strict=True))
-    rows = as_rows(values, tilted=True, heights=True, layout=_LAYOUT)
-    return rows, all(not np.ndim(column) for column in values.values())
-
-
-_FORMS = "passage takes (sizes, start, end), (alpha, gamma, b, d, start, end), rows or a table"
-
-_LAYOUT = Layout(SIZES + CENTER + END)
-"""The columns of sweeps as rows and tables have them."""
-
-_POINTS = {"start": CENTER, "end": END, "axis": AXIS}
-
-_NEW = dict(zip(START, CENTER, strict=True))
-"""The protocol calls the centre at the start x0, y0, z0; that is taken too."""
+    return Passages(bool(hits[0]) if call.single else hits, lambda sweep: (_interval(rows[sweep].tolist()), 0))
 
 
 def _hits(rows: Rows) -> Mask:

@@ -42,6 +42,8 @@ FORMS = {
         {"alpha": 2, "gamma": 17.8, "b": 0.25, "d": 0.15, "center": POINTS}, **more
     ),
     "names": lambda ask, **more: ask(alpha=2, gamma=17.8, b=0.25, d=0.15, center=POINTS, **more),
+    "sizes and a name": lambda ask, **more: ask(SIZES, center=POINTS, **more),
+    "numbers and a name": lambda ask, **more: ask(*SIZES, center=POINTS, **more),
 }
 
 
@@ -126,6 +128,56 @@ def test_all_forms_of_the_same_sweeps_have_the_same_answers(form):
     assert found.index.tolist() == [-1, 0, 0, 0]
 
 
+SWEEPS = {
+    "rows": [[*row, 0, 0, 5] for row in ROWS],
+    "a table": {**TABLE, "x1": 0, "y1": 0, "z1": 5},
+    "the protocol's names": {
+        **{name + "0" * (name in "xyz"): TABLE[name] for name in TABLE},
+        "x1": 0,
+        "y1": 0,
+        "z1": 5,
+    },
+}
+
+
+@pytest.mark.parametrize("sweeps", SWEEPS.values(), ids=SWEEPS)
+def test_an_axis_and_heights_are_read_beside_rows_of_sweeps(sweeps):
+    axis, ends = (1, 0, 0), {"z_min": -1, "z_max": [9, 6, 4, 9]}
+    expected = [
+        hypcheck.passage(SIZES, point, (0, 0, 5), axis, z_min=-1, z_max=top).hit
+        for point, top in zip(POINTS.tolist(), ends["z_max"], strict=True)
+    ]
+    assert sorted(set(expected)) == [False, True]
+    assert hypcheck.passage(sweeps, axis=axis, **ends).hit.tolist() == expected
+
+
+ONE = {"alpha": 2, "gamma": 17.8, "b": 0.25, "d": 0.15, "x": 3, "y": 0, "z": 5, "x1": 0, "y1": 0, "z1": 5}
+
+
+@pytest.mark.parametrize(
+    ("call", "name"),
+    [
+        (lambda: hypcheck.passage(SIZES, (3, 0, 5), (0, 0, 5), alpha=100), "alpha"),
+        (lambda: hypcheck.passage(SIZES, (3, 0, 5), (0, 0, 5), x1=0), "x1"),
+        (lambda: hypcheck.passage(*SIZES, (3, 0, 5), (0, 0, 5), x0=9), "x"),
+        (lambda: hypcheck.passage(SIZES, (3, 0, 5), (0, 0, 5), end=(9, 9, 9)), "end"),
+        (lambda: hypcheck.passage(SIZES, (3, 0, 5), (0, 0, 5), (1, 0, 0), axis=(0, 0, 1)), "axis"),
+        (lambda: hypcheck.passage(SIZES, (3, 0, 5), (0, 0, 5), (1, 0, 0), (0, 0, 1), upward=(0, 1, 1)), "upward"),
+        (lambda: hypcheck.passage(SIZES, (3, 0, 5), (0, 0, 5), axis=(1, 0, 0), axis_x=0, axis_y=0, axis_z=1), "axis_x"),
+        (lambda: hypcheck.passage({**ONE, "z_max": 5}, z_max=-1), "z_max"),
+        (lambda: hypcheck.passage({**ONE, "x0": 9}), "x"),
+        (lambda: hypcheck.passage(ONE, gamma=1), "gamma"),
+        (lambda: hypcheck.passage([[*ROWS[2], 0, 0, 5, 1, 0, 0]], axis=(1, 0, 0)), "axis_x"),
+        (lambda: hypcheck.classify(SIZES, (3, 0, 5), center=(9, 0, 0)), "center"),
+        (lambda: hypcheck.classify(SIZES, (3, 0, 5), x=9), "x"),
+        (lambda: hypcheck.clearance(ROWS, b=1), "b"),
+    ],
+)
+def test_no_value_is_given_twice(call, name):
+    with pytest.raises(InputError, match=rf"^{name} is given twice; it must be given once"):
+        call()
+
+
 @pytest.mark.parametrize(
     "form",
     [
@@ -152,7 +204,7 @@ def test_one_sweep_beside_several_ends_is_asked_once_for_each():
 @pytest.mark.parametrize(
     ("call", "sentence"),
     [
-        (lambda: hypcheck.passage(SIZES, start=POINTS), "passage takes .*; start or end is missing"),
+        (lambda: hypcheck.passage(SIZES, start=POINTS), "passage takes .*; end is missing"),
         (lambda: hypcheck.passage(SIZES, POINTS, (0, 0, 5), margin=1), "there is no argument 'margin' here"),
         (lambda: hypcheck.clearance(SIZES, POINTS, margin=1), "there is no argument 'margin' here"),
         (lambda: hypcheck.classify(TABLE | {"axis_x": 1}), "the columns axis_y, axis_z are missing"),
@@ -194,7 +246,7 @@ def test_heights_may_be_columns():
         ((SIZES, POINTS[:, :2]), {}, r"the centre is of shape \(4, 2\); it must be three numbers, x, y, z"),
         ((SIZES, POINTS), {"axis": [1, 2]}, r"axis is of shape \(2,\); it must be three numbers, axis_x"),
         ((SIZES, POINTS), {"axis": AXES[:3]}, "have shapes that do not fit together"),
-        ((SIZES, POINTS), {"center": POINTS}, "x is given twice; it must be given once"),
+        ((SIZES, POINTS), {"center": POINTS}, "center is given twice; it must be given once"),
         ((ROWS,), {"x": 3}, "x is given twice"),
         ((SIZES, POINTS), {"out": [1]}, "out is of type list"),
         (([1, 2, 1, 1, 2.5, 0, 0],), {"out": np.zeros(1, np.int8)}, "the answer to one pair is a number"),
