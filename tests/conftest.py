@@ -7,7 +7,7 @@ import os
 import resource
 import signal
 from dataclasses import replace
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 
 import pytest
@@ -155,6 +155,19 @@ def pytest_collection_finish():
     gc.freeze()
     gc.set_threshold(50_000, 20, 20)
     gc.enable()
+
+
+@pytest.fixture(scope="session", autouse=True)
+def own_files_are_read_once():
+    """Runs in this process take hypcheck's own files for unchanged: to read a thousand twice is a fifth of a small run.
+
+    tests/runs/test_plan.py tests how they are read and compared, and processes that tests start read them.
+    """
+    from hypcheck.runs import fingerprint
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(fingerprint, "_own_files", cache(fingerprint._own_files))
+        yield
 
 
 @pytest.fixture

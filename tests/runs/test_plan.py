@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import py_compile
 from fractions import Fraction
 from pathlib import Path
 
@@ -111,6 +112,33 @@ def test_changed_files_of_hypcheck_and_of_the_implementation_are_named_and_many_
     assert any("hypcheck/added.py was added while" in each for each in every)
     assert f"{tested}, which is under test, was changed while it was asked" in every
     assert f"{tmp_path / 'gone.py'}, which is under test, was removed while it was asked" in every
+
+
+def test_a_file_of_the_package_that_is_written_added_or_removed_is_told_whatever_its_time_and_length(
+    monkeypatch, tmp_path
+):
+    own_files = fingerprint._own_files.__wrapped__
+    monkeypatch.setattr(fingerprint, "_PACKAGE", tmp_path / "package")
+    monkeypatch.setattr(fingerprint, "folder", lambda: tmp_path / "cases")
+    monkeypatch.setattr(fingerprint, "_own_files", own_files)
+    judge, lines, ring, new = (
+        tmp_path / name for name in ("package/runs/judge.py", "package/lines.py", "cases/ring.json", "package/new.so")
+    )
+    for path in (judge, lines, ring):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text("a = 1")
+    compiled = Path(py_compile.compile(str(judge)))
+    snapshot = FileSnapshot({})
+    assert list(snapshot._changes()) == []
+    for path in (judge, ring, compiled):
+        times, content = path.stat(), path.read_bytes()
+        path.write_bytes(content[:-1] + bytes([content[-1] ^ 1]))
+        os.utime(path, ns=(times.st_atime_ns, times.st_mtime_ns))
+    lines.unlink()
+    new.write_text("")
+    said = {(judge, "changed"), (ring, "changed"), (compiled, "changed"), (lines, "removed"), (new, "added")}
+    told = "hypcheck's own file {} was {} while an implementation was asked"
+    assert set(snapshot._changes()) == {told.format(*each) for each in said}
 
 
 def test_ratios_and_errors_beyond_float64_are_infinite_or_the_smallest_number():
