@@ -12,6 +12,7 @@ import json
 import os
 import re
 import shutil
+import subprocess
 import tarfile
 import zipfile
 from pathlib import Path
@@ -122,13 +123,8 @@ WITHOUT_A_COMPILER = {
 }
 
 
-FEW = ("verify-spec", "small")
-"""What `make test` types; `make thorough` types the others, too."""
-
-
-@pytest.mark.parametrize(
-    "name", [name if name in FEW else pytest.param(name, marks=pytest.mark.thorough) for name in STEPS]
-)
+@pytest.mark.thorough
+@pytest.mark.parametrize("name", STEPS)
 def test_every_command_of_the_installed_package_ends_with_its_code_in_an_empty_folder(installed, name, tmp_path):
     for command, code, part in STEPS[name]:
         if not installed.variant.compiler:
@@ -139,6 +135,25 @@ def test_every_command_of_the_installed_package_ends_with_its_code_in_an_empty_f
         assert part in said, f"hypcheck {command}\n{said}"
 
 
+TYPED = """
+import shlex, sys
+from hypcheck.cli.main import main
+print([int(main(shlex.split(each))) for each in sys.argv[1:]])
+"""
+
+
+def test_commands_of_the_installed_package_need_nothing_that_is_not_declared(installed, tmp_path):
+    """In one process; tests/test_page_commands.py types commands as a user does, who has all extras."""
+    steps = STEPS["verify-spec"] + STEPS["small"]
+    words = [installed.python, "-c", TYPED, *(command for command, _, _ in steps)]
+    done = subprocess.run(
+        words, cwd=tmp_path, env=installed.variant.environment, capture_output=True, text=True, check=False
+    )
+    assert done.stdout.endswith(f"{[code for _, code, _ in steps]}\n"), done.stdout + done.stderr
+    assert [part for _, _, part in steps if part not in done.stdout + done.stderr] == []
+
+
+@pytest.mark.thorough
 def test_the_installed_package_with_the_report_extra_writes_an_html_report_with_plots(installed, tmp_path):
     done = installed.run(f"{GATED} --out run", tmp_path, installed.user)
     assert done.returncode == 0, done.stdout + done.stderr
