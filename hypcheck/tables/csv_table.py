@@ -100,8 +100,8 @@ def _explained(error: str) -> str:
     if "unexpected end of data" in error:
         return "the text ends inside quotes that begin here; the file may have been cut off"
     if "new-line character" in error:
-        return "a carriage return stands within a row; lines must end with LF or CRLF"
-    return f"{error}; what stands in quotes must end with a quote and a comma"
+        return "a row has a carriage return in it; lines must end with LF or CRLF"
+    return f"{error}; a cell in quotes must end with a quote and a comma"
 
 
 def read_csv(reader: Reader, *, mark: bool) -> Table:
@@ -289,7 +289,7 @@ def _columns_of(header: list[str], name: str) -> list[str]:
         raise InputError(f"{name} is empty; its first line must name the columns {', '.join(CENTER)}")
     twice = next((title for title in header if title and header.count(title) > 1), None)
     if twice is not None:
-        raise InputError(f"{name}: column {shown(twice)} stands twice; it must stand once")
+        raise InputError(f"{name}: duplicate column {shown(twice)}")
     wanted = (*CENTER, *(AXIS if set(AXIS) & set(header) else ()))
     missing = [title for title in wanted if title not in header]
     if missing:

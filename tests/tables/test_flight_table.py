@@ -36,7 +36,7 @@ def test_an_axis_is_that_of_the_segment_that_begins_at_its_corner(tmp_path):
         ("", "is empty"),
         ("x,y,z\n", "has no rows"),
         ("x,y\n1,2\n", "no column z"),
-        ("x,x,y,z\n1,1,1,1\n", "stands twice"),
+        ("x,x,y,z\n1,1,1,1\n", "duplicate column .x."),
         ("x,y,z\n1,2\n", "line 2: there are 2 cells; there must be 3"),
         ("x,y,z\n1,2,3\n1,2,inf\n", "line 3: z is 'inf'; it must be finite"),
         ("x,y,z\n1,2,north\n", "line 2: z is 'north'"),

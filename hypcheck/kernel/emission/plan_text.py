@@ -125,7 +125,7 @@ def _paragraphs(plan: ScenePlan, command: Sequence[str]) -> Iterator[str]:
     scene = comment_text(plan.scene.name).replace(
         '"', "'"
     )  # beside the quotation marks about it, it could end Python's text
-    yield f'Where a spheroid stands in the scene "{scene}": {_question_in_comment(plan.question)}.'
+    yield f'The position of a spheroid in the scene "{scene}": {_question_in_comment(plan.question)}.'
     yield f"Made by hypcheck {VERSION} for {plan.format.name}; do not edit, make it anew by"
     yield "    " + comment_text(shlex.join(command))
     yield (
