@@ -9,10 +9,11 @@ BIN := $(VENV)/bin
 # Bytecode is made for the modules that are used, which are few. The tree is found by its path: a finder would take a tenth
 # of the time in which a process starts, and tests start a thousand.
 # setuptools warns at each such install that it will drop the mode `compat` one day.
-# uv takes a quarter of the time of pip. Where it is missing, reaches no registry or fails, pip installs and says why it cannot.
+# uv takes a quarter of the time of pip, and trusts the certificates of the system as pip does. Where it is missing, reaches no
+# registry or fails, pip installs and says why it cannot.
 INSTALL := install() { \
 	echo "installing hypcheck$$1 into $(VENV)"; \
-	$(BIN)/uv pip install --quiet --python $(BIN)/python --config-setting editable_mode=compat --editable ".$$1" 2>/dev/null || \
+	UV_SYSTEM_CERTS=1 UV_HTTP_RETRIES=1 $(BIN)/uv pip install --quiet --python $(BIN)/python --config-setting editable_mode=compat --editable ".$$1" 2>/dev/null || \
 	PYTHONWARNINGS=ignore $(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile --config-settings editable_mode=compat --editable ".$$1"; \
 }; install
 
