@@ -16,6 +16,7 @@ from ruamel.yaml import YAML
 
 from hypcheck.cli.verify import verify
 from hypcheck.isolation.launch import available
+from tests.support.transcripts import UNDRAWN
 
 ROOT = Path(__file__).parents[1]
 ACTION = ROOT / "action.yml"
@@ -156,8 +157,10 @@ def test_the_pre_commit_hook_asks_the_same_rows_at_each_commit_and_leaves_no_fil
     git = ["git", "-C", str(tmp_path), "-c", "user.name=a", "-c", "user.email=a@example.org"]
     for words in (["init", "--quiet"], ["commit", "--quiet", "--allow-empty", "--message", "begin"]):
         subprocess.run([*git, *words], check=True)
-    words = [*shlex.split(hook["entry"]), "builtin:fast", "--families", "ring"]
+    words = [*shlex.split(hook["entry"]), "builtin:fast", "--families", "ring", "--count", "3"]
+    (tmp_path / ".git" / "sitecustomize.py").write_text(UNDRAWN, encoding="utf-8")
     environment = {**os.environ, "PATH": f"{TOOLS}{os.pathsep}{os.environ['PATH']}"}
+    environment["PYTHONPATH"] = str(tmp_path / ".git")
     runs = [
         subprocess.run(words, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
         for _ in range(2)

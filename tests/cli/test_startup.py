@@ -50,6 +50,7 @@ def test_classify_of_one_pair_loads_neither_numpy_nor_mpmath():
         (
             [
                 ["replay", "tower-body/1/1/3", "builtin:fast"],
+                ["hunt", "python:tests.runs.faulty:exact", "--queries", "300"],
                 ["verify", "builtin:hessian-float64", "--families", "tower-body", "--count", "9"],
             ],
             {"msgspec", "numpy"},

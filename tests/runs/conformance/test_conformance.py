@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
 
 import pytest
 
@@ -156,27 +154,6 @@ def test_summary_json_of_verify_has_its_documented_counts_and_families(tmp_path)
     assert found["asked"] == found["right"] + found["tolerated"] + found["wrong"] + found["excused"]
     assert found["worst_backward_error_u"] > 1e6
     assert set(found["families"]) == {"ring", "tower-body"}
-
-
-def test_replay_hunt_and_verify_load_no_library_that_they_do_not_use(tmp_path):
-    """The exit codes say that they were run; reports of verify draw, unless matplotlib is not there."""
-    spec = subject("exact")
-    program = f"""
-import sys
-from hypcheck.cli.main import main
-
-def check(words, codes):
-    code = main(words)
-    loaded = {{name for name in ("sympy", "mpmath", "fcl", "matplotlib") if sys.modules.get(name)}}
-    assert code in codes and not loaded, (words, code, loaded)
-
-check(["replay", "ring-0003", "builtin:table-2-float64"], (0, 1))
-check(["replay", "ring-0003", {spec!r}], (0, 1))
-check(["hunt", {spec!r}, "--queries", "300"], (0,))
-sys.modules.update(matplotlib=None, jinja2=None)
-check(["verify", {spec!r}, "--families", "ring", "--count", "4", "--out", {str(tmp_path)!r}], (0,))
-"""
-    subprocess.run([sys.executable, "-c", program], check=True, timeout=60, stdout=subprocess.DEVNULL)
 
 
 @pytest.mark.thorough
