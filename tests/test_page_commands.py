@@ -87,9 +87,10 @@ LONG = {
 
 FEW = "--count 20 --families tower-body"
 SHORTER = {"--count 1e9": FEW, "--cluster local:4": f"--cluster local:1 {FEW}", "--workers 8": "--workers 2"}
+SHORTER["--budget 2"] = "--queries 2500"
 SHORTER |= dict.fromkeys(("cc -O3", "cc -std=c99 -O2"), "cc -O0")
 """Words that are replaced in what is typed, since what they ask for takes hours, or all of a machine, or optimises what
-is hardly asked."""
+is hardly asked, or depends on the machine's speed."""
 
 WHOLE = {"hypcheck verify": f"hypcheck verify {FEW}"}
 """Whole commands that are replaced: what the settings name is asked little."""

@@ -10,7 +10,7 @@ from fractions import Fraction
 from pathlib import Path
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.rows import PAIRS, SWEEPS
+from hypcheck.geometry.rows import PAIRS, SWEEPS, Rows
 from hypcheck.implementations import domain
 from hypcheck.implementations.description import Description
 from hypcheck.implementations.domain import Domain
@@ -252,16 +252,21 @@ _HAS_MORE = {
 
 def _reasons_for(plan: ConformancePlan, family: Family, rules: JudgingRules) -> dict[str, int]:
     """The reasons why none of a family's frozen vectors and first generated rows is tested; empty if one is."""
-    some = [frozen_vectors(family.name).rows] if frozen_count(family.name) else []
-    if plan.count:
-        some.append(family.rows(plan.seed, min(plan.count, BLOCK)))
     counts: Counter[str] = Counter()
-    for rows in some:
+    for rows in _first_rows(plan, family):
         inside, reasons = rules.asked_of(family.name, rows)
         if len(inside):
             return {}
         counts.update(reasons)
     return dict(counts)
+
+
+def _first_rows(plan: ConformancePlan, family: Family) -> Iterator[Rows]:
+    """A family's frozen vectors, and its first generated rows, which are made only if they are looked at."""
+    if frozen_count(family.name):
+        yield frozen_vectors(family.name).rows
+    if plan.count:
+        yield family.rows(plan.seed, min(plan.count, BLOCK))
 
 
 def steps_of(plan: ConformancePlan, used: Description) -> Iterator[Step]:

@@ -116,14 +116,14 @@ def issue_scene():
 
 def inputs():
     draw = random.Random(42)  # noqa: S311
-    pairs = frozen("extreme-*.json", 3)
-    for width, rows in frozen("[!wet]*.json", 40).items():
+    pairs = frozen("extreme-*.json", 6)
+    for width, rows in frozen("[!wet]*.json", 80).items():
         pairs.setdefault(width, []).extend(rows)
     pairs[10] = frozen("tilted-[!iw]*.json", 40)[10]
-    sweeps = frozen("way-*.json", 100)[10]
+    sweeps = frozen("way-*.json", 150)[10]
     scenes = [
         issue_scene(),
-        *(scene(draw, exponent) for exponent in (-1030, -1000, -998, -500, -60, 0, 0, 40, 500, 1000)),
+        *(scene(draw, exponent) for exponent in (-1030, -998, -60, 0, 40, 1000)),
     ]
     return pairs, wide_rows(draw, 60), sweeps, scenes
 

@@ -148,7 +148,7 @@ def test_no_place_on_a_clear_flight_is_nearer_than_its_least_distance(seed):
     tilted = seed % 2 == 1
     mover = Mover(0.3, 0.15, axis=(0.3, 0.0, 1.0) if tilted else UPRIGHT)
     world = wood(seed, count=9, mover=mover, tilted=tilted)
-    paths = [flight(seed * 100 + number, 4, 0.5) for number in range(8)]
+    paths = [flight(seed * 100 + number, 4, 0.5) for number in range(4)]
     found = world.first_contact(paths)
     for number in np.flatnonzero(~found.hit)[:2].tolist():
         path = paths[number]
