@@ -14,7 +14,7 @@ import reprlib
 import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal, cast
+from typing import Any, Literal, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -103,6 +103,11 @@ class Layout:
     def columns(self, width: int) -> tuple[str, ...]:
         """The names of the columns of a row with that many numbers."""
         return self.ended[:width]
+
+    def split(self, row: Sequence[Any]) -> tuple[Sequence[Any], Sequence[Any], Sequence[Any]]:
+        """The numbers of a row in three: sizes and centres, the axis, the heights; empty is what is not there."""
+        upright, tilted = len(self.upright), len(self.tilted)
+        return row[:upright], row[upright:tilted], row[tilted:]
 
     def has_axis(self, rows: Rows | Sequence[object]) -> bool:
         """Whether the rows, or one row, have the columns of an axis."""

@@ -124,8 +124,9 @@ def _hits(rows: Rows) -> Mask:
 
 
 def _passage_of(row: Sequence[float]) -> swept.Passage:
-    low, high, solid = row[13:] or WITHOUT_ENDS
-    return swept.passage(row[:4], row[4:7], row[7:10], row[10:13] or None, z_min=low, z_max=high, solid=solid)
+    (*sizes, x, y, z, x1, y1, z1), axis, heights = SWEEPS.split(row)
+    low, high, solid = heights or WITHOUT_ENDS
+    return swept.passage(sizes, (x, y, z), (x1, y1, z1), axis or None, z_min=low, z_max=high, solid=solid)
 
 
 def _interval(row: Sequence[float]) -> tuple[Fraction, Fraction]:

@@ -11,7 +11,8 @@ import numpy as np
 from msgspec import UNSET, Meta, Struct, UnsetType, ValidationError, convert, to_builtins
 from numpy.typing import NDArray
 
-from hypcheck.geometry.rows import PAIRS, Layout
+from hypcheck.geometry.pair import COLUMNS
+from hypcheck.geometry.rows import PAIRS, SWEEPS, Layout
 from hypcheck.messages import shortened
 
 FARTHEST = 9999
@@ -203,10 +204,14 @@ def row_of(case: _CasePart) -> tuple[float, ...]:
 
 def row_fields(row: Sequence[float], layout: Layout = PAIRS) -> dict[str, Any]:
     """The fields row, end, axis and heights of a row of this layout."""
-    digits = tuple(value.hex() for value in row)
-    upright, tilted = len(layout.upright), len(layout.tilted)
-    parts = {"end": digits[7:upright], "axis": digits[upright:tilted], "heights": digits[tilted:]}
-    return {"row": digits[:7]} | {name: part or UNSET for name, part in parts.items()}
+    others, axis, heights = layout.split(tuple(value.hex() for value in row))
+    parts = {"end": others[len(COLUMNS) :], "axis": axis, "heights": heights}
+    return {"row": others[: len(COLUMNS)]} | {name: part or UNSET for name, part in parts.items()}
+
+
+def layout_of(case: _CasePart) -> Layout:
+    """The layout of a case's row: of a sweep if it has an end."""
+    return SWEEPS if case.end else PAIRS
 
 
 class RecordLine(LinePart, frozen=True, kw_only=True, tag_field="type", tag=_type_of):

@@ -16,7 +16,7 @@ from msgspec import UNSET
 
 from hypcheck.messages import counted
 from hypcheck.record import Record, RecordLine, lines
-from hypcheck.record.fields import numbers_of
+from hypcheck.record.fields import layout_of, numbers_of
 from hypcheck.report import messages
 from hypcheck.report.measured import MeasuredMethod, measured_methods
 from hypcheck.report.model import SubjectKey, explanation, in_order, names_in, subject_of, worst_case
@@ -184,7 +184,13 @@ class OracleFacts(LineFacts[lines.OracleLine]):
         row = messages.from_hex(numbers_of(case))
         where = self.line.oracle, self.line.family
         return Failure(
-            "oracle", *where, "disagreement", message, case.case, replay=messages.classify_command(row), row=row
+            "oracle",
+            *where,
+            "disagreement",
+            message,
+            case.case,
+            replay=messages.classify_command(row, layout_of(case)),
+            row=row,
         )
 
     def headline(self) -> str:

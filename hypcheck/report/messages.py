@@ -12,12 +12,13 @@ from typing import Any
 from msgspec import UNSET, UnsetType
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import SIZES
+from hypcheck.geometry.pair import ENDS, HEIGHTS, SIZES
+from hypcheck.geometry.rows import PAIRS, Layout
 from hypcheck.implementations import domain
 from hypcheck.implementations.session import Limits
 from hypcheck.messages import counted
 from hypcheck.record import Record, lines
-from hypcheck.record.fields import numbers_of
+from hypcheck.record.fields import layout_of, numbers_of
 from hypcheck.record.reader import recorded_cases
 from hypcheck.runs.judge import DEFAULT_TOLERANCE
 from hypcheck.vectors.border_lines import NEAREST_OCTAVE, SEARCHED
@@ -74,19 +75,24 @@ def from_hex(row: Sequence[str]) -> tuple[float, ...]:
 def short_row(row: Sequence[float]) -> str:
     """A row to six digits: "alpha 2, gamma 17.8, b 0.25, d 0.15, centre (3, 0, 0)".
 
-    The axis of a tilted spheroid follows.
+    The axis and the heights follow if it has them.
     """
-    sizes = ", ".join(f"{name} {value:.6g}" for name, value in zip(SIZES, row[:4], strict=True))
-    vectors = (("centre", row[4:7]), ("axis", row[7:]))
+    _, axis, heights = PAIRS.split(row)
+    numbers = [*zip(SIZES, row, strict=False), *zip(HEIGHTS, heights, strict=False)]
+    words = [f"{name} {value:.6g}" for name, value in numbers]
+    vectors = (("centre", row[4:7]), ("axis", axis))
     places = [f"{name} ({', '.join(f'{value:.6g}' for value in vector)})" for name, vector in vectors if vector]
-    return ", ".join([sizes, *places])
+    return ", ".join([*words[: len(SIZES)], *places, *words[len(SIZES) :]])
 
 
-def classify_command(row: Sequence[float]) -> str:
+def classify_command(row: Sequence[float], layout: Layout = PAIRS) -> str:
     """The command that decides a row exactly and proves it; the decimals read back as the same float64."""
-    sizes = " ".join(f"--{name} {value!r}" for name, value in zip(SIZES, row[:4], strict=True))
-    axis = f" --axis {' '.join(map(repr, row[7:]))}" if row[7:] else ""
-    return f"hypcheck classify {sizes} --center {' '.join(map(repr, row[4:7]))}{axis}"
+    others, axis, heights = layout.split(row)
+    options = [*zip(SIZES, ((value,) for value in others), strict=False), ("center", others[4:7])]
+    options += [("end", others[7:]), ("axis", axis)]
+    ends = [(name.replace("_", "-"), (end,)) for name, end in zip(ENDS, heights, strict=False) if math.isfinite(end)]
+    words = [f"--{name} {' '.join(map(repr, values))}" for name, values in (*options, *ends) if values]
+    return " ".join(["hypcheck classify", *words, *(["--solid"] if ends and heights[2] else [])])
 
 
 def error_text(case: lines.WrongAnswer) -> str:
@@ -259,7 +265,7 @@ class Replays:
     def command(self, group: lines.GroupLine, case: lines.WrongAnswer | lines.FaultPart) -> str:
         """The command that replays a gated implementation's case, or decides and proves a built-in method's case."""
         if not group.tested:
-            return classify_command(from_hex(numbers_of(case)))
+            return classify_command(from_hex(numbers_of(case)), layout_of(case))
         return self.of_case(case.case, str(group.spec))
 
     def of_case(self, case: str, spec: str) -> str:

@@ -154,9 +154,9 @@ def one_changed(row: Row, layout: Layout) -> Iterator[Row]:
             yield _with(row, {column: value})
 
 
-def one_changed_between_ends(row: Row, layout: Layout) -> Iterator[Row]:
+def one_changed_between_ends(row: Row, _layout: Layout) -> Iterator[Row]:
     """Rows with heights in which one number is 0, 1 or shorter, or equals another number, or an end is removed."""
-    numbers = [value for value in row[: len(layout.tilted)] + row[len(layout.tilted) : -1] if math.isfinite(value)]
+    numbers = [value for value in row[:-1] if math.isfinite(value)]
     for column, number in enumerate(row):
         simple = {0.0, 1.0, 2.0, 3.0, *numbers}
         if math.isfinite(number):

@@ -30,7 +30,7 @@ from hypcheck.implementations.domain import representable
 from hypcheck.implementations.implementation import Implementation
 from hypcheck.implementations.spec import begins_as_spec
 from hypcheck.record import read
-from hypcheck.record.fields import numbers_of
+from hypcheck.record.fields import layout_of, numbers_of
 from hypcheck.record.reader import file_of, recorded_cases
 from hypcheck.runs import judge
 from hypcheck.runs.causes import PLACES, WIDER_ROUNDINGS, AnsweredRows, Cause, Scope
@@ -100,7 +100,7 @@ def _from_record(path: Path, number: int) -> ReplayCase:
         row = tuple(map(float.fromhex, numbers_of(case)))
     except OverflowError:
         raise InputError(f"{path}: case {number} has a number that is too large for float64") from None
-    return ReplayCase(case.case, row, SWEEPS if case.end else PAIRS)
+    return ReplayCase(case.case, row, layout_of(case))
 
 
 def _given_row(text: str) -> Row:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import shlex
 
@@ -9,7 +10,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+import hypcheck
+from hypcheck.cli.main import main
 from hypcheck.errors import InputError
+from hypcheck.geometry.rows import PAIRS, SWEEPS
 from hypcheck.record.lines import DomainPart, FixedSizesPart
 from hypcheck.report.document import Code, Emphasis, Strong, plain
 from hypcheck.report.messages import classify_command, domain_text, figure, from_hex, listed, short_row
@@ -53,7 +57,28 @@ def test_row_is_read_back_exactly_from_the_record_and_the_classify_command(row):
     assert [float(word) for word in (*words[3:10:2], *words[11:])] == row
 
 
+SEVEN, AXIS, HEIGHTS = (2.0, 17.8, 0.25, 0.15, 2.1, 0.0, 3.0), (1.0, 0.0, 0.5), (-1.0, 2.9, 1.0)
+UPRIGHT = (0.0, 0.0, 1.0)
+
+
+@pytest.mark.parametrize("end", [(), (-9.0, 0.5, 3.0)])
+@pytest.mark.parametrize(
+    "others", [(), AXIS, (*UPRIGHT, *HEIGHTS), (*AXIS, -math.inf, 2.9, 0.0), (*AXIS, -math.inf, math.inf, 1.0)]
+)
+def test_the_classify_command_of_a_row_asks_all_that_the_row_has(others, end, capsys):
+    row = (*(SEVEN if not end else (*SEVEN[:4], 9.0, 0.5, 3.0)), *end, *others)
+    command = shlex.split(classify_command(row, SWEEPS if end else PAIRS))
+    assert main([*command[1:], "--json"]) in (0, 1)
+    answer = json.loads(capsys.readouterr().out)
+    if end:
+        sweep = hypcheck.passage(row)
+        assert (answer["hit"], answer["first"]) == (sweep.hit, [sweep.first_lower, sweep.first_upper])
+    else:
+        assert answer["position"] == hypcheck.classify([row])[0]
+
+
 def test_short_text_of_a_row_has_at_most_six_digits_a_number():
+    assert short_row((*SEVEN, *AXIS, *HEIGHTS)).endswith("axis (1, 0, 0.5), z_min -1, z_max 2.9, solid 1")
     assert (
         short_row((2.0, 17.8, 0.25, 1 / 3, -3.0, 0.0, 1e-9))
         == "alpha 2, gamma 17.8, b 0.25, d 0.333333, centre (-3, 0, 1e-09)"
