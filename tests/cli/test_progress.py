@@ -41,43 +41,32 @@ def clock(monkeypatch):
     return now
 
 
-def test_the_progress_bar_shows_the_rate_and_the_time_left(screen, clock):
-    with watched(1000, "work", "cases") as pace:
-        for _ in range(4):
-            clock[0] += 1
-            pace.advance(10)
-        assert screen.shown[-1].endswith("4%  10 cases a second, 0:01:36 left")
+BARS = {
+    "rate and time left": ((1000, "cases"), 0, 0, [(1, (10,))] * 4, "4%  10 cases a second, 0:01:36 left"),
+    "a total that grows": ((100, "cases"), 0, 300, [(1, (50,))] * 4, "50%  50 cases a second, 0:00:04 left"),
+    "steps before a resume": (
+        (100_000_000, "cases"), 90_000_000, 0, [(2, (1000,))], "90%  500 cases a second, 5:33:18 left"
+    ),
+    "another unit than steps": (
+        (5000, "rows"), 0, 0, [(10, (500, 30_000_000))], "10%  3.0 million rows a second, 0:01:30 left"
+    ),
+    "an unknown length": ((None, "rows"), 0, 0, [(10, (500, 70))], "7 rows a second"),
+}  # fmt: skip
+"""The total and its unit, what is done and what more is expected before, seconds and steps, and the bar behind them."""
 
 
-def test_a_progress_bar_whose_total_grows_shows_the_share_of_the_new_total(screen, clock):
-    with watched(100, "work", "cases") as pace:
-        pace.expect(300)
-        for _ in range(4):
-            clock[0] += 1
-            pace.advance(50)
-        assert screen.shown[-1].endswith("50%  50 cases a second, 0:00:04 left")
-
-
-def test_the_rate_of_the_progress_bar_leaves_out_steps_done_before_a_resume(screen, clock):
-    with watched(100_000_000, "work", "cases", done=90_000_000) as pace:
-        assert "90%" in screen.shown[-1]
-        clock[0] += 2
-        pace.advance(1000)
-        assert screen.shown[-1].endswith("90%  500 cases a second, 5:33:18 left")
-
-
-def test_the_rate_of_the_progress_bar_may_count_another_unit_than_its_steps(screen, clock):
-    with watched(5_000, "read", "rows") as pace:
-        clock[0] += 10
-        pace.advance(500, 30_000_000)
-        assert screen.shown[-1].endswith("10%  3.0 million rows a second, 0:01:30 left")
-
-
-def test_a_progress_bar_of_unknown_length_shows_no_time_left(screen, clock):
-    with watched(None, "read", "rows") as pace:
-        clock[0] += 10
-        pace.advance(500, 70)
-        assert screen.shown[-1].endswith("7 rows a second")
+@pytest.mark.parametrize(("work", "done", "more", "steps", "shown"), BARS.values(), ids=BARS)
+def test_a_progress_bar_shows_the_share_the_rate_and_the_time_left(screen, clock, work, done, more, steps, shown):
+    total, unit = work
+    with watched(total, "work", unit, done=done) as pace:
+        if done:
+            assert shown[:3] in screen.shown[-1]
+        if more:
+            pace.expect(more)
+        for seconds, advanced in steps:
+            clock[0] += seconds
+            pace.advance(*advanced)
+        assert screen.shown[-1].endswith(shown)
 
 
 def test_classify_shows_a_progress_bar_on_a_terminal(screen, tmp_path):

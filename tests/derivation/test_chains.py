@@ -51,7 +51,6 @@ def everything():
     return {chain.name: chain for chain in (*chains().values(), *walk())}
 
 
-@pytest.mark.slow
 def test_the_list_of_tested_proof_chains_has_all_chains_and_sections():
     assert tuple(everything()) == CHAINS
 
@@ -85,7 +84,6 @@ def broken(part):
         yield replace(part, cases=())
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("every", [4, pytest.param(1, marks=pytest.mark.thorough)])
 @pytest.mark.parametrize("name", CHAINS)
 def test_a_mistake_in_any_part_of_a_proof_chain_makes_its_link_and_chain_fail(name, every):

@@ -64,7 +64,6 @@ def as_function(language, program, number):
 STRICT = ("-pedantic", "-Wall", "-Wextra", "-Werror", "-O2", "-shared", "-fPIC", "-ffp-contract=off")
 
 
-@pytest.mark.slow
 @needs("g++")
 @pytest.mark.parametrize(
     ("language", "number", "name"),

@@ -61,7 +61,6 @@ def test_flights_simulated_in_a_block_equal_flights_simulated_one_by_one(name, s
         assert state[:3] == pytest.approx(ends[:, lane].tolist(), abs=1e-9)
 
 
-@pytest.mark.thorough
 @pytest.mark.parametrize("name", SCENES)
 def test_mean_share_of_touching_positions_agrees_with_scalar_flights_with_other_random_numbers(name):
     """Executions with Δ ≤ 0 in percent, within 4 standard errors of the difference."""

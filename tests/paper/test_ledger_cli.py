@@ -22,7 +22,6 @@ def told(capsys, *arguments):
     return code, output, errors
 
 
-@pytest.mark.thorough
 def test_derive_without_options_shows_all_parts_and_all_hold(capsys):
     code, output, errors = told(capsys)
     assert code == Exit.HELD

@@ -27,7 +27,6 @@ def hull_of(number):
     return hull.facts
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("number", ["Table 4", "Table 4, caption"])
 def test_the_rotors_of_the_witness_are_inside_and_the_movement_is_refused(number):
     hull = hull_of(number)
@@ -93,7 +92,6 @@ def test_built_in_procedure_1_and_table_2_are_wrong_at_the_ring_witness_and_righ
         assert beside.position is ring.position is Position.EXTERIOR
 
 
-@pytest.mark.slow
 def test_procedure_2a_is_asked_about_rotors_on_arms():
     found = counterexample(PROCEDURE_2A).found
     assert found.point.r > 0

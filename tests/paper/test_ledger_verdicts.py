@@ -110,7 +110,6 @@ def test_every_numbered_statement_of_the_paper_is_in_the_ledger():
     assert len(found) == len(entries())
 
 
-@pytest.mark.slow
 def test_each_verdict_is_the_known_one_and_is_confirmed():
     for entry in entries():
         assert entry.verdict == OTHERWISE.get(entry.number, PROVED), entry.number
@@ -172,7 +171,6 @@ def test_a_true_statement_that_is_called_false_is_not_confirmed(statement):
     assert without_counterexample(statement).holds
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("statement", FALSE_STATEMENTS, ids=named)
 def test_a_false_statement_that_is_called_proved_is_not_confirmed(statement):
     evidence = (by_chain("rule"), without_counterexample(statement))

@@ -42,7 +42,6 @@ def test_invisible_characters_in_scene_names_are_escaped_in_the_kernel():
     assert not comment_text("C:\\").endswith("\\")
 
 
-@pytest.mark.thorough
 @pytest.mark.parametrize("language", DIALECTS)
 def test_a_kernel_of_a_scene_with_a_hostile_name_builds_without_warnings_and_answers(language, tmp_path):
     """As the same kernel with a plain name does; warnings are errors, and C's trigraphs count."""

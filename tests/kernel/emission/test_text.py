@@ -73,7 +73,6 @@ def test_an_emitted_kernel_of_many_settings_describes_each_at_its_function(langu
     assert "There are" not in text_of(SCENES["tower"], language)
 
 
-@pytest.mark.thorough
 @pytest.mark.parametrize(("name", "language"), [("tower", "c"), ("forest", "c"), ("forest", "cpp"), ("forest", "rust")])
 def test_an_emitted_library_returns_a_description_longer_than_an_iso_c_string(name, language, tmp_path):
     """ISO C has no strings of more than 4095 characters; the forest's description is longer."""
@@ -96,7 +95,6 @@ def test_lines_of_emitted_kernels_are_short_except_the_description(name, languag
     assert "\n\n\n\n" not in "\n".join(lines)
 
 
-@pytest.mark.thorough
 @pytest.mark.parametrize("chosen", [SCENES["tower"], PLAIN, HILLS], ids=["tower", "plain", "hills"])
 def test_emitted_python_passes_mypy_and_ruff(chosen, tmp_path):
     path = tmp_path / "kernel.py"

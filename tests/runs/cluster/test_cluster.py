@@ -56,7 +56,6 @@ def pids(client):
     return client.run(os.getpid)
 
 
-@pytest.mark.thorough
 def test_tasks_of_killed_workers_are_reassigned_and_results_stay_the_same(client):
     some = steps_of(["tower-body", "ring"], 4500, PACE)
 
@@ -67,7 +66,6 @@ def test_tasks_of_killed_workers_are_reassigned_and_results_stay_the_same(client
     assert saved_state(there(client, KILLS, some, kill)) == saved_state(here(KILLS, some))
 
 
-@pytest.mark.thorough
 def test_only_cases_that_kill_their_worker_end_as_crashes(client):
     some = steps_of(["uniform", "tower-body"], 2600, PACE)
     culprit, others = without_culprit(some)
@@ -82,7 +80,6 @@ def _subject(folder: Path) -> tuple[Path, ImplementationOpener]:
     return file, ImplementationOpener(f"python:{file}:f", Limits())
 
 
-@pytest.mark.thorough
 def test_file_that_a_worker_lacks_is_sent_to_it(client, tmp_path):
     file, opening = _subject(tmp_path)
     some = steps_of(["ring"], 2000, PACE)

@@ -65,7 +65,6 @@ def by_family(record):
     return {line.family: line for line in record.of(GroupLine)}
 
 
-@pytest.mark.slow
 def test_a_right_implementation_of_tilted_spheroids_passes_on_upright_and_tilted_families(gate):
     code, record = gate(leaning.exact, "--families", f"ring,{LEANING}")
     found = by_family(record)
@@ -77,7 +76,6 @@ def test_a_right_implementation_of_tilted_spheroids_passes_on_upright_and_tilted
     assert line.again.asked > 30
 
 
-@pytest.mark.slow
 def test_an_implementation_that_answers_an_axis_without_a_direction_is_wrong_on_the_tilted_invalid_rows_alone(
     gate,
 ):
@@ -100,7 +98,6 @@ def test_tilted_invalid_rows_are_asked_only_if_refuses_and_tilt_are_declared():
     assert invalid_rows(Description("any", tilt=True)) == ()
 
 
-@pytest.mark.slow
 def test_an_implementation_that_ignores_the_axis_is_wrong_on_tilted_spheroids_alone_and_the_record_has_the_axis(
     gate, tmp_path
 ):
@@ -117,7 +114,6 @@ def test_an_implementation_that_ignores_the_axis_is_wrong_on_tilted_spheroids_al
     assert f'"axis": ["{found[LEANING].worst[0].axis[0]}"' in (tmp_path / "record.jsonl").read_text("utf-8")
 
 
-@pytest.mark.slow
 def test_fault_about_a_tilted_spheroid_affects_only_its_case_and_is_recorded_with_its_axis(tmp_path):
     code, record = verified(tmp_path, f"{SPEC}raises_far_over", "--families", LEANING, count="0")
     faults = [fault for line in record.of(GroupLine) for fault in line.faults if fault.status == "error"]
@@ -130,7 +126,6 @@ def test_fault_about_a_tilted_spheroid_affects_only_its_case_and_is_recorded_wit
         assert "no heading" in fault.reason
 
 
-@pytest.mark.slow
 def test_the_progress_of_a_run_counts_every_case_of_an_implementation_with_tilt(built_in):
     steps, more = [], []
     plan = ConformancePlan((built_in(leaning.exact, **TAKES_TILT),), ("ring", "tilted-ring"), count=3, pace=FEW_AGAIN)
