@@ -23,34 +23,19 @@ def test_placed_rows_have_the_positions_that_the_signs_of_their_gaps_say(name):
     assert (classify(found.rows) == np.where(found.contact, 0, clear)).all()
 
 
-def test_a_placed_clear_row_reaches_contact_only_if_it_moves_farther_than_its_gap():
-    family = FAMILIES["leaning"]
-    spot, gap = drawn(family, 3)
-    keep = spot.certifies(gap) & (gap > 1e-6)
+@pytest.mark.parametrize(("family", "here", "beyond"), [("leaning", 1, 0), ("inside", 0, -1)])
+def test_a_placed_row_changes_its_position_only_if_it_moves_farther_than_its_gap_or_its_depth(family, here, beyond):
+    spot, gap = drawn(FAMILIES[family], 3)
+    keep = spot.certifies(gap) & (gap > 1e-6 if here else gap < -1e-6)
     rows, normals, gap = spot.rows(gap)[keep], spot.normal[keep], gap[keep]
     rng = np.random.default_rng(1)
     for _ in range(50):
         way = rng.normal(size=(len(rows), 3))
         moved = rows.copy()
         moved[:, 4:7] += way / np.linalg.norm(way, axis=1, keepdims=True) * (0.999 * gap)[:, np.newaxis]
-        assert (classify(moved) == 1).all()
+        assert (classify(moved) == here).all()
     rows[:, 4:7] -= normals * (1.001 * gap)[:, np.newaxis]
-    assert (classify(rows) == 0).all()
-
-
-def test_a_placed_contact_becomes_clear_only_if_it_moves_farther_than_its_depth():
-    family = FAMILIES["inside"]
-    spot, gap = drawn(family, 3)
-    keep = spot.certifies(gap) & (gap < -1e-6)
-    rows, normals, gap = spot.rows(gap)[keep], spot.normal[keep], gap[keep]
-    rng = np.random.default_rng(2)
-    for _ in range(50):
-        way = rng.normal(size=(len(rows), 3))
-        moved = rows.copy()
-        moved[:, 4:7] += way / np.linalg.norm(way, axis=1, keepdims=True) * (0.999 * gap)[:, np.newaxis]
-        assert (classify(moved) == 0).all()
-    rows[:, 4:7] -= normals * (1.001 * gap)[:, np.newaxis]
-    assert (classify(rows) == -1).all()
+    assert (classify(rows) == beyond).all()
 
 
 def test_a_placed_row_is_not_certified_with_a_wrong_gap():

@@ -311,11 +311,8 @@ def test_numbers_for_sizes_and_heights_are_those_of_every_row():
         assert hypcheck.classify(SIZES, points, **heights).tolist() == by_truth(rows)
 
 
-def test_a_centre_without_sizes_is_refused():
+def test_sizes_and_a_centre_without_each_other_are_refused():
     with pytest.raises(InputError, match="the columns alpha, gamma, b, d are missing"):
         hypcheck.classify(x=1.0, y=2.0, z=3.0)
-
-
-def test_sizes_without_a_centre_are_refused():
     with pytest.raises(InputError, match="the columns x, y, z are missing"):
         hypcheck.classify(alpha=1.0, gamma=2.0, b=3.0, d=4.0)

@@ -276,17 +276,11 @@ GOOD, ANSWER = b"classify 7 1 text\n1 2 1 1 4 0 0\n", b"7 1\n1\n"
 
 
 @commands
-def test_generated_adapter_replies_error_to_an_invalid_question_and_answers_the_next(built, spec):
-    said = b"".join(line + b"\n" + GOOD for line in NONSENSE)
-    replies = built.talk(spec, said).partition(b"\n")[2]
-    assert re.sub(rb"error [ -~]+\n", b"error\n", replies) == (b"error\n" + ANSWER) * len(NONSENSE)
-
-
-@commands
-def test_generated_adapter_replies_error_to_a_question_with_an_invalid_row_and_answers_the_next(built, spec):
-    said = b"".join(b"classify 1 3 text\n1 2 1 1 4 0 0\n" + row + b"\n1 2 1 1 4 0 0\n" + GOOD for row in NO_ROWS)
-    replies = built.talk(spec, said).partition(b"\n")[2]
-    assert re.sub(rb"error [ -~]+\n", b"error\n", replies) == (b"error\n" + ANSWER) * len(NO_ROWS)
+def test_generated_adapter_replies_error_to_an_invalid_question_or_row_and_answers_the_next(built, spec):
+    invalid = [line + b"\n" for line in NONSENSE]
+    invalid += [b"classify 1 3 text\n1 2 1 1 4 0 0\n" + row + b"\n1 2 1 1 4 0 0\n" for row in NO_ROWS]
+    replies = built.talk(spec, b"".join(each + GOOD for each in invalid)).partition(b"\n")[2]
+    assert re.sub(rb"error [ -~]+\n", b"error\n", replies) == (b"error\n" + ANSWER) * len(invalid)
 
 
 @commands

@@ -110,27 +110,28 @@ def test_position_of_random_ellipsoids_is_proved_by_its_multiplier_or_by_points_
     assert seen == set(Position)
 
 
+CYLINDER = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, 0], [0, 0, 0, -4]]
+"""Of radius 2."""
+PLANE = [[0, 0, 0, 1], [0, 0, 0, 0], [0, 0, 0, 0], [1, 0, 0, -4]]
+"""x = 2."""
+
+
 @pytest.mark.parametrize(
-    ("x", "position"),
+    ("x", "beside", "position"),
     [
-        (4, Position.EXTERIOR),
-        (3, Position.CONTACT),
-        (2, Position.CONTACT),
-        (1, Position.CONTACT),
-        (Fraction(1, 2), Position.INTERIOR),
+        (4, CYLINDER, Position.EXTERIOR),
+        (3, CYLINDER, Position.CONTACT),
+        (2, CYLINDER, Position.CONTACT),
+        (1, CYLINDER, Position.CONTACT),
+        (Fraction(1, 2), CYLINDER, Position.INTERIOR),
+        (0, PLANE, Position.INTERIOR),
+        (1, PLANE, Position.CONTACT),
+        (4, PLANE, Position.EXTERIOR),
     ],
 )
-def test_ball_beside_a_cylinder_of_radius_2_is_clear_only_where_they_do_not_touch(x, position):
+def test_unit_ball_beside_a_cylinder_or_a_plane_is_clear_only_where_they_do_not_touch(x, beside, position):
     ball = [[1, 0, 0, -x], [0, 1, 0, 0], [0, 0, 1, 0], [-x, 0, 0, x * x - 1]]
-    cylinder = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, 0], [0, 0, 0, -4]]
-    assert quadrics.position(ball, cylinder) is position
-
-
-@pytest.mark.parametrize(("x", "position"), [(0, Position.INTERIOR), (1, Position.CONTACT), (4, Position.EXTERIOR)])
-def test_unit_ball_is_beside_a_plane_where_its_centre_is_more_than_1_from_it(x, position):
-    ball = [[1, 0, 0, -x], [0, 1, 0, 0], [0, 0, 1, 0], [-x, 0, 0, x * x - 1]]
-    plane = [[0, 0, 0, 1], [0, 0, 0, 0], [0, 0, 0, 0], [1, 0, 0, -4]]  # x = 2
-    assert quadrics.position(ball, plane) is position
+    assert quadrics.position(ball, beside) is position
 
 
 def test_ball_is_decided_where_the_corner_of_a_tried_matrix_is_0():
