@@ -140,7 +140,7 @@ def frozen_families(plan: SelfCheckPlan) -> tuple[Family, ...]:
     Extreme families are not among them; if the plan chooses families, the result is empty.
     """
     every = (*TILTED_FAMILIES.values(), *ENDED_FAMILIES.values())
-    return () if plan.families else tuple(family for family in every if not family.extreme)
+    return () if plan.families else tuple(family for family in every if family.frozen and not family.extreme)
 
 
 def frozen_batch(family: Family, count: int) -> Batch:

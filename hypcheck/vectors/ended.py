@@ -16,7 +16,7 @@ from hypcheck.geometry.pair import COLUMNS, TILTED_COLUMNS, UPRIGHT
 from hypcheck.geometry.rows import PAIRS, Floats, Rows
 from hypcheck.vectors import random_pairs, tilted
 from hypcheck.vectors.draw import Draw, Integers, Maker, ldexp, stepped, turns
-from hypcheck.vectors.random_pairs import Sizes, all_regimes, sizes
+from hypcheck.vectors.random_pairs import Sizes, all_regimes, by_sixteenths, changed_in_turn, repeated, sizes
 from hypcheck.vectors.tilted import Vectors, anywhere
 
 TRIPLES = np.array([(3, 4, 5), (4, 3, 5), (5, 12, 13), (12, 5, 13), (8, 15, 17), (15, 8, 17), (0, 1, 1)])
@@ -95,6 +95,29 @@ def rim(axes: Axes = _upward) -> Maker:
         return _at_rim(draw, size, height, axes(draw, n))
 
     return make
+
+
+CHANGED = (0, 1, 2, 3, 4, 5, 6, 10, 11, 12)
+"""The columns that one_number_changed changes: an upright axis does not."""
+
+
+def one_number_changed(draw: Draw, n: int) -> Rows:
+    """As in random_pairs, near contact with a rim; the two heights and `solid` change too."""
+    pairs = -(-n // (2 * len(CHANGED)))
+    size, height = _ordinary(draw, pairs)
+    return with_one_number_changed(draw, _at_rim(draw, size, height, _upward(draw, pairs)), CHANGED, n)
+
+
+def with_one_number_changed(draw: Draw, pairs: Rows, columns: Sequence[int], n: int) -> Rows:
+    """n rows: each pair repeated, with one number changed from row to row; infinite ends are made finite before."""
+    rows = repeated(pairs, columns, n, centres=pairs.shape[1] - 10)
+    low, high, solid = rows[:, -3:].T
+    low = np.where(np.isinf(low), high - 4 * rows[:, 3], low)
+    high = np.where(np.isinf(high), low + 4 * rows[:, 3], high)
+    rows[:, -3:-1] = np.stack([low, high], axis=1)
+    others, part = by_sixteenths(draw, rows), (high - low) * draw.signs(n) * draw.log_uniform(n, -4, -1)
+    others[:, -3:] = np.stack([low + part, high - part, 1 - solid], axis=1)
+    return changed_in_turn(rows, others, columns)
 
 
 def stiff(draw: Draw, n: int) -> Rows:
@@ -242,6 +265,7 @@ FAMILIES: dict[str, tuple[Maker, int]] = {
     "ended-far": (far, 40),
     "ended-stiff": (stiff, 40),
     "ended-small-integers": (integers(), 48),
+    "ended-one-number-changed": (one_number_changed, 0),
 }
 TILTED: dict[str, tuple[Maker, int]] = {
     "tilted-ended-uniform": (uniform(tilted.uniform, (2, 3)), 48),

@@ -10,7 +10,7 @@ import numpy as np
 
 from hypcheck.geometry.rows import Rows
 from hypcheck.vectors import ended
-from hypcheck.vectors.draw import Draw, Maker, turns
+from hypcheck.vectors.draw import Draw, Maker, in_turn, turns
 
 CENTRE = slice(4, 7)
 
@@ -82,6 +82,16 @@ def landing(rows_of: Maker) -> Maker:
     return make
 
 
+CHANGED = (*range(10), 13, 14, 15)
+"""The columns that one_number_changed changes: an upright axis does not."""
+
+
+def one_number_changed(draw: Draw, n: int) -> Rows:
+    """As in random_pairs, of sweeps to a place nearly in contact with a rim, or with a flat end or an opening."""
+    pairs = in_turn(landing(ended.rim()), landing(ended.disc()))(draw, -(-n // (2 * len(CHANGED))))
+    return ended.with_one_number_changed(draw, pairs, CHANGED, n)
+
+
 def opening(draw: Draw, n: int) -> Rows:
     """Out through an opening or in, without contact if the body is open."""
     rows = ended.opening(draw, n)
@@ -114,6 +124,7 @@ FAMILIES: dict[str, tuple[Maker, int]] = {
     "ended-way-opening": (opening, 16),
     "ended-way-thin": (thin, 12),
     "ended-way-touch": (touch, 20),
+    "ended-way-one-number-changed": (one_number_changed, 0),
 }
 TILTED: dict[str, tuple[Maker, int]] = {
     "tilted-ended-way-uniform": (uniform(ended.TILTED["tilted-ended-uniform"][0]), 12),

@@ -94,6 +94,7 @@ TILTED_FAMILIES = _table(
     Family("tilted-small-integers", tilted.small_integers, 200, tilted=True),
     Family("tilted-coincidences", crossed.crossed("tilted-coincidences"), 370, tilted=True, times=2),
     Family("tilted-strata", border_lines.tilted, 200, tilted=True, times=10),
+    Family("tilted-one-number-changed", tilted.one_number_changed, tilted=True),
     Family("extreme-tilted", tilted.whole_domain, 120, tilted=True, extreme=True),
 )
 """Those of spheroids whose axis may point anywhere: rows of ten numbers."""
@@ -117,11 +118,18 @@ SWEEP_FAMILIES = _table(
     Family("way-short", sweeps.very_short, 108, layout=SWEEPS),
     Family("way-stiff", sweeps.stiff, 108, layout=SWEEPS),
     Family("way-small-integers", sweeps.small_integers, 108, layout=SWEEPS),
+    Family("way-one-number-changed", sweeps.one_number_changed(sweeps.at_an_end, 10), layout=SWEEPS),
     Family("way-coincidences", crossed.crossed("way-coincidences"), 353, layout=SWEEPS),
     Family("tilted-way-uniform", sweeps.tilted_uniform, 40, layout=SWEEPS, tilted=True),
     Family("tilted-way-end", sweeps.tilted_end, 40, layout=SWEEPS, tilted=True),
     Family("tilted-way-ring", sweeps.tilted_ring, 40, layout=SWEEPS, tilted=True),
     Family("tilted-way-small-integers", sweeps.tilted_integers, 40, layout=SWEEPS, tilted=True),
+    Family(
+        "tilted-way-one-number-changed",
+        sweeps.one_number_changed(sweeps.tilted_end, 13),
+        layout=SWEEPS,
+        tilted=True,
+    ),
     Family(
         "tilted-way-coincidences", crossed.crossed("tilted-way-coincidences"), 80, layout=SWEEPS, tilted=True, times=3
     ),

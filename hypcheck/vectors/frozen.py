@@ -7,6 +7,7 @@ but neither sympy nor mpmath.
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -25,23 +26,29 @@ from hypcheck.vectors.families import (
     SWEEP_FAMILIES,
     TILTED_FAMILIES,
 )
-from hypcheck.vectors.family import Metadata, described
+from hypcheck.vectors.family import Family, Metadata, described
 from hypcheck.vectors.format import CaseFile
 from hypcheck.vectors.invalid_rows import ENDED_INVALID, INVALID_NAMES
 
-NAMES = (*FAMILIES, cancellation.NAME)
+
+def _files_of(families: Mapping[str, Family]) -> tuple[str, ...]:
+    """The names of the families that have frozen rows."""
+    return tuple(name for name, family in families.items() if family.frozen)
+
+
+NAMES = (*_files_of(FAMILIES), cancellation.NAME)
 """The files of upright spheroids with answers; INVALID_CONTENTS names those of rows without."""
 
-TILTED_NAMES = tuple(TILTED_FAMILIES)
+TILTED_NAMES = _files_of(TILTED_FAMILIES)
 """Those of tilted spheroids."""
 
-SWEEP_NAMES = tuple(SWEEP_FAMILIES)
+SWEEP_NAMES = _files_of(SWEEP_FAMILIES)
 """Those of sweeps; the rows of names that begin with tilted have an axis."""
 
-ENDED_NAMES = tuple(ENDED_FAMILIES)
+ENDED_NAMES = _files_of(ENDED_FAMILIES)
 """Those of hyperboloids that end, upright and tilted."""
 
-ENDED_SWEEP_NAMES = tuple(ENDED_SWEEP_FAMILIES)
+ENDED_SWEEP_NAMES = _files_of(ENDED_SWEEP_FAMILIES)
 """Those of sweeps beside hyperboloids that end."""
 
 ALL_NAMES = (

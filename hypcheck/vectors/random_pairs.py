@@ -11,6 +11,7 @@ the forest of section 3.1, the cooling tower of sections 3.2 and 4, its rotors a
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -211,13 +212,36 @@ def one_number_changed(draw: Draw, n: int) -> Rows:
     pairs = -(-n // TURN)
     size = sizes(draw, *all_regimes(draw, pairs))
     offset = draw.signs(pairs) * (1 + draw.signs(pairs) * draw.log_uniform(pairs, -14, -6))
-    row = np.repeat(beside(draw, size, heights(draw, size.c), offset), TURN, axis=0)[:n]
-    factor = 1 + draw.signs(n) * draw.log_uniform(n, -4, 0)
-    turn, column = (np.arange(n) % TURN)[:, None], np.arange(len(COLUMNS))
-    changed_now = (turn % 2 == 1) & (column == turn // 2)
-    changed_before = column < turn // 2
-    ulp_up = stepped(row, np.ones(row.shape, dtype=np.int64))
-    return np.where(changed_now, row * factor[:, None], np.where(changed_before, ulp_up, row))
+    rows = np.repeat(beside(draw, size, heights(draw, size.c), offset), TURN, axis=0)[:n]
+    return changed_in_turn(rows, by_sixteenths(draw, rows), range(len(COLUMNS)))
+
+
+def by_sixteenths(draw: Draw, rows: Rows) -> Rows:
+    """The rows with all numbers changed by one factor, 1/16 or more from 1."""
+    n = len(rows)
+    return np.asarray(rows * (1 + draw.signs(n) * draw.log_uniform(n, -4, 0))[:, None])
+
+
+def repeated(pairs: Rows, columns: Sequence[int], n: int, centres: int = 6) -> Rows:
+    """n rows, each pair 2·len(columns) times; zeros in its `centres` coordinates, which no factor changes, are b/64."""
+    places = pairs[:, 4 : 4 + centres]
+    full = np.where(places == 0, pairs[:, 2:3] / 64, places)
+    pairs = np.concatenate([pairs[:, :4], full, pairs[:, 4 + centres :]], axis=1)
+    return np.repeat(pairs, 2 * len(columns), axis=0)[:n]
+
+
+def changed_in_turn(rows: Rows, others: Rows, columns: Sequence[int]) -> Rows:
+    """The rows, of which each 2·len(columns) are equal, with one number changed from each row to the next.
+
+    In every second row a column has the number of `others`, one column after the other; from then on it is an ulp
+    larger than before.
+    """
+    place = np.full(rows.shape[1], len(columns))
+    place[list(columns)] = np.arange(len(columns))
+    turn = (np.arange(len(rows)) % (2 * len(columns)))[:, None]
+    ulp_up = stepped(rows, np.ones(rows.shape, dtype=np.int64))
+    changed_now = (turn % 2 == 1) & (place == turn // 2)
+    return np.where(changed_now, others, np.where(place < turn // 2, ulp_up, rows))
 
 
 TOWER = (2.0, 17.8)

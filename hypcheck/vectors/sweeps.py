@@ -15,8 +15,19 @@ from hypcheck.truth.passage_error import hits_at_size
 from hypcheck.vectors import double_roots, random_pairs, tilted
 from hypcheck.vectors.coincidences import tangent
 from hypcheck.vectors.double_roots import gather, gathered, in_metres
-from hypcheck.vectors.draw import Draw, in_turn, ldexp, turns
-from hypcheck.vectors.random_pairs import BODY, TOWER, Sizes, all_regimes, heights, offsets, sizes
+from hypcheck.vectors.draw import Draw, Maker, in_turn, ldexp, turns
+from hypcheck.vectors.random_pairs import (
+    BODY,
+    TOWER,
+    Sizes,
+    all_regimes,
+    by_sixteenths,
+    changed_in_turn,
+    heights,
+    offsets,
+    repeated,
+    sizes,
+)
 
 CENTRE = slice(4, 7)
 """The columns of the centre, or of the first end of a sweep."""
@@ -152,6 +163,16 @@ def tilted_end(draw: Draw, n: int) -> Rows:
     backward = turns(n, False, False, True, True)
     sweeps[backward, 4:7], sweeps[backward, 7:10] = sweeps[backward, 7:10], sweeps[backward, 4:7]
     return sweeps
+
+
+def one_number_changed(ends: Maker, columns: int) -> Maker:
+    """As in random_pairs, of sweeps with a tangency at one end."""
+
+    def make(draw: Draw, n: int) -> Rows:
+        rows = repeated(ends(draw, -(-n // (2 * columns))), range(columns), n)
+        return changed_in_turn(rows, by_sixteenths(draw, rows), range(columns))
+
+    return make
 
 
 def tilted_ring(draw: Draw, n: int) -> Rows:

@@ -20,6 +20,7 @@ from functools import reduce
 
 import numpy as np
 
+from hypcheck.geometry.pair import TILTED_COLUMNS
 from hypcheck.geometry.rows import Floats, Mask, Rows
 from hypcheck.truth.rationals import dot
 from hypcheck.vectors.double_roots import (
@@ -33,7 +34,18 @@ from hypcheck.vectors.double_roots import (
     turned,
 )
 from hypcheck.vectors.draw import Draw, Maker, circle_at, in_turn, ldexp, stepped, turns
-from hypcheck.vectors.random_pairs import BODY, TOWER, Sizes, all_regimes, heights, offsets, sizes
+from hypcheck.vectors.random_pairs import (
+    BODY,
+    TOWER,
+    Sizes,
+    all_regimes,
+    by_sixteenths,
+    changed_in_turn,
+    heights,
+    offsets,
+    repeated,
+    sizes,
+)
 
 Vectors = tuple[Floats, Floats, Floats]
 """x, y, z, each (n,)."""
@@ -114,6 +126,16 @@ def near_contact(draw: Draw, n: int) -> Rows:
     """From 2⁻⁵² to 2⁻⁴ radii off contact, everywhere."""
     size, height = _ordinary(draw, n)
     return beside(draw, size, height, anywhere(draw, n), _nearly(draw, n))
+
+
+def one_number_changed(draw: Draw, n: int) -> Rows:
+    """As in random_pairs, with the three numbers of the axis."""
+    columns = range(len(TILTED_COLUMNS))
+    pairs = -(-n // (2 * len(columns)))
+    size, height = _ordinary(draw, pairs)
+    rows = beside(draw, size, height, anywhere(draw, pairs), _nearly(draw, pairs, -14, -6))
+    rows = repeated(rows, columns, n, centres=3)
+    return changed_in_turn(rows, by_sixteenths(draw, rows), columns)
 
 
 def horizontal(draw: Draw, n: int) -> Rows:

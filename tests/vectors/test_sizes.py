@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 
 import numpy as np
 import pytest
 
 from hypcheck.geometry.rows import ORDINARY_MAGNITUDE, ORDINARY_RATIO, within
-from hypcheck.vectors import random_pairs
-from hypcheck.vectors.families import FAMILIES
+from hypcheck.truth.passage_error import passage_of
+from hypcheck.vectors import ended, ended_sweeps
+from hypcheck.vectors.families import ALL, FAMILIES
 from tests.support import inside
 from tests.vectors.case_rows import COUNT, ratios
 
@@ -95,15 +97,32 @@ def test_whole_domain_family_has_every_position_in_each_regime_and_near_its_ends
     assert min(Counter(found[far].tolist()).values()) > 100
 
 
-def test_one_number_changed_family_changes_one_number_from_row_to_row() -> None:
-    rows = FAMILIES["one-number-changed"].rows(0, 60 * random_pairs.TURN)
-    turns = rows.reshape(60, random_pairs.TURN, 7)
+@pytest.mark.parametrize(
+    ("name", "changing", "least"),
+    [
+        ("one-number-changed", range(7), 6),
+        ("tilted-one-number-changed", range(10), 6),
+        ("ended-one-number-changed", ended.CHANGED, 6),
+        ("way-one-number-changed", range(10), 3),
+        ("tilted-way-one-number-changed", range(13), 1),
+        ("ended-way-one-number-changed", ended_sweeps.CHANGED, 0),
+    ],
+)
+def test_one_number_changed_families_change_one_number_from_row_to_row(
+    name: str, changing: Sequence[int], least: int
+) -> None:
+    turn = 2 * len(changing)
+    pairs = 1024 // turn if least else 20
+    rows = ALL[name].rows(0, pairs * turn)
+    turns = rows.reshape(pairs, turn, -1)
     changed = turns[:, 1:] != turns[:, :-1]
     assert (changed.sum(axis=2) <= 1).all()
-    answers = inside.positions(rows).reshape(60, random_pairs.TURN)
-    for column in range(7):
-        assert (changed[:, 2 * column, column] | (turns[:, 0, column] == 0)).all()
-        assert (answers[:, 2 * column] != answers[:, 2 * column + 1]).sum() >= 6
+    for place, column in enumerate(changing):
+        assert (changed[:, 2 * place, column] | (turns[:, 0, column] == 0)).all()
+    if least:
+        answers = [passage_of(tuple(row)).hit for row in rows.tolist()] if "way" in name else inside.positions(rows)
+        before, after = np.asarray(answers).reshape(pairs, -1, 2).T
+        assert ((before != after).sum(axis=1) >= least).all()
 
 
 def test_small_integers_come_in_quartets_of_the_same_numbers_many_of_them_equal() -> None:

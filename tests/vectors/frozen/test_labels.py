@@ -292,7 +292,9 @@ def test_freezing_keeps_ids_of_old_invalid_rows_and_appends_new_ones():
 
 
 def test_freezing_has_a_count_for_every_family_and_a_search_for_every_stratum():
-    assert all(family.frozen for family in ALL.values())
+    assert {name for name, family in ALL.items() if not family.frozen} == {
+        f"{kind}-one-number-changed" for kind in ("tilted", "way", "tilted-way", "ended", "ended-way")
+    }
     assert set(STRATA) <= set(FAMILIES)
     assert len(searches()) == len(DEFEATED) * 2 * len(STRATA) * BEGINNINGS
 

@@ -10,6 +10,7 @@ from hypcheck.cli.main import main
 from hypcheck.vectors import family, fixed_sizes, frozen
 from hypcheck.vectors.cases import cases_text
 from hypcheck.vectors.checking import wrong_description, wrong_meanings
+from hypcheck.vectors.families import ALL
 from hypcheck.vectors.flags import FLAGS, SWEEP_FLAGS, TILTED_FLAGS
 from hypcheck.vectors.invalid_rows import INVALID_CONTENTS
 
@@ -79,8 +80,8 @@ def test_messages_quote_the_beginning_of_a_long_value(tmp_path, capsys):
 
 
 def test_every_family_and_file_has_a_description_and_every_description_is_used():
-    traps = (*fixed_sizes.TRAPS, *fixed_sizes.TILTED_TRAPS)
-    assert sorted(family.descriptions()) == sorted([*frozen.ALL_NAMES, *traps, "found"])
+    names = {*ALL, *frozen.ALL_NAMES, *fixed_sizes.TRAPS, *fixed_sizes.TILTED_TRAPS, "found"}
+    assert sorted(family.descriptions()) == sorted(names)
     for name in family.descriptions():
         assert all(vars(family.described(name, "a command", extreme=True)).values())
 
