@@ -27,7 +27,7 @@ Record function := Function { returns : kind; parameters : list (kind * string);
 
 Definition type_of w := look w [("int", Int); ("uint64_t", U64); ("hc_wide", Wide)].
 Definition kind_of w := match type_of w with Some t => Some (Plain t) | None => look w [("hc_fixed", Struct 2); ("hc_long", Struct 4)] end.
-Definition precedence o := look o [("*", 10%nat); ("+", 9); ("-", 9); ("<<", 8); (">>", 8); ("<", 7); (">", 7); ("<=", 7); (">=", 7);
+Definition precedence o := look o [("*", 10%nat); ("/", 10); ("+", 9); ("-", 9); ("<<", 8); (">>", 8); ("<", 7); (">", 7); ("<=", 7); (">=", 7);
   ("==", 6); ("!=", 6); ("&", 5); ("^", 4); ("|", 3); ("&&", 2); ("||", 1)]%nat.
 Definition unary := 11%nat.
 
@@ -37,10 +37,11 @@ Fixpoint hexadecimal (s : string) (known : Z) : option Z := match s with
     if Nat.leb 48 n && Nat.leb n 57 then hexadecimal rest (16 * known + Z.of_nat n - 48)
     else if Nat.leb 97 n && Nat.leb n 102 then hexadecimal rest (16 * known + Z.of_nat n - 87) else None end.
 
-(** "left.high" is a part of left. *)
+(** "left.high" is a part of left; another field is a name with a dot. *)
 Fixpoint named (s before : string) : option expression := match s with
   | EmptyString => Some (Named before)
-  | String "." rest => look rest [("low", Part (Named before) (Constant Int 0)); ("high", Part (Named before) (Constant Int 1)); ("words", Named before)]
+  | String "." rest => match look rest [("low", Part (Named before) (Constant Int 0)); ("high", Part (Named before) (Constant Int 1)); ("words", Named before)] with
+    | Some e => Some e | None => named rest (before ++ ".") end
   | String c rest => named rest (before ++ String c "") end.
 
 Definition atom (w : string) : option expression := match w with
@@ -65,6 +66,7 @@ Fixpoint expression_of (fuel least : nat) (ws : list string) : option (expressio
     try (e, ws') <- (
       if is "{" w then try (l, more) <- listed_to f "}" rest; Some (Braces l, more)
       else if is "-" w then try (e, more) <- expression_of f unary rest; Some (Infix "-" (Constant Int 0) e, more)
+      else if is "!" w then try (e, more) <- expression_of f unary rest; Some (Infix "==" e (Constant Int 0), more)
       else if is "(" w then
         match (match behind [""; ")"] rest with Some ([t], more) => try k <- type_of t; Some (k, more) | _ => None end) with
         | Some (t, more) => try (e, more') <- expression_of f unary more; Some (As t e, more')

@@ -146,18 +146,22 @@ Proof.
   rewrite plus_is_right, E by assumption; rewrite Z.add_mod_idemp_l by discriminate; f_equal; ring.
 Qed.
 
-Theorem times_text k n : is_number n -> In k [2; 3; 4; 9] -> exists m, called "hc_fixed_times" [Val Int k; record n] = Some (record m)
-  /\ is_number m /\ pattern m = (k * pattern n) mod bits128.
+Definition times_of k n := let m := shifted_up n (if k =? 9 then 3 else if k =? 4 then 2 else 1) in if Z.odd k then plus m n else m.
+Definition factors := [2; 3; 4; 9].
+Theorem times_text k n : In k factors -> called "hc_fixed_times" [Val Int k; record n] = Some (record (times_of k n)).
 Proof.
-  intros N K; exists (let m := shifted_up n (if k =? 9 then 3 else if k =? 4 then 2 else 1) in if Z.odd k then plus m n else m).
-  destruct K as [<- | [<- | [<- | [<- | []]]]]; cbn [Z.eqb Z.odd Pos.eqb]; cbv zeta;
-    (split; [| first [exact (once_more n _ N) | rewrite Z.mul_comm; exact (up_is_right n _)]]).
-  all: destruct n as [a b]; run; cbv [same chosen Z.eqb Pos.eqb Z.land Pos.land]; further; defined.
+  intros K; destruct n as [a b]; destruct K as [<- | [<- | [<- | [<- | []]]]];
+    unfold times_of; cbn [Z.eqb Z.odd Pos.eqb]; cbv zeta; run; cbv [same chosen Z.eqb Pos.eqb Z.land Pos.land]; further; defined.
   all: match goal with |- context [shifted_up ?m ?k] => destruct (shifted_up m k) end; alike.
+Qed.
+Theorem times_is_right k n : is_number n -> In k factors -> is_number (times_of k n) /\ pattern (times_of k n) = (k * pattern n) mod bits128.
+Proof.
+  intros N K; destruct K as [<- | [<- | [<- | [<- | []]]]]; unfold times_of; cbn [Z.eqb Z.odd Pos.eqb]; cbv zeta;
+    first [exact (once_more n _ N) | rewrite Z.mul_comm; exact (up_is_right n _)].
 Qed.
 
 (** The factors in the C. *)
-Theorem factors_are_known : forallb (fun s => match call_of s with Times k _ => existsb (Z.eqb k) [2; 3; 4; 9] | _ => true end)
+Theorem factors_are_known : forallb (fun s => match call_of s with Times k _ => existsb (Z.eqb k) factors | _ => true end)
   (C_terms ++ C_discriminant ++ C_at_B ++ C_at_A)%list = true.
 Proof. vm_compute; reflexivity. Qed.
 

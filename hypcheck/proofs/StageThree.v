@@ -222,14 +222,6 @@ Proof.
       generalize dependent (IZR (2 ^ shift "by_q")); intros; field; repeat split; lra.
 Qed.
 
-(** The balanced numbers of the discriminant: multiples, by powers of two, of the same N, n2, n1 and ps. *)
-Variables (num' : string -> number) (x' : string -> R) (shift' : string -> Z) (grown : Z).
-Hypotheses (Grown : (0 <= grown <= most_grown)%Z) (Balanced : all_hold num' x' (balanced grown))
-  (Discriminant : Forall (runs num' x' shift') C_discriminant).
-Variables m r N : R.
-Hypotheses (N0 : 0 < N) (M0 : 0 < m) (R0 : 0 < r) (XN : x' "N" = m * r ^ 3 * N) (X2 : x' "n2" = m * r ^ 2 * (N * c2 A B P Q))
-  (X1 : x' "n1" = m * r * (N * c1 A B P Q)) (XP : x' "ps" = m * - (N * c0 A B P Q)).
-
 (** What the C answers by the signs; nothing where they do not tell. *)
 Definition fixed_answer (delta c2 c1 offset_B slope_B offset_A slope_A middle : comparison) (wide : bool) : option answer :=
   match delta, c2, c1 with
@@ -259,15 +251,16 @@ Proof.
   - destruct (Z.ltb_spec (signed_value n) (- bound - 1)) as [H | _]; [| exact I]; assert (H' : (signed_value n < - bound)%Z) by lia; apply G2 in H'; apply Rmult_lt_reg_l with j; lra.
 Qed.
 
-(** Stage 3 of the C answers with the position. *)
-Theorem stage_three_is_right (wide : bool) a : (wide = true -> b <= alpha) ->
-  fixed_answer (sign_of (num' "delta") (said "delta" * 2 ^ grown)) (sign_of (num "n2") (said "coefficient"))
+(** What the signs answer is the position, whatever tells the sign of the discriminant, and that g > 0 at its inflection. *)
+Theorem signs_are_right (sD sM : comparison) (wide : bool) a :
+  match sD with Gt => 0 < delta A B P Q | Lt => delta A B P Q < 0 | Eq => True end ->
+  (sM = Gt -> 0 < g A B P Q (- c2 A B P Q / 3)) -> (wide = true -> b <= alpha) ->
+  fixed_answer sD (sign_of (num "n2") (said "coefficient"))
     (sign_of (num "n1") (said "coefficient")) (sign_of (num "offset_at_B") (said "pole")) (sign_of (num "slope_at_B") (said "pole"))
-    (sign_of (num "offset_at_A") (said "pole")) (sign_of (num "slope_at_A") (said "pole"))
-    (sign_of (num' "middle") (said "middle" * 2 ^ grown)) wide = Some a ->
+    (sign_of (num "offset_at_A") (said "pole")) (sign_of (num "slope_at_A") (said "pole")) sM wide = Some a ->
   is_position (upright alpha gamma b d cx cy cz) a.
 Proof.
-  intros Wide F; apply (whatever_stage_answers alpha gamma b d cx cy cz Ha Hg Hb Hd).
+  intros KD KM Wide F; apply (whatever_stage_answers alpha gamma b d cx cy cz Ha Hg Hb Hd).
   destruct exact_at_the_poles as (E2 & E1 & EoB & EsB & EoA & EsA).
   assert (u0 : 0 < unit) by (apply IZR_lt; reflexivity); assert (c0 : 0 < scale).
   { assert (0 < b ^ 2) by (apply pow_lt; exact Hb); assert (0 < d ^ 2) by (apply pow_lt; exact Hd).
@@ -284,18 +277,12 @@ Proof.
   pose proof (by_sign _ _ _ _ _ (over _ _ kt f2) EsB (sign_at_a_pole "slope_at_B" ltac:(cbn; tauto))) as KsB.
   pose proof (by_sign _ _ _ _ _ (over _ _ ks u0) EoA (sign_at_a_pole "offset_at_A" ltac:(cbn; tauto))) as KoA.
   pose proof (by_sign _ _ _ _ _ (over _ _ kq f2) EsA (sign_at_a_pole "slope_at_A" ltac:(cbn; tauto))) as KsA.
-  pose proof (delta_decides num' x' shift' Discriminant A B P Q N m r N0 M0 R0 XN X2 X1 XP grown Grown Balanced) as D.
-  pose proof (by_sign _ _ (delta A B P Q) (delta A B P Q) 1 Rlt_0_1 ltac:(ring) D) as KD; clear D.
-  assert (KM : sign_of (num' "middle") (said "middle" * 2 ^ grown) = Gt -> 0 < g A B P Q (- c2 A B P Q / 3)).
-  { intros H; apply (middle_decides num' x' shift' Discriminant A B P Q N m r N0 M0 R0 XN X2 X1 XP grown Grown Balanced).
-    revert H; unfold sign_of; match goal with |- context [Z.ltb ?v ?w] => destruct (Z.ltb_spec v w) end; [auto |].
-    match goal with |- context [if ?c then _ else _] => destruct c; discriminate end. }
   revert F K2 K1 KoB KsB KoA KsA KD KM.
-  generalize (sign_of (num' "delta") (said "delta" * 2 ^ grown)) as sD; generalize (sign_of (num "n2") (said "coefficient")) as s2;
+  generalize (sign_of (num "n2") (said "coefficient")) as s2;
     generalize (sign_of (num "n1") (said "coefficient")) as s1; generalize (sign_of (num "offset_at_B") (said "pole")) as oB;
     generalize (sign_of (num "slope_at_B") (said "pole")) as sB; generalize (sign_of (num "offset_at_A") (said "pole")) as oA;
-    generalize (sign_of (num "slope_at_A") (said "pole")) as sA; generalize (sign_of (num' "middle") (said "middle" * 2 ^ grown)) as sM.
-  clear - Ha Hg Hb Hd Wide certain_positive certain_negative; intros sM sA oA sB oB s1 s2 sD F K2 K1 KoB KsB KoA KsA KD KM.
+    generalize (sign_of (num "slope_at_A") (said "pole")) as sA.
+  clear - Ha Hg Hb Hd Wide certain_positive certain_negative; intros sA oA sB oB s1 s2 F K2 K1 KoB KsB KoA KsA KD KM.
   assert (C1 : sD = Lt -> certainly_negative (3 * delta A B P Q)) by (intros ->; apply certain_negative; lra).
   assert (C2 : sD = Gt -> certainly_positive (3 * delta A B P Q)) by (intros ->; apply certain_positive; lra).
   assert (N2 : s2 = Lt -> certainly_negative (c2 A B P Q)) by (intros ->; auto).
@@ -323,6 +310,30 @@ Proof.
     destruct oB, sB, sM; try discriminate; injection F as <-; try (apply groove; auto; fail); apply inflection; auto.
   - destruct s2, s1; try discriminate; try (apply away; [auto | exact F | discriminate]).
     destruct oB, sB, sM; try discriminate; injection F as <-; try (apply groove; auto; fail); apply by_coefficients_exterior; auto.
+Qed.
+
+(** The balanced numbers of the discriminant: multiples, by powers of two, of the same N, n2, n1 and ps. *)
+Variables (num' : string -> number) (x' : string -> R) (shift' : string -> Z) (grown : Z).
+Hypotheses (Grown : (0 <= grown <= most_grown)%Z) (Balanced : all_hold num' x' (balanced grown))
+  (Discriminant : Forall (runs num' x' shift') C_discriminant).
+Variables m r N : R.
+Hypotheses (N0 : 0 < N) (M0 : 0 < m) (R0 : 0 < r) (XN : x' "N" = m * r ^ 3 * N) (X2 : x' "n2" = m * r ^ 2 * (N * c2 A B P Q))
+  (X1 : x' "n1" = m * r * (N * c1 A B P Q)) (XP : x' "ps" = m * - (N * c0 A B P Q)).
+
+(** Stage 3 of the C answers with the position. *)
+Theorem stage_three_is_right (wide : bool) a : (wide = true -> b <= alpha) ->
+  fixed_answer (sign_of (num' "delta") (said "delta" * 2 ^ grown)) (sign_of (num "n2") (said "coefficient"))
+    (sign_of (num "n1") (said "coefficient")) (sign_of (num "offset_at_B") (said "pole")) (sign_of (num "slope_at_B") (said "pole"))
+    (sign_of (num "offset_at_A") (said "pole")) (sign_of (num "slope_at_A") (said "pole"))
+    (sign_of (num' "middle") (said "middle" * 2 ^ grown)) wide = Some a ->
+  is_position (upright alpha gamma b d cx cy cz) a.
+Proof.
+  intros Wide F; refine (signs_are_right _ _ wide a _ _ Wide F).
+  - pose proof (delta_decides num' x' shift' Discriminant A B P Q N m r N0 M0 R0 XN X2 X1 XP grown Grown Balanced) as D.
+    exact (by_sign _ _ (delta A B P Q) (delta A B P Q) 1 Rlt_0_1 ltac:(ring) D).
+  - intros H; apply (middle_decides num' x' shift' Discriminant A B P Q N m r N0 M0 R0 XN X2 X1 XP grown Grown Balanced).
+    revert H; unfold sign_of; match goal with |- context [Z.ltb ?v ?w] => destruct (Z.ltb_spec v w) end; [auto |].
+    match goal with |- context [if ?c then _ else _] => destruct c; discriminate end.
 Qed.
 
 End Poles.

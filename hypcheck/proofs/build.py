@@ -56,8 +56,10 @@ PRINTED = ("Steps", "Programs", HEADER_TEXT, "Printed", "Fixed", "FixedRuns", "R
 COMPOSED = (
     *("Stages", "StageTwoAnswers", "Underflow", "StageOne", "StageTwoRuns"),
     *("StageThree", "StageFive", "Long", "StageFour", "Limbs", "LimbsRuns", "ShiftRuns"),
+    *("Trees", "Computed", "StageThreeRuns", "StageThreeAnswers"),
 )
-"""All stages in one theorem, Stages.whatever_stage_answers; from a stage's numbers to the position; the C of words."""
+"""All stages in one theorem, Stages.whatever_stage_answers; from a stage's numbers to the position; the C of words; the
+functions of the C that decide."""
 
 OF_STAGES = ("Stages", "StageTwoAnswers", "StageThree", "StageFive", "StageFour")
 """The files whose theorems say that what a stage answers is the position."""
@@ -313,6 +315,13 @@ def changed_functions() -> tuple[Weakened, ...]:
     """LimbsRuns.v or ShiftRuns.v with one change of a function of words that it speaks of; each must be refused."""
     changes = printed_c.function_changes()
     return tuple(Weakened(printed_c.PROVED_IN[name], "HeaderText.functions", new, what) for name, new, what in changes)
+
+
+@cache
+def changed_decisions() -> tuple[Weakened, ...]:
+    """StageThreeRuns.v or StageThreeAnswers.v with one change of a function that decides; each must be refused."""
+    changes = printed_c.deciding_changes()
+    return tuple(Weakened(printed_c.PROVED_IN[name], "HeaderText.deciding", new, what) for name, new, what in changes)
 
 
 CONTROL = Weakened("Checker", "Definition less", "Definition less", "nothing")

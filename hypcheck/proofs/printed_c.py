@@ -32,9 +32,26 @@ _SHIFTS_AND_SIGNS = (
 FUNCTIONS = (*_SUMS_AND_PRODUCTS, *_SHIFTS_AND_SIGNS)
 """The functions of the header that compute with numbers of 128 and 256 bits."""
 
+DECIDING = (
+    *(
+        "hc_fixed_whole",
+        "hc_fixed_terms_of",
+        "hc_fixed_cubic_of",
+        "hc_fixed_at_B",
+        "hc_fixed_at_A",
+        "hc_fixed_position",
+    ),
+)
+"""The functions of the header that decide: with branches, shift counts and calls."""
+
+MACROS = ("HC_MAX_OF", "HC_MIN_OF")
+"""The macros of two ints that they use, read as functions."""
+
 PROVED_IN = {
     **dict.fromkeys(_SUMS_AND_PRODUCTS, "LimbsRuns"),
     **dict.fromkeys(_SHIFTS_AND_SIGNS, "ShiftRuns"),
+    **dict.fromkeys((*MACROS, "hc_fixed_whole", "hc_fixed_terms_of"), "StageThreeRuns"),
+    **dict.fromkeys(DECIDING[2:], "StageThreeAnswers"),
 }
 """The Coq file that says what each of them computes."""
 
@@ -72,8 +89,8 @@ _WORD = {
 _CHANGED = re.compile(
     r"(?<= )(?:[-+*&^|<>]|<<|>>|[-+]=|[=!]=|&&|\|\|)(?= )|(?<![\w.])(?<![^{]\{)\d+\b(?!}}|, 0}})|\.(?:low|high)\b"
 )
-_MEANS_THE_SAME = ("by < 128 ?", "mask << 0 <<")
-"""Changes of hc_fixed_down that change no value: 127 bits, and the sign in a bit that already has it."""
+_MEANS_THE_SAME = ("by < 128 ?", "mask << 0 <<", "*about = delta ? 1")
+"""Changes of hc_fixed_down that change no value, 127 bits and the sign in a bit that already has it; and a guess."""
 
 _DEFINED = re.compile(r"^(?:const \w+ |HC_INTEGER\()(\w+)", re.MULTILINE)
 _STATEMENT = re.compile(r"const \w+ \w+ = |HC_INTEGER\(\w+, \d+\); ")
@@ -93,7 +110,18 @@ def parts(header: str) -> list[tuple[str, str]]:
 
 def functions(header: str) -> list[str]:
     """The texts of the functions that compute with words."""
-    found = [re.search(_FUNCTION.format(name), header, re.MULTILINE | re.DOTALL) for name in FUNCTIONS]
+    return _texts(FUNCTIONS, header)
+
+
+def deciding(header: str) -> list[str]:
+    """The texts of the functions that decide, the macros that they use written as functions."""
+    macros = [re.search(rf"^#define ({name})\(a, b\) (.*)$", header, re.MULTILINE) for name in MACROS]
+    found = [f"static int {macro[1]}(int a, int b) {{ return {macro[2]}; }}" for macro in macros if macro]
+    return [*found, *_texts(DECIDING, header)]
+
+
+def _texts(names: tuple[str, ...], header: str) -> list[str]:
+    found = [re.search(_FUNCTION.format(name), header, re.MULTILINE | re.DOTALL) for name in names]
     return [text[0] for text in found if text]
 
 
@@ -102,11 +130,14 @@ def header_text() -> str:
     text = HEADER.read_text(encoding="utf-8")
     rows = ";\n".join(f"  ({_quoted(name)}, {_quoted(part)}%text)" for name, part in parts(text))
     bounds = "; ".join(f'("{name.lower()}", {value})' for name, value in _BOUND.findall(text))
-    words = ";\n".join(f"  {_quoted(function)}%text" for function in functions(text))
+    words, trees = (
+        ";\n".join(f"  {_quoted(function)}%text" for function in found) for found in (functions(text), deciding(text))
+    )
     return (
         f"From Hypcheck Require Import Steps.\n{_HEAD}Definition fixed_bounds : list (string * Z) := [{bounds}]%Z.\n"
         f"Definition texts : list (string * text) := [\n{rows}].\n"
         f"Definition functions : list text := [\n{words}].\n"
+        f"Definition deciding : list text := [\n{trees}].\n"
         "Definition parts := map (fun part => (fst part, string_of (snd part))) texts.\n"
     )
 
@@ -135,11 +166,21 @@ def function_changes() -> Iterator[tuple[str, str, str]]:
     another is put before it is read: the last two words of `{{0, 0, 0, 0}}`, the first of `{0, 0}`. Nor is what
     means the same.
     """
-    texts = functions(HEADER.read_text(encoding="utf-8"))
-    for place, (name, text) in enumerate(zip(FUNCTIONS, texts, strict=True)):
+    yield from _changes_of(FUNCTIONS, functions(HEADER.read_text(encoding="utf-8")))
+
+
+def deciding_changes() -> Iterator[tuple[str, str, str]]:
+    """The same of the functions that decide, and of the macros that they use."""
+    yield from _changes_of((*MACROS, *DECIDING), deciding(HEADER.read_text(encoding="utf-8")))
+
+
+def _changes_of(names: tuple[str, ...], texts: list[str]) -> Iterator[tuple[str, str, str]]:
+    for place, (name, text) in enumerate(zip(names, texts, strict=True)):
         start = text.index("\n", text.index("#if")) if "#if" in text else text.index("{") + 1
         stop = text.index("#else") if "#else" in text else len(text)
         for word in _CHANGED.finditer(text, start, stop):
+            if _is_remark(text, word.start()):
+                continue
             for new in [_WORD[word[0]]] if word[0] in _WORD else _numbers_beside(word[0]):
                 changed = text[: word.start()] + new + text[word.end() :]
                 if any(same in changed for same in _MEANS_THE_SAME):
@@ -147,6 +188,10 @@ def function_changes() -> Iterator[tuple[str, str, str]]:
                 listed = [*texts[:place], changed, *texts[place + 1 :]]
                 rows = "; ".join(f"text_of (list_byte_of_string {_quoted(row)})" for row in listed)
                 yield name, f"[{rows}]", f"{new} for {word[0]} in {name}, character {word.start()}"
+
+
+def _is_remark(text: str, at: int) -> bool:
+    return text.rfind("/*", 0, at) > text.rfind("*/", 0, at)
 
 
 def _numbers_beside(number: str) -> list[str]:

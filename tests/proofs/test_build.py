@@ -128,7 +128,7 @@ def test_prove_names_each_file_its_axioms_and_the_refused_statements(tools):
     total = sum(len(build.statements(name)) for name in build.FILES)
     assert lines[len(build.FILES)].startswith(f"{total} statements in ")
     made, given = len(weakenings.made(build.source)), "for a reason that is given"
-    assert lines[-9:] == [
+    assert lines[-10:] == [
         "    ClassicalDedekindReals.sig_not_dec",
         f"    {build.OF_FLOCQ} (Flocq alone)",
         "    FunctionalExtensionality.functional_extensionality_dep",
@@ -137,6 +137,7 @@ def test_prove_names_each_file_its_axioms_and_the_refused_statements(tools):
         f"{len(printed_c.changes(2, seed=45))} changes of the printed C are refused",
         f"{len(build.weakened())} weakened statements are written by hand; 2 are tried: all are refused",
         f"{len(build.changed_functions())} changes of the header's functions of words; 2 are tried: all are refused",
+        f"{len(build.changed_decisions())} changes of the header's functions that decide; 1 are tried: all are refused",
         f"{made} weakened statements are made by a program; 2 are tried: 2 are refused, 0 hold too, {given}",
     ]
     everything = (tools.built / "Assumptions.v").read_text(encoding="utf-8")
@@ -201,6 +202,18 @@ def test_each_function_of_words_is_changed_in_the_file_that_says_what_it_compute
     for change in build.changed_functions():
         name = re.search(r" in (\w+),", change.allows)[1]
         assert f'called "{name}"' in build.source(change.file)
+
+
+def test_changes_of_functions_that_decide_reach_every_function_in_the_file_that_runs_it():
+    texts = printed_c.deciding(printed_c.HEADER.read_text(encoding="utf-8"))
+    names = (*printed_c.MACROS, *printed_c.DECIDING)
+    assert [re.search(r"(\w+)\(", text)[1] for text in texts] == list(names)
+    found = build.changed_decisions()
+    assert {re.search(r" in (\w+),", change.allows)[1] for change in found} == set(names)
+    for change in found:
+        name = re.search(r" in (\w+),", change.allows)[1]
+        assert re.search(rf'(called|puts) functions [^"]*"{name}"', build.source(change.file))
+        assert build.source(change.file).count(change.old) == 1
 
 
 def test_prove_with_soundness_compiles_what_the_checker_rests_on_alone(tools):

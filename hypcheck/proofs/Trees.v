@@ -1,0 +1,155 @@
+(** Functions of the header that decide: Coq reads their text, with its branches, and runs it.
+
+    As in Limbs.v, but a number of words is one value, whatever its words are, structs have fields by name, and arguments that are
+    addresses of variables get what the function called puts there. A function that is called computes what is said of it. What is
+    read declares constants and variables, puts values into them, calls functions, branches and returns; loops are not read. *)
+
+Require Import List String Ascii ZArith Bool.
+From Hypcheck Require Import Steps Fixed Long Limbs.
+Import ListNotations.
+Open Scope string_scope.
+Open Scope Z_scope.
+
+(** ** The text. *)
+
+Inductive tree := Set_ (type : string) (n : string) (e : expression) (* "" for a variable that is there *)
+  | Calling (f : string) (given : list expression) | If (c : expression) (yes no : list tree) | Returns (e : expression).
+Record deciding := Deciding { takes : list string; does : list tree }.
+
+(** Fields of what a pointer leads to are named like others, and so is what it points at; an address is a name. *)
+Fixpoint tidy (ws : list string) : list string := match ws with
+  | w :: "->" :: field :: rest => (w ++ "." ++ field) :: tidy rest
+  | "(" :: "&" :: rest => "(" :: tidy rest
+  | "," :: "&" :: rest => "," :: tidy rest
+  | ";" :: "*" :: rest => ";" :: tidy rest
+  | w :: rest => w :: tidy rest
+  | [] => [] end.
+
+Definition types := ["int"; "uint64_t"; "double"; "hc_fixed"; "hc_long"; "hc_parts"; "hc_fixed_terms"; "hc_fixed_cubic"].
+
+(** Names behind a type, those with values; and assignments. *)
+Fixpoint names_of (fuel : nat) (t : string) (ws : list string) : option (list tree * list string) := match fuel, ws with
+  | S f, n :: rest =>
+    try (l, more) <- match behind ["="] rest with
+      | Some (_, value) => try (e, more) <- expression_of enough 0 value; Some ([Set_ t n e], more)
+      | None => if is "" t then None else Some ([], rest) end;
+    match behind [";"] more, behind [","] more with
+    | Some (_, last), _ => Some (l, last)
+    | _, Some (_, others) => try (k, last) <- names_of f t others; Some (l ++ k, last)%list
+    | _, _ => None end
+  | _, _ => None end.
+
+Fixpoint statement_of (fuel : nat) (ws : list string) : option (list tree * list string) := match fuel, ws with
+  | S f, w :: rest =>
+    if is "{" w then trees_of f rest
+    else if is "return" w then try (e, more) <- expression_to ";" rest; Some ([Returns e], more)
+    else if is "if" w then
+      try (_, inner) <- behind ["("] rest; try (c, more) <- expression_to ")" inner; try (yes, more') <- statement_of f more;
+      match behind ["else"] more' with
+      | Some (_, other) => try (no, last) <- statement_of f other; Some ([If c yes no], last)
+      | None => Some ([If c yes []], more') end
+    else if is "const" w then match rest with t :: names => if is_in t types then names_of enough t names else None | [] => None end
+    else if is_in w types then names_of enough w rest
+    else match behind ["("] rest with
+    | Some (_, inner) => try (l, more) <- listed_to enough ")" inner; try (_, last) <- behind [";"] more; Some ([Calling w l], last)
+    | None => names_of enough "" ws end
+  | _, _ => None end
+with trees_of (fuel : nat) (ws : list string) : option (list tree * list string) := match fuel, ws with
+  | S f, w :: rest => if is "}" w then Some ([], rest)
+    else try (l, more) <- statement_of f ws; try (k, last) <- trees_of f more; Some (l ++ k, last)%list
+  | _, _ => None end.
+
+(** The names of parameters: the last word of each, but for brackets. *)
+Fixpoint parameters_named (ws : list string) (last : string) : option (list string * list string) := match ws with
+  | "," :: rest => try (l, more) <- parameters_named rest ""; Some (last :: l, more)
+  | ")" :: "{" :: rest => Some ([last], rest)
+  | "[" :: _ :: "]" :: rest => parameters_named rest last
+  | "*" :: rest => parameters_named rest last
+  | w :: rest => parameters_named rest w
+  | [] => None end.
+
+Definition deciding_of (text : string) : option (string * deciding) := match without_storage (tidy (words text)) with
+  | _ :: n :: "(" :: rest => try (p, inner) <- parameters_named rest ""; try (l, last) <- trees_of (List.length inner) inner;
+    match last with [] => Some (n, Deciding p l) | _ => None end
+  | _ => None end.
+
+(** ** Its meaning. *)
+
+(** A double is a whole number times 2^(power - 1075). *)
+Inductive datum := Of (t : type) (z : Z) | Fix (n : number) | Lng (n : long) | Double (whole power : Z) | Rec (l : list (string * datum)).
+Definition environment := list (string * datum).
+
+Fixpoint prefixed (p s : string) : option string := match p, s with
+  | EmptyString, _ => Some s
+  | String a p', String c s' => if Ascii.eqb a c then prefixed p' s' else None
+  | _, _ => None end.
+Definition fields n (now : environment) := flat_map (fun v => match prefixed (n ++ ".") (fst v) with Some f => [(f, snd v)] | None => [] end) now.
+Definition bound n v (now : environment) : environment := match v with
+  | Rec l => app (map (fun f => (n ++ "." ++ fst f, snd f)) l) now | _ => (n, v) :: now end.
+
+Definition places := [(0, "0"); (1, "1"); (2, "2"); (3, "3"); (4, "4"); (5, "5"); (6, "6")].
+Definition place k := match find (fun p => fst p =? k) places with Some p => Some (snd p) | None => None end.
+
+(** Two doubles in one unit. *)
+Definition in_unit m e k := m * 2 ^ (e - Z.min e k).
+Definition compare_doubles o m e n k := let a := in_unit m e k in let b := in_unit n k e in
+  look o [("<", carry a b); (">", carry b a); ("<=", 1 - carry b a); (">=", 1 - carry a b); ("==", same a b); ("!=", 1 - same a b)].
+
+Definition plain_infix o t x u y : option datum := if String.eqb o "/" then
+    match t, u with Int, Int => if y =? 0 then None else try z <- made_of Int (Z.quot x y); Some (Of Int z) | _, _ => None end
+  else match infix_of o t x u y with Some (Val v z) => Some (Of v z) | _ => None end.
+
+Definition truth v := match v with Of _ z => Some (Of Int (if z =? 0 then 0 else 1)) | _ => None end.
+
+Section Meaning.
+Variable known : list (string * (list datum -> option datum)).
+(** So many arguments are values; what the others get. *)
+Variable procedures : list (string * (nat * (list datum -> option (list datum)))).
+
+Fixpoint eval (now : environment) (e : expression) : option datum := match e with
+  | Named n => match look n now with Some v => Some v | None => match fields n now with [] => None | l => Some (Rec l) end end
+  | Constant t z => Some (Of t z)
+  | Infix o l r => match eval now l with
+    | Some (Of t x) =>
+      if String.eqb o "&&" then if x =? 0 then Some (Of Int 0) else try v <- eval now r; truth v
+      else if String.eqb o "||" then if x =? 0 then try v <- eval now r; truth v else Some (Of Int 1)
+      else match eval now r with Some (Of u y) => plain_infix o t x u y | _ => None end
+    | Some (Double m k) => match eval now r with Some (Double n j) => try z <- compare_doubles o m k n j; Some (Of Int z) | _ => None end
+    | _ => None end
+  | Choice c a b => match eval now c with Some (Of _ z) => if z =? 0 then eval now b else eval now a | _ => None end
+  | Called f given => try m <- look f known; try l <- every (map (eval now) given); m l
+  | Part e i => match eval now i, eval now e with
+    | Some (Of Int k), Some (Fix n) => Some (Of U64 (if k =? 0 then low_word n else high_word n))
+    | Some (Of Int k), Some (Rec l) => try f <- place k; look f l
+    | _, _ => None end
+  | As t e => match eval now e with Some (Of u z) => try x <- converted u t z; Some (Of t x) | _ => None end
+  | Braces _ => None end.
+
+(** A value as a variable of a type holds it. *)
+Definition held t v := match t, v with
+  | "", _ => Some v
+  | "int", Of u z => try x <- converted u Int z; Some (Of Int x)
+  | "uint64_t", Of u z => try x <- converted u U64 z; Some (Of U64 x)
+  | "double", Double _ _ | "hc_fixed", Fix _ | "hc_long", Lng _ => Some v
+  | "hc_parts", Rec _ | "hc_fixed_terms", Rec _ | "hc_fixed_cubic", Rec _ => Some v
+  | _, _ => None end.
+Definition is_new t n (now : environment) := is "" t || match look n now with Some _ => false | None => true end.
+
+Fixpoint bound_all (given : list expression) (got : list datum) (now : environment) : option environment := match given, got with
+  | [], [] => Some now
+  | Named n :: given', v :: got' => bound_all given' got' (bound n v now)
+  | _, _ => None end.
+
+(** What is returned, if anything is, and the variables. *)
+Fixpoint go (fuel : nat) (now : environment) (l : list tree) : option (option datum * environment) := match fuel, l with
+  | S _, [] => Some (None, now)
+  | S _, Returns e :: _ => try v <- eval now e; Some (Some v, now)
+  | S f, Set_ t n e :: rest => if is_new t n now then try v <- eval now e; try w <- held t v; go f (bound n w now) rest else None
+  | S f, Calling g given :: rest => try (k, m) <- look g procedures; try l <- every (map (eval now) (firstn k given));
+    try got <- m l; try now' <- bound_all (skipn k given) got now; go f now' rest
+  | S f, If c yes no :: rest => match eval now c with
+    | Some (Of _ z) => go f now ((if z =? 0 then no else yes) ++ rest)%list | _ => None end
+  | O, _ => None end.
+
+Definition steps := 100%nat.
+End Meaning.
