@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import doctest
+import json
 import re
 import subprocess
 import sys
@@ -171,3 +172,19 @@ def test_first_sentences_say_position_relative_to_a_hyperboloid():
     for text in (about, helped, *(page.read_text("utf-8") for page in (ROOT / "README.md", ROOT / "cases/README.md"))):
         first = " ".join(text.split())[:400]
         assert re.search(r"position of a spheroid .*relative to a (circular )?hyperboloid", first), first
+
+
+@pytest.mark.parametrize(
+    ("words", "content"),
+    [
+        (r"more than ([\d,]+) certified vectors", "positions"),
+        (r"rows of ten numbers: more than ([\d,]+) further vectors", "tilted-positions"),
+    ],
+)
+def test_readme_says_in_thousands_how_many_frozen_vectors_an_implementation_is_asked(words, content):
+    (said,) = re.findall(words, " ".join((ROOT / "README.md").read_text("utf-8").split()))
+    files = [json.loads(path.read_text("utf-8")) for path in sorted((ROOT / "cases").glob("*.json"))]
+    asked = sum(
+        len(file["cases"]) for file in files if file.get("content") == content and not file["family"]["extreme"]
+    )
+    assert asked // 1000 == int(said.replace(",", "")) // 1000
