@@ -49,7 +49,7 @@ SLOW = {
     "implementations": "commands fcl_naive functions libraries processes",
     "kernel": "float_environment header languages parallel_lines sanitizers",
     "kernel/emission": "arithmetic conformance extremes foreign_text kernels limits prefix scenes text",
-    "paper": "ledger_cli ledger_formats ledger_leaning ledger_procedures ledger_search ledger_verdicts motion "
+    "paper": "ledger_cli ledger_formats ledger_tilted ledger_procedures ledger_search ledger_verdicts motion "
     "simulate_cli tower witnesses",
     "record": "integrity",
     "report": "browser cli_report github goldens hostile junit markdown page plots reference_bench scene_map "

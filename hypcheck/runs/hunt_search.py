@@ -27,7 +27,7 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck.geometry.pair import COLUMNS
+from hypcheck.geometry.pair import COLUMNS, HEIGHTS
 from hypcheck.geometry.rows import PAIRS, SWEEPS, FixedSizes, Floats, Layout, Mask, Positions, Rows, as_wide, invalid
 from hypcheck.runs.hunt import ClusterKey, Hunt
 from hypcheck.runs.judge import truth_of
@@ -63,17 +63,17 @@ RUNGS = 4 ** np.arange(EXPONENTS // 2, dtype=np.int64)
 """The rungs of a ladder, in ulp of the factor."""
 
 
-def columns_of(movers: NDArray[np.str_], numbers: int = len(COLUMNS)) -> Mask:
-    """The columns that the named movers multiply, as a mask (n, `numbers`); a row has 7 numbers by default."""
-    mask = np.zeros((len(movers), numbers), dtype=np.bool_)
-    for name, columns in _movers_of(numbers).items():
-        mask[np.ix_(movers == name, columns)] = True
+def columns_of(movers: NDArray[np.str_], columns: Sequence[str] = COLUMNS) -> Mask:
+    """The columns that the named movers multiply, as a mask (n, len(columns))."""
+    mask = np.zeros((len(movers), len(columns)), dtype=np.bool_)
+    for name, places in _movers_of(columns).items():
+        mask[np.ix_(movers == name, places)] = True
     return mask
 
 
-def _movers_of(numbers: int) -> dict[str, tuple[int, ...]]:
-    """The movers of a row with this many numbers: the unknowns that can be changed."""
-    return MOVERS | END_MOVERS if numbers == len(PAIRS.ended) else MOVERS
+def _movers_of(columns: Sequence[str]) -> dict[str, tuple[int, ...]]:
+    """The movers of rows with these columns: the unknowns that can be changed."""
+    return MOVERS if set(HEIGHTS).isdisjoint(columns) else MOVERS | END_MOVERS
 
 
 def moved(rows: Rows, mask: Mask, factor: Floats) -> Rows:
@@ -307,8 +307,9 @@ BROUGHT = 3
 def _borders(draw: Draw, rows: Rows, layout: Layout) -> tuple[Mask, Floats]:
     """The columns of each row that a factor can bring to the border of contact, and the factor; NaN if none can."""
     if not layout.has_end:
-        movers = list(_movers_of(rows.shape[1]))
-        mask = columns_of(np.asarray(movers)[draw.integers(len(rows), 0, len(movers) - 1)], rows.shape[1])
+        columns = layout.columns(rows.shape[1])
+        movers = list(_movers_of(columns))
+        mask = columns_of(np.asarray(movers)[draw.integers(len(rows), 0, len(movers) - 1)], columns)
         return mask, border_factors(rows, mask, draw.signs(len(rows)) > 0)
     mask, factors = np.zeros(rows.shape, dtype=np.bool_), np.full(len(rows), np.nan)
     mask[:, SIZE] = True

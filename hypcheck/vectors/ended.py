@@ -112,8 +112,8 @@ def with_one_number_changed(draw: Draw, pairs: Rows, columns: Sequence[int], n: 
     """n rows: each pair repeated, with one number changed from row to row; infinite ends are made finite before."""
     rows = repeated(pairs, columns, n, centres=pairs.shape[1] - 10)
     low, high, solid = rows[:, -3:].T
-    low = np.where(np.isinf(low), high - 4 * rows[:, 3], low)
-    high = np.where(np.isinf(high), low + 4 * rows[:, 3], high)
+    low = np.where(low == -np.inf, high - 4 * rows[:, 3], low)
+    high = np.where(high == np.inf, low + 4 * rows[:, 3], high)
     rows[:, -3:-1] = np.stack([low, high], axis=1)
     others, part = by_sixteenths(draw, rows), (high - low) * draw.signs(n) * draw.log_uniform(n, -4, -1)
     others[:, -3:] = np.stack([low + part, high - part, 1 - solid], axis=1)
