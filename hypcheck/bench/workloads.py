@@ -184,9 +184,7 @@ def _frozen_sweeps(_seed: int, count: int, *, tilted: bool) -> Rows:
 @cache
 def frozen_sweeps(tilted: bool) -> Rows:
     """The frozen sweeps of upright or of tilted spheroids, all families in turn."""
-    families = [
-        frozen.load(name).rows for name, family in SWEEP_FAMILIES.items() if family.frozen and family.tilted == tilted
-    ]
+    families = [frozen.load(name).rows for name in frozen.SWEEP_NAMES if SWEEP_FAMILIES[name].tilted == tilted]
     places = np.concatenate([np.arange(len(rows)) for rows in families])
     return np.concatenate(families)[np.argsort(places, kind="stable")]
 

@@ -34,7 +34,7 @@ Answers: TypeAlias = Any
 
 
 @dataclass(frozen=True)
-class Form:
+class CallForm:
     """How questions of one kind are written: the layout of their rows, the points behind the sizes, and a sentence.
 
     `points` stand for three columns each, in their order; `apart`: these columns may be given in place of the points.
@@ -53,7 +53,7 @@ class Form:
         return {**self.points, "axis": AXIS}
 
 
-PAIR = Form(
+PAIR = CallForm(
     PAIRS,
     {"center": CENTER},
     CENTER,
@@ -61,7 +61,7 @@ PAIR = Form(
     "(alpha, gamma, b, d, points) or (alpha, gamma, b, d, x, y, z)",
 )
 
-SWEEP = Form(
+SWEEP = CallForm(
     Layout(SIZES + CENTER + END),
     {"start": CENTER, "end": END},
     (),
@@ -77,7 +77,7 @@ class Questions:
 
     columns: Mapping[str, Argument]
     given: Rows | None = None
-    form: Form = PAIR
+    form: CallForm = PAIR
 
     @cached_property
     def single(self) -> bool:
@@ -114,7 +114,7 @@ def questions_of(
     named: Mapping[str, Argument],
     axis: ArrayLike | None = None,
     heights: Sequence[Argument] = WITHOUT_ENDS,
-    form: Form = PAIR,
+    form: CallForm = PAIR,
 ) -> Questions:
     """The pairs or sweeps of a call. Raises InputError for other numbers of arguments, and for what is given twice."""
     columns: dict[str, Argument] = {}
@@ -137,7 +137,7 @@ def questions_of(
     return Questions(whole, form=form)
 
 
-def _require_known(named: Mapping[str, Argument], form: Form) -> None:
+def _require_known(named: Mapping[str, Argument], form: CallForm) -> None:
     """Raise InputError about a name that no argument has."""
     known = (*form.layout.ended, *form.points)
     for name in named:
@@ -146,7 +146,7 @@ def _require_known(named: Mapping[str, Argument], form: Form) -> None:
             raise InputError(f"there is no argument {escaped(repr(name), 60)} here; {columns}")
 
 
-def _spread(named: Mapping[str, Argument], form: Form) -> dict[str, Argument]:
+def _spread(named: Mapping[str, Argument], form: CallForm) -> dict[str, Argument]:
     """Values by the names of columns; some names mean three columns. Raises InputError for a column given twice."""
     columns: dict[str, Argument] = {}
     for given, value in named.items():
@@ -168,7 +168,7 @@ def _add(columns: dict[str, Argument], others: Mapping[str, Argument]) -> None:
         columns[name] = value
 
 
-def _by_position(arguments: Sequence[Argument], named: Mapping[str, Argument], form: Form) -> dict[str, Argument]:
+def _by_position(arguments: Sequence[Argument], named: Mapping[str, Argument], form: CallForm) -> dict[str, Argument]:
     """The columns of the arguments without names; of points, the last may be among the named."""
     count, unnamed = len(arguments), tuple(takewhile(lambda name: name not in named, form.points))
     if count == 0:
@@ -193,7 +193,7 @@ def _by_position(arguments: Sequence[Argument], named: Mapping[str, Argument], f
     raise InputError(f"{counted(count, 'argument')}: {form.sentence}")
 
 
-def _whole(value: Argument, form: Form) -> dict[str, Argument]:
+def _whole(value: Argument, form: CallForm) -> dict[str, Argument]:
     """A table by its columns; an array of rows, or one row."""
     names = names_of(value)
     if names is not None:

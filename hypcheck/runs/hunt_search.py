@@ -307,8 +307,7 @@ BROUGHT = 3
 def _borders(draw: Draw, rows: Rows, layout: Layout) -> tuple[Mask, Floats]:
     """The columns of each row that a factor can bring to the border of contact, and the factor; NaN if none can."""
     if not layout.has_end:
-        columns = layout.columns(rows.shape[1])
-        movers = list(_movers_of(columns))
+        movers = list(_movers_of(columns := layout.columns(rows.shape[1])))
         mask = columns_of(np.asarray(movers)[draw.integers(len(rows), 0, len(movers) - 1)], columns)
         return mask, border_factors(rows, mask, draw.signs(len(rows)) > 0)
     mask, factors = np.zeros(rows.shape, dtype=np.bool_), np.full(len(rows), np.nan)
