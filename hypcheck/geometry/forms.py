@@ -102,11 +102,12 @@ class Questions:
         return as_rows(self.columns, tilted=True, heights=True, layout=self.form.layout)
 
     def require_valid(self, rows: Rows) -> None:
-        """Raise InputError about the first invalid row; for a single pair the message has no index."""
-        trouble = trouble_with_row(rows[0].tolist()) if self.single else None
+        """Raise InputError about the first invalid row; for a single question the message has no index."""
+        layout = self.form.layout
+        trouble = trouble_with_row(rows[0].tolist(), layout.upright) if self.single else None
         if trouble is not None:
             raise InputError(trouble)
-        require_valid(rows)
+        require_valid(rows, layout=layout)
 
 
 def questions_of(
@@ -126,7 +127,7 @@ def questions_of(
     if not mean_no_ends(heights):
         _add(columns, dict(zip(HEIGHTS, heights, strict=True)))
     if not columns:
-        raise InputError(f"there are no pairs: {form.sentence}")
+        raise InputError(f"nothing is asked: {form.sentence}")
     rows = columns.pop("rows", None)
     if rows is None:
         return Questions(columns, form=form)
@@ -142,8 +143,7 @@ def _require_known(named: Mapping[str, Argument], form: CallForm) -> None:
     known = (*form.layout.ended, *form.points)
     for name in named:
         if name not in known and name not in form.other_names:
-            columns = f"what pairs are written with is {', '.join(known)}"
-            raise InputError(f"there is no argument {escaped(repr(name), 60)} here; {columns}")
+            raise InputError(f"there is no argument {escaped(repr(name), 60)} here; the names are {', '.join(known)}")
 
 
 def _spread(named: Mapping[str, Argument], form: CallForm) -> dict[str, Argument]:
@@ -173,13 +173,14 @@ def _by_position(arguments: Sequence[Argument], named: Mapping[str, Argument], f
     count, unnamed = len(arguments), tuple(takewhile(lambda name: name not in named, form.points))
     if count == 0:
         return {}
-    if count == 1 and (unnamed or names_of(arguments[0]) is not None):
+    if count == 1 and (len(unnamed) == len(form.points) or names_of(arguments[0]) is not None):
         return _whole(arguments[0], form)
     if len(unnamed) < len(form.points) and count - len(form.points) in (1, len(SIZES)):
         raise InputError(f"{next(name for name in form.points if name in named)} is given twice; it must be given once")
-    for places in (unnamed, form.apart):
-        if places is form.apart and len(unnamed) < len(form.points):
-            continue
+    missing = [name for name in form.points if name not in named and name not in unnamed]
+    if missing:
+        raise InputError(f"{form.sentence}; {missing[0]} is missing")
+    for places in (unnamed,) if len(unnamed) < len(form.points) else (unnamed, form.apart):
         sizes, points = arguments[: count - len(places)], arguments[count - len(places) :]
         if len(sizes) in (1, len(SIZES)):
             columns = sizes_of(sizes[0]) if len(sizes) == 1 else dict(zip(SIZES, sizes, strict=True))
@@ -187,9 +188,6 @@ def _by_position(arguments: Sequence[Argument], named: Mapping[str, Argument], f
                 subject = "the centre" if name == "center" else name
                 columns |= named_points(subject, value, form.points[name]) if name in form.points else {name: value}
             return columns
-    missing = [name for name in form.points if name not in named]
-    if 0 < len(missing) < len(form.points):
-        raise InputError(f"{form.sentence}; {missing[0]} is missing")
     raise InputError(f"{counted(count, 'argument')}: {form.sentence}")
 
 

@@ -26,7 +26,6 @@ from hypcheck.geometry.rows import (
     Mask,
     Positions,
     Rows,
-    require_valid,
 )
 from hypcheck.kernel.in_use import kernel
 from hypcheck.truth import swept
@@ -103,7 +102,7 @@ def passages(
     """The results for sweeps in a form that hypcheck.passage accepts. Raises InputError."""
     call = questions_of(sweeps, columns, axis, heights, SWEEP)
     rows = np.ascontiguousarray(call.rows())
-    require_valid(rows, layout=SWEEP.layout)
+    call.require_valid(rows)
     hits = _hits(rows)
     return Passages(bool(hits[0]) if call.single else hits, lambda sweep: (_interval(rows[sweep].tolist()), 0))
 

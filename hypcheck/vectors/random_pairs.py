@@ -230,6 +230,12 @@ def repeated(pairs: Rows, columns: Sequence[int], n: int, centres: int = 6) -> R
     return np.repeat(pairs, 2 * len(columns), axis=0)[:n]
 
 
+def each_with_one_number_changed(draw: Draw, pairs: Rows, columns: Sequence[int], n: int, centres: int = 6) -> Rows:
+    """n rows: each pair, or sweep, repeated, with one number changed from row to row."""
+    rows = repeated(pairs, columns, n, centres)
+    return changed_in_turn(rows, by_sixteenths(draw, rows), columns)
+
+
 def changed_in_turn(rows: Rows, others: Rows, columns: Sequence[int]) -> Rows:
     """The rows, of which each 2·len(columns) are equal, with one number changed from each row to the next.
 

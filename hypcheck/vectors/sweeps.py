@@ -16,18 +16,7 @@ from hypcheck.vectors import double_roots, random_pairs, tilted
 from hypcheck.vectors.coincidences import tangent
 from hypcheck.vectors.double_roots import gather, gathered, in_metres
 from hypcheck.vectors.draw import Draw, Maker, in_turn, ldexp, turns
-from hypcheck.vectors.random_pairs import (
-    BODY,
-    TOWER,
-    Sizes,
-    all_regimes,
-    by_sixteenths,
-    changed_in_turn,
-    heights,
-    offsets,
-    repeated,
-    sizes,
-)
+from hypcheck.vectors.random_pairs import BODY, TOWER, Sizes, all_regimes, heights, offsets, sizes
 
 CENTRE = slice(4, 7)
 """The columns of the centre, or of the first end of a sweep."""
@@ -169,8 +158,8 @@ def one_number_changed(ends: Maker, columns: int) -> Maker:
     """As in random_pairs, of sweeps with a tangency at one end."""
 
     def make(draw: Draw, n: int) -> Rows:
-        rows = repeated(ends(draw, -(-n // (2 * columns))), range(columns), n)
-        return changed_in_turn(rows, by_sixteenths(draw, rows), range(columns))
+        sweeps = ends(draw, -(-n // (2 * columns)))
+        return random_pairs.each_with_one_number_changed(draw, sweeps, range(columns), n)
 
     return make
 

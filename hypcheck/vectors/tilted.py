@@ -39,11 +39,9 @@ from hypcheck.vectors.random_pairs import (
     TOWER,
     Sizes,
     all_regimes,
-    by_sixteenths,
-    changed_in_turn,
+    each_with_one_number_changed,
     heights,
     offsets,
-    repeated,
     sizes,
 )
 
@@ -134,8 +132,7 @@ def one_number_changed(draw: Draw, n: int) -> Rows:
     pairs = -(-n // (2 * len(columns)))
     size, height = _ordinary(draw, pairs)
     rows = beside(draw, size, height, anywhere(draw, pairs), _nearly(draw, pairs, -14, -6))
-    rows = repeated(rows, columns, n, centres=3)
-    return changed_in_turn(rows, by_sixteenths(draw, rows), columns)
+    return each_with_one_number_changed(draw, rows, columns, n, centres=3)
 
 
 def horizontal(draw: Draw, n: int) -> Rows:

@@ -205,10 +205,13 @@ def test_one_sweep_beside_several_ends_is_asked_once_for_each():
     ("call", "sentence"),
     [
         (lambda: hypcheck.passage(SIZES, start=POINTS), "passage takes .*; end is missing"),
+        (lambda: hypcheck.passage(SIZES, end=POINTS), "1 argument: passage takes .sizes, start, end."),
         (lambda: hypcheck.passage(SIZES, POINTS, (0, 0, 5), margin=1), "there is no argument 'margin' here"),
         (lambda: hypcheck.clearance(SIZES, POINTS, margin=1), "there is no argument 'margin' here"),
         (lambda: hypcheck.classify(TABLE | {"axis_x": 1}), "the columns axis_y, axis_z are missing"),
         (lambda: hypcheck.classify(TABLE | {"axis_x": [1] * 4, "axis_z": 0}), "the column axis_y is missing"),
+        (hypcheck.passage, "nothing is asked: passage takes"),
+        (lambda: hypcheck.passage({**TABLE, "x": 3, "y": 0, "z": 5, "x1": 0, "y1": np.nan, "z1": 5}), "^y1 is nan"),
         (lambda: hypcheck.passage({"alpha": 1}), "columns gamma, b, d, x, y, z, x1, y1, z1 are missing"),
     ],
 )
@@ -233,7 +236,7 @@ def test_heights_may_be_columns():
 @pytest.mark.parametrize(
     ("arguments", "named", "sentence"),
     [
-        ((), {}, "there are no pairs: it takes rows, a table of columns by name"),
+        ((), {}, "nothing is asked: it takes rows, a table of columns by name"),
         ((1, 2, 3), {}, r"3 arguments: it takes rows, .* or \(alpha, gamma, b, d, x, y, z\)"),
         ((SIZES[:3], POINTS), {}, "the sizes are 3; they must be four: alpha, gamma, b, d"),
         (("sizes", POINTS), {}, "the sizes are 'sizes'; they must be four"),
@@ -241,7 +244,7 @@ def test_heights_may_be_columns():
         (
             (SIZES, POINTS),
             {"centre": POINTS},
-            "there is no argument 'centre' here; what pairs are written with is alpha",
+            "there is no argument 'centre' here; the names are alpha",
         ),
         ((SIZES, POINTS[:, :2]), {}, r"the centre is of shape \(4, 2\); it must be three numbers, x, y, z"),
         ((SIZES, POINTS), {"axis": [1, 2]}, r"axis is of shape \(2,\); it must be three numbers, axis_x"),

@@ -176,9 +176,7 @@ def test_classify_scene_refuses_another_number_of_axes_than_centres():
 
 
 def test_position_refuses_columns_that_are_unknown_or_given_twice():
-    with pytest.raises(
-        InputError, match="there is no argument 'tilt' here; what pairs are written with is alpha, gamma"
-    ):
+    with pytest.raises(InputError, match="there is no argument 'tilt' here; the names are alpha, gamma"):
         hypcheck.position(*SIZES, 1.0, 0.0, 0.0, tilt=(1.0, 0.0, 0.0))
     with pytest.raises(InputError, match="z is given twice; it must be given once"):
         hypcheck.position(*SIZES, 1.0, 0.0, 0.0, axis=(1.0, 0.0, 0.0), z=3.0)
