@@ -211,5 +211,5 @@ def test_search_numbers_are_all_small_fractions_and_their_square_roots_are_exact
     assert root(Fraction(9, 4)) == Fraction(3, 2)
     assert root(Fraction(2)) is None
     assert root(Fraction(-4)) is None
-    with pytest.raises(ValueError, match="no whole number"):
+    with pytest.raises(ValueError, match="not a whole number"):
         rational((LAMBDA,), LAMBDA / 2)

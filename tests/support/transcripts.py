@@ -45,7 +45,7 @@ sys.meta_path.insert(0, Absent)
 """Drawing takes most of a small run; tests/report is about it."""
 
 MASKS = [
-    (rf"\b{re.escape(VERSION)}\b", "VERSION"),
+    (rf"(?<!schema\": \")\b{re.escape(VERSION)}\b", "VERSION"),
     (re.escape(str(ROOT)), "CLONE"),
     (r"\b(in|took|of|after|over) \d+(\.\d+)? s\b", r"\1 N s"),
     (r"(checksum is|must be) [0-9a-f]{8}\b", r"\1 CRC"),

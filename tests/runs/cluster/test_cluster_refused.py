@@ -16,6 +16,7 @@ import pytest
 from hypcheck.cli.main import main
 from hypcheck.errors import InputError
 from hypcheck.implementations.session import Limits
+from hypcheck.runs.cases import Pace
 from hypcheck.runs.fingerprint import code_fingerprint
 from hypcheck.runs.plan import check_cluster_address
 from hypcheck.runs.schedule import ImplementationOpener, RunState, perform_steps
@@ -128,7 +129,7 @@ def test_worker_that_cannot_write_into_its_folder_ends_the_run_with_an_error(clu
     ):
         client.run(lambda dask_worker: shutil.rmtree(dask_worker.local_directory))
         with pytest.raises(InputError, match=r"worker tcp://\S+ cannot write into its folder \S+: no such file"):
-            list(perform_steps(steps_of(["ring"], 100), performing, RunState(it.allowance)))
+            list(perform_steps(steps_of(["ring"], 100, Pace()), performing, RunState(it.allowance)))
 
 
 def test_scheduler_without_workers_and_one_whose_worker_is_stopped_are_refused(tmp_path, monkeypatch):

@@ -10,6 +10,7 @@ import pytest
 import hypcheck
 from hypcheck.errors import InputError
 from hypcheck.implementations.session import Limits
+from hypcheck.runs.cases import Pace
 from hypcheck.runs.schedule import ImplementationOpener, RunState, perform_steps
 from hypcheck.version import VERSION
 from tests.runs.cluster.clusters import HOME, Cluster, patience  # noqa: F401
@@ -94,7 +95,7 @@ def test_worker_with_other_files_of_the_same_version_is_refused_before_the_run_a
         opening.open() as it,
         execution_on_cluster(client, opening, rules_of(it), it) as performing,
     ):
-        passed = perform_steps(steps_of(["ring"], 100), performing, RunState(it.allowance))
+        passed = perform_steps(steps_of(["ring"], 100, Pace()), performing, RunState(it.allowance))
         next(passed)
         cluster.start_workers(1, home=another)
         client.wait_for_workers(2, timeout=60)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import mmap
 import os
 import subprocess
 import sys
@@ -35,7 +36,9 @@ def test_soak_finds_growth_of_memory_handles_threads_children_and_files(monkeypa
     with contextlib.ExitStack() as stack:
 
         def leak(_):
-            kept.append(b"\1" * (16 * MIB))
+            memory = mmap.mmap(-1, 16 * MIB)  # bytes may lie where this process had others before
+            memory.write(b"\1" * (16 * MIB))
+            kept.append(memory)
             _leave(stack)
 
         found = run(0.0, seed=1, least=4, after=leak).faults
