@@ -16,9 +16,9 @@ from hypcheck.answers import answers
 from hypcheck.cli.main import main
 from hypcheck.geometry.pair import Pair
 from hypcheck.tables.numbers import exact_text
-from hypcheck.truth.exact import decide
 from tests.cli.test_classify import number
 from tests.kernel.test_tilted_integers import RINGS, small_rows, wide_rows
+from tests.support.inside import decide
 from tests.support.pairs import extreme_tilted_rows, nearly_touching_tilted_rows
 from tests.support.tilted_fractions import combined, derivative, exact_position, interpolated, matrices, value
 

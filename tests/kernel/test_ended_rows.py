@@ -13,9 +13,8 @@ import pytest
 from hypcheck import clearance
 from hypcheck.geometry.pair import Lengths, Pair
 from hypcheck.geometry.rows import CANNOT_SAY
-from hypcheck.truth.ended_error import enclosure
 from hypcheck.vectors.frozen import ENDED_NAMES, load
-from tests.support.inside import decide, position
+from tests.support.inside import decide, ended_enclosure, position
 from tests.tools import ended_agreement
 from tests.tools.attack.rounding import DIRECTED, TO_NEAREST, rounded
 
@@ -132,7 +131,7 @@ def test_bounds_of_a_clearance_beside_ends_are_neighbours_of_the_exact_one_and_t
     found = clearance(rows)
     for place, row in enumerate(rows.tolist()):
         pair = Pair.from_row(row)
-        low, high = enclosure(pair, decide(pair.lengths))
+        low, high = ended_enclosure(pair, decide(pair.lengths))
         assert math.nextafter(found.lower[place], math.inf) >= low >= found.lower[place]
         assert math.nextafter(found.upper[place], -math.inf) <= high <= found.upper[place]
     clear = found.position != 0

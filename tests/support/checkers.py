@@ -11,9 +11,8 @@ from types import SimpleNamespace
 from typing import Any
 
 from hypcheck.geometry.pair import WITHOUT_ENDS, Position
-from hypcheck.truth.certificate import PassageCertificate, check_passage, place
 from tests.support.corpus import Questions, row_of
-from tests.support.inside import Certificate, check_certificate
+from tests.support.inside import Certificate, PassageCertificate, certificate_place, check_certificate, check_passage
 
 NOT_PROVED = 99
 """The answer where a certificate does not prove the label: no decider may give it."""
@@ -59,5 +58,5 @@ def proves_passage(case: dict[str, Any]) -> bool:
     first = case["first"] and tuple(map(float.fromhex, case["first_hex"]))
     if time is None:
         return check_passage(row, PassageCertificate(pieces), first)
-    points = points_from(place(row, time).row[4:], (b, b, b), given["points"])
+    points = points_from(certificate_place(row, time).row[4:], (b, b, b), given["points"])
     return check_passage(row, PassageCertificate(pieces, time, tuple(points), fraction(given["double_root"])), first)

@@ -25,7 +25,6 @@ import hypcheck
 from hypcheck.cli.main import main
 from hypcheck.geometry.pair import Pair
 from hypcheck.implementations.builtin import builtin_methods, passage_methods
-from hypcheck.kernel import integers
 from hypcheck.runs.oracles import ORACLES
 from tests.kernel.compiling import COMPILER, shared_library
 from tests.kernel.emission.building import asking_pairs, library_of, missing
@@ -36,6 +35,7 @@ from tests.support.inside import (
     exact_position,
     heights_position,
     integers_position,
+    integers_whole_position,
     least_position,
     numpy_kernel_answer_sweeps,
     sweep_of,
@@ -144,7 +144,7 @@ def of_integers(sizes, center, axis=None) -> int:
     """The last stage in Python, which decides alone here."""
     if axis is None:
         return int(integers_position(Pair(*sizes, *center).lengths))
-    return int(integers.position((*sizes, *center, *axis)))
+    return int(integers_whole_position((*sizes, *center, *axis)))
 
 
 def of_ways_in_numpy(questions: Questions) -> list[int]:

@@ -35,6 +35,7 @@ from hypcheck.kernel.emission.plan_text import (
 )
 from hypcheck.kernel.emission.whole import whole, whole_plan
 from hypcheck.kernel.in_use import kernel
+from hypcheck.kernel.integers import position as integers_whole_position
 from hypcheck.kernel.integers import upright_position as integers_position
 from hypcheck.kernel.numpy_kernel import Buffers, chunks, positions_of_scene
 from hypcheck.kernel.numpy_kernel import answer_sweeps as numpy_kernel_answer_sweeps
@@ -99,8 +100,22 @@ from hypcheck.truth.backward_error import (
     quick_bracket,
     tolerated,
 )
-from hypcheck.truth.certificate import Certificate, Piece, check_certificate, pivots, proves, surfaces
+from hypcheck.truth.certificate import (
+    Certificate,
+    PassageCertificate,
+    Piece,
+    check_certificate,
+    check_passage,
+    clear_until,
+    contact_at,
+    pivots,
+    proves,
+    surfaces,
+)
+from hypcheck.truth.certificate import place as certificate_place
 from hypcheck.truth.changes import corner, goal_of
+from hypcheck.truth.ended_error import clearance as ended_clearance
+from hypcheck.truth.ended_error import enclosure as ended_enclosure
 from hypcheck.truth.exact import Decision, decide, kind_of, position
 from hypcheck.truth.exact import cubic as exact_cubic
 from hypcheck.truth.exact import discriminant as exact_discriminant
@@ -126,9 +141,10 @@ from hypcheck.truth.pencil import cubic, quartic, sign_at
 from hypcheck.truth.polynomial_roots import _none_by_descartes, isolate
 from hypcheck.truth.polynomials import linear_factor, polynomial_product, value
 from hypcheck.truth.prove import prove
+from hypcheck.truth.rationals import octave, shortened, sign_with_root
 from hypcheck.truth.root_patterns import COMPLEX, KIND_OF, PATTERNS, RootPlace, admissible
 from hypcheck.truth.roots import Invariants, classify_by_roots, classify_invariants, coefficients, real_roots
-from hypcheck.truth.sweep import Surd, sign_at_root
+from hypcheck.truth.sweep import Surd, piece, sign_at_root
 from hypcheck.truth.swept import WIDTH_BITS, by_roots, by_steps, passage, reach, steps, sweep_of
 
 __all__ = [
@@ -170,6 +186,7 @@ __all__ = [
     "Kind",
     "MeshOutcome",
     "NearestStage",
+    "PassageCertificate",
     "Piece",
     "RootPlace",
     "ScaledSetting",
@@ -192,18 +209,22 @@ __all__ = [
     "by_roots",
     "by_steps",
     "centres",
+    "certificate_place",
     "certified",
     "check_certificate",
+    "check_passage",
     "choice",
     "chunks",
     "classify",
     "classify_by_roots",
     "classify_invariants",
+    "clear_until",
     "clearances",
     "coefficients",
     "comment_text",
     "compiled",
     "compiled_kernel",
+    "contact_at",
     "core",
     "corner",
     "cubic",
@@ -215,6 +236,8 @@ __all__ = [
     "distance_to_mesh",
     "emitted",
     "emitted_pair",
+    "ended_clearance",
+    "ended_enclosure",
     "entry",
     "estimate",
     "exact",
@@ -234,6 +257,7 @@ __all__ = [
     "heights_position",
     "hits_at_size",
     "integers_position",
+    "integers_whole_position",
     "is_tolerated",
     "isolate",
     "kernel",
@@ -254,10 +278,12 @@ __all__ = [
     "numpy_kernel",
     "numpy_kernel_answer_sweeps",
     "numpy_kernel_positions",
+    "octave",
     "operations_before",
     "passage",
     "passage_error",
     "passage_of",
+    "piece",
     "pivots",
     "plan_as_json",
     "plan_lines",
@@ -283,8 +309,10 @@ __all__ = [
     "search",
     "search_begin",
     "settings_of",
+    "shortened",
     "sign_at",
     "sign_at_root",
+    "sign_with_root",
     "size_error",
     "steps",
     "surfaces",

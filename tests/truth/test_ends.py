@@ -14,16 +14,16 @@ from hypothesis import strategies as st
 
 import hypcheck
 from hypcheck.geometry.pair import Pair, Position
-from hypcheck.truth.ended_error import clearance
-from hypcheck.truth.prove import prove
 from hypcheck.truth.sections import has_root
 from tests.support.inside import (
     Certificate,
     backward_error,
     check_certificate,
     decide,
+    ended_clearance,
     heights_position,
     least_position,
+    prove,
 )
 from tests.support.inside import position as exact_position
 from tests.support.strategies import rows_of
@@ -153,7 +153,7 @@ def test_a_spheroid_scaled_by_its_clearance_is_about_to_touch(row):
     if not pair.has_ends:
         return
     decision = decide(pair.lengths)
-    found = clearance(pair, decision)
+    found = ended_clearance(pair, decision)
     assert (decision.position is CONTACT) is (found <= 0)
     for factor, meets in ((1 - 1e-9, False), (1 + 1e-9, True)):
         scale = (1 + found) * factor
@@ -165,7 +165,7 @@ def test_a_spheroid_scaled_by_its_clearance_is_about_to_touch(row):
 def test_the_clearance_of_a_centre_on_wall_or_disc_is_minus_one():
     for row, ends, solid in (((*RIM, 1, 1, 3.75, 0, 3), (-1, 3), 0), ((*RIM, 1, 0.5, 2, 0, 3, 1, 0, 1), (-1, 3), 1)):
         pair = pair_of(row, ends, solid)
-        assert clearance(pair, decide(pair.lengths)) == -1
+        assert ended_clearance(pair, decide(pair.lengths)) == -1
 
 
 def test_backward_error_beside_a_rim_is_bracketed_by_what_was_moved():

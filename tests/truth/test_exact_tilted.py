@@ -13,8 +13,7 @@ from sympy.polys.rings import ring
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Lengths, Pair, Position
-from hypcheck.truth.rationals import sign_with_root
-from tests.support.inside import Decision, Surd, decide, exact, quartic
+from tests.support.inside import Decision, Surd, decide, exact, quartic, sign_with_root
 from tests.support.inside import position as exact_position
 from tests.truth.tilted_cases import SYMMETRIC, TANGENT, TOUCHING_AND_CROSSING, WITNESSES, grown, random_rows
 

@@ -9,9 +9,8 @@ import pytest
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
-from hypcheck.truth.rationals import octave
 from tests.support.examples import examples
-from tests.support.inside import hits_at_size, is_tolerated, size_error, time_is_within, tolerance
+from tests.support.inside import hits_at_size, is_tolerated, octave, size_error, time_is_within, tolerance
 
 BESIDE = (2.0, 3.0, 1.0, 1.0, -4.0, 3.5, 0.0, 4.0, 3.5, 0.0)
 """Past the waist at 3.5 from the axis: 1.5 from the surface, so that it touches when grown by a half."""

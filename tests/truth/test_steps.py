@@ -9,9 +9,7 @@ import mpmath
 import pytest
 
 from hypcheck.geometry.pair import Position
-from hypcheck.truth.rationals import shortened
-from hypcheck.truth.sweep import piece
-from tests.support.inside import WIDTH_BITS, cubic, quartic, reach, steps, sweep_of, value
+from tests.support.inside import WIDTH_BITS, cubic, piece, quartic, reach, shortened, steps, sweep_of, value
 from tests.support.inside import exact_discriminant as discriminant_of
 from tests.truth.test_passage_certificate import INSIDE, OUTSIDE, THROUGH, TUNNEL, random_ways
 

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from hypcheck.geometry.rows import ORDINARY_MAGNITUDE, ORDINARY_RATIO, within
-from hypcheck.truth.passage_error import passage_of
 from hypcheck.vectors import ended, ended_sweeps
 from hypcheck.vectors.families import ALL, FAMILIES
 from tests.support import inside
+from tests.support.inside import passage_of
 from tests.vectors.case_rows import COUNT, ratios
 
 
