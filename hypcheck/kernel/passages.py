@@ -24,7 +24,6 @@ from hypcheck.geometry.rows import (
     Floats,
     Indices,
     Mask,
-    Positions,
     Rows,
 )
 from hypcheck.kernel.in_use import kernel
@@ -82,15 +81,6 @@ class Passages:
 
     def _shaped(self, values: list[Any], kind: type) -> Any:  # noqa: ANN401 - an array, or its number
         return np.array(values, kind) if np.ndim(self.hit) else values[0]
-
-    def __array__(self, dtype: object = None, copy: bool | None = None) -> Positions:
-        """The hits as int8 (n,), which Scene.passage returned in 0.1."""
-        hits: Positions = np.atleast_1d(self.hit).astype(np.int8)
-        return hits
-
-    def tolist(self) -> list[int]:
-        """The hits as 1 and 0, as of that array."""
-        return [int(hit) for hit in np.atleast_1d(self.hit)]
 
 
 def passages(

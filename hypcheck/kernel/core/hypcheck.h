@@ -142,7 +142,7 @@ const char *hypcheck_level(void);
 int hypcheck_use_level(const char *name);
 
 /* The version of this header, and that of the one the program was linked with. */
-#define HYPCHECK_VERSION "0.1.0"
+#define HYPCHECK_VERSION "1.0.0"
 const char *hypcheck_version(void);
 
 #ifdef __cplusplus
