@@ -1,6 +1,7 @@
 """Code for one pair of any sizes: right for frozen vectors in each language, with and without its floats."""
 
 import re
+import subprocess
 from fractions import Fraction
 
 import numpy as np
@@ -47,6 +48,14 @@ def test_emitted_exact_pair_code_is_right_without_its_float_stage(tmp_path, vect
     before, after = UNFILTERED[language]
     assert text.count(before) == 1
     assert (answers(tmp_path, language, text.replace(before, after), rows) == positions).all()
+
+
+def test_emitted_exact_pair_code_of_rust_compiles_without_a_named_edition(tmp_path):
+    skip_without("rust")
+    (tmp_path / "pair.rs").write_text(emitted_pair("exact", "rust", COMMAND), encoding="utf-8")
+    command = ["rustc", "--emit", "metadata", "--crate-type", "lib", "pair.rs"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
 
 
 @pytest.mark.parametrize("method", ["dual", "local-maximum"])
