@@ -127,9 +127,10 @@ def _measure_gaps(result: Clearance, rows: Rows, clear: Indices) -> None:
     lengths = np.abs(measured.point).sum(axis=1) + np.abs(some[:, 4:7]).sum(axis=1) + some[:, 2:4].sum(axis=1)
     upper = measured.upper + _ROUNDED * lengths
     better = upper < result.distance_upper[clear]
+    shown = measured.upper <= result.distance_upper[clear] + _ROUNDED * lengths
     result.distance_lower[clear] = np.fmax(result.distance_lower[clear], measured.lower)
     result.distance_upper[clear[better]] = upper[better]
-    result.nearest[clear[better]] = measured.point[better]
+    result.nearest[clear[shown]] = measured.point[shown]
 
 
 _OUTWARD = 1 + 2.0**-48

@@ -12,10 +12,11 @@ the other coordinate follows: A ζ/(B ρ) is its slope, and ζ*² = B (ρ*²/A �
 roundings are 38 for 16, as quotients are shared. _ROUNDED = 64u holds each coordinate.
 
 **Tilted touches.** The multiplier is that of the kernel's second stage (numpy_kernel.py), the point X solves a linear
-system. With G = M + λD ≥ μ, r = G X − M C and n = D X there is a point of the hyperboloid within |h|/|n| of X where
-|h| max|D| < |n|² (h changes its sign on the way along n), and X − G⁻¹r is where |X − C|² + λ h is least. So the exact
-place is within |r|/μ + √(tr G/μ) (|h|/|n| + |r|/μ). Elimination shows μ: where G − shift has positive pivots in floats,
-μ ≥ shift − 8·_ROUNDED·(the terms of G). The terms of r and of h take fewer than 16 roundings each.
+system; next to a pole, where that is singular, as about the hyperboloid's axis, _at_a_pole finds it. With G = M + λD ≥
+μ, r = G X − M C and n = D X there is a point of the hyperboloid within |h|/|n| of X where |h| max|D| < |n|² (h changes
+its sign on the way along n), and X − G⁻¹r is where |X − C|² + λ h is least. So the exact place is within |r|/μ + √(tr
+G/μ) (|h|/|n| + |r|/μ). Elimination shows μ: where G − shift has positive pivots in floats, μ ≥ shift − 8·_ROUNDED·(the
+terms of G). The terms of r and of h take fewer than 16 roundings each.
 
 Both hold for lengths in 2^±100, coordinates that may be smaller, and b/d in 2^±20; elsewhere `error` is inf.
 
@@ -58,6 +59,11 @@ _ROUNDED = 2.0**-46
 _MORE = 1 + 2.0**-30
 _LEAST_SHARE = 2.0**-70
 """A σ of 0 would say nothing of the height, where two nearest points are about to fall together."""
+
+_OFF = 2.0**-20
+"""How far from a mirror, in units of the greatest coordinate, a point has to be to be moved by it."""
+
+_POLE_HALVINGS = 100
 
 _RANGE = (2.0**-100, 2.0**100)
 _RATIO = 20
@@ -216,6 +222,11 @@ def tilted_touches(rows: Rows, at: Floats | None = None) -> Touches:
         bend = ((adjugate * normal[:, :, None]).sum(axis=1) * normal).sum(axis=1) / determinant
         step = ((normal * place).sum(axis=1) - 1) / (2 * bend)
         at = np.where(np.abs(step) < 2.0**-10 * np.abs(at), at + step, at)
+    squares = form * place * place
+    lost = np.flatnonzero(~(np.abs(squares.sum(axis=1) - 1) <= _OFF * (1 + np.abs(squares).sum(axis=1))))
+    if turns and len(lost):
+        found = _at_a_pole(form[lost], unit[lost], (b / d)[lost], centre[lost])
+        place[lost] = np.where(np.isfinite(found).all(axis=1, keepdims=True), found, place[lost])
     error = _error(rows, unit, at, form, place, matrix, determinant / np.trace(adjugate, axis1=1, axis2=2))
     x, y, z = (place * b[:, None]).T
     radius = np.hypot(x, y)
@@ -227,6 +238,48 @@ def tilted_touches(rows: Rows, at: Floats | None = None) -> Touches:
     point = np.where(other[:, None], points[1], points[0])
     moved = np.sqrt(((point - place * b[:, None]) ** 2).sum(axis=1)) + _ROUNDED * np.abs(point).sum(axis=1)
     return Touches(np.where(other, by_high, by_low), point, _known(rows, _MORE * (b * error + moved)))
+
+
+def _at_a_pole(form: Floats, unit: Floats, ratio: Floats, centre: Floats) -> Floats:
+    """Where |X − C|² is least on XᵀDX = 1, (n, 3), if the multiplier is next to a pole or at it.
+
+    In the principal axes of D beside the spheroid, whose eigenvalues are e, X is g/(1 + λe) there. At the pole λ = −1/e
+    one g is 0, as where the centre is on the hyperboloid's axis: then XᵀDX = 1 says how long that part of X is, and
+    both signs are right. The multiplier is halved to between the poles; only its share at each pole matters.
+    """
+    stretch = unit[:, :, None] * unit[:, None, :]
+    inward = np.eye(3) + (1 / ratio - 1)[:, None, None] * stretch
+    outward = np.eye(3) + (ratio - 1)[:, None, None] * stretch
+    known = np.concatenate([form, inward.reshape(-1, 9), centre], axis=1)
+    usable: Mask = np.asarray(np.isfinite(known).all(axis=1))
+    matrix = np.where(usable[:, None, None], inward @ (form[:, :, None] * inward), np.eye(3) * (1.0, 1.0, -1.0))
+    values, vectors = np.linalg.eigh((matrix + matrix.transpose(0, 2, 1)) / 2)
+    across = np.swapaxes(vectors, 1, 2)
+    own = (across @ (outward @ centre[:, :, None]))[:, :, 0]
+    below, above = -1 / values[:, 2], -1 / values[:, 0]
+    for _ in range(_POLE_HALVINGS):
+        middle = (below + above) / 2
+        parts = own / (1 + middle[:, None] * values)
+        outside = (values * parts * parts).sum(axis=1) > 1
+        below, above = np.where(outside, middle, below), np.where(outside, above, middle)
+    shares = np.abs(1 + below[:, None] * values)
+    chosen = np.arange(len(values)), np.argmin(shares, axis=1)
+    parts = np.where(own == 0, 0.0, own / (1 + below[:, None] * values))
+    parts[chosen] = 0
+    rest = (1 - (values * parts * parts).sum(axis=1)) / values[chosen]
+    parts[chosen] = np.copysign(np.sqrt(np.maximum(rest, 0)), own[chosen])
+    mirrored = parts.copy()
+    mirrored[chosen] *= -1
+    here, there = ((inward @ vectors @ some[:, :, None])[:, :, 0] for some in (parts, mirrored))
+    tied = np.abs(own[chosen]) <= _ROUNDED * (1 + np.abs(own).sum(axis=1))
+    return np.where(usable[:, None], np.where((tied & _is_before(there, here))[:, None], there, here), np.nan)
+
+
+def _is_before(place: Floats, other: Floats) -> Mask:
+    """Which places are farther towards +x, or else +z, or else +y, than the others."""
+    offset = (place - other)[:, (0, 2, 1)]
+    clear = np.abs(offset) > _OFF * np.abs(place).max(axis=1, keepdims=True)
+    return np.asarray(clear.any(axis=1) & (offset[np.arange(len(offset)), np.argmax(clear, axis=1)] > 0))
 
 
 def _error(rows: Rows, unit: Floats, at: Floats, form: Floats, place: Floats, matrix: Floats, least: Floats) -> Floats:
@@ -307,8 +360,6 @@ def tilted_gaps(rows: Rows, position: Positions, touch: Floats) -> PointGaps:
 
 
 _TURNS, _FOOT_SETTLED = 100, 2.0**-50
-_OFF = 2.0**-20
-"""How far from a mirror, in units of the greatest coordinate, a point has to be to be moved by it."""
 
 
 def normals(rows: Rows, nearest: Rows, position: Positions) -> Rows:

@@ -9,7 +9,7 @@ The distance to a whole hyperboloid is a lower bound of that to the wall between
 nearest point lies between them. Else a point P at the near end gives an upper bound: with f the factor by which the
 spheroid reaches P, its point on the way to P is (1 − 1/f) |P − C| away. An end disc is no nearer than its plane. For
 pairs that may be the nearest by these bounds, scene_gaps.py then finds the distance to the real surface between the
-ends.
+ends, and so it does where clearance() leaves bounds that are apart, as for a long mover in a groove.
 
 **A tilted hyperboloid** is asked in a frame of its own, whose rows are a unit vector along its axis and two across.
 So the offset is off by TURNING of its size, and the spheroid, by its axis, by TURNING of its longer semi-axis: both are
@@ -39,6 +39,9 @@ from hypcheck.scene.model import Mover
 
 PAIRS_AT_A_TIME = 1 << 18
 _ROUNDED = 2.0**-44
+_APART = 2.0**-27
+"""How far bounds may be apart, in units of the distance and the mover's size, before the gap is measured."""
+
 _LEAST = 2.0**-1060
 """More than the roundings of subnormal numbers. It also keeps the upper bound of a mover that is clear above 0."""
 
@@ -154,10 +157,10 @@ def distances(
 
 
 def _distances(pairs: _Pairs, group: Indices, most: Floats) -> tuple[Floats, Floats, Floats]:
-    low, high, point, cut = _to_wholes(pairs)
+    low, high, point, unsure = _to_wholes(pairs)
     most = most.copy()
     np.minimum.at(most, group, high)
-    _to_what_stands(pairs, (low, high, point), np.flatnonzero(cut & (low <= most[group]) & np.isfinite(high)))
+    _to_what_stands(pairs, (low, high, point), np.flatnonzero(unsure & (low <= most[group]) & np.isfinite(high)))
     return low, high, point
 
 
@@ -235,7 +238,7 @@ def _pairs_of(bodies: Bodies, mover: Mover, centres: Floats, axes: Floats | None
 
 
 def _to_wholes(pairs: _Pairs) -> tuple[Floats, Floats, Floats, Mask]:
-    """Bounds of the distances, by those to the whole hyperboloids, points for the upper ones, and where ends matter."""
+    """Bounds of the distances by those to whole hyperboloids, points for the upper ones, and where more is needed."""
     rows, rounded, (bottom, top) = pairs.rows, pairs.rounded, pairs.spans.T
     wholes = clearances(rows)
     with np.errstate(all="ignore"):
@@ -254,8 +257,9 @@ def _to_wholes(pairs: _Pairs) -> tuple[Floats, Floats, Floats, Mask]:
         high[some] = _reached(pairs.mover, None if axes is None else axes[some], at - rows[some, 4:7])
         steep = 1 + rows[some, 0] / rows[some, 1]
         high[some] += rounded[some] * steep + _ROUNDED * np.abs(at).sum(axis=1)
+        apart = high - low > _APART * (high + rows[:, 2:4].max(axis=1)) + 4 * rounded
     low[pairs.beyond], high[pairs.beyond | np.isnan(high)] = 0.0, np.inf
-    return low, high, point, cut
+    return low, high, point, cut | apart
 
 
 def _to_what_stands(pairs: _Pairs, bounds: tuple[Floats, Floats, Floats], some: Indices) -> None:
@@ -268,7 +272,7 @@ def _to_what_stands(pairs: _Pairs, bounds: tuple[Floats, Floats, Floats], some: 
         pairs.rows[some, :4], pairs.rows[some, 4:7], None if axes is None else axes[some],
         pairs.spans[some], pairs.bodies.solid[pairs.body[some]], high[some],
     )  # fmt: skip
-    low[some] = np.maximum(low[some], measured.lower - pairs.rounded[some])
+    low[some] = np.fmax(low[some], measured.lower - pairs.rounded[some])
     better = measured.upper + pairs.rounded[some] < high[some]
     high[some[better]] = (measured.upper + pairs.rounded[some])[better]
     point[some[better]] = measured.point[better]

@@ -57,6 +57,45 @@ def test_the_normal_is_the_gradient_of_the_distance(more):
     assert np.abs(gradient - near.normal)[clear].max() < 2e-4
 
 
+ON_AXIS = [
+    {"axis": (3.0, 4.0, 0.0)},
+    {"axis": (0.3, 0.0, 1.0)},
+    {"axis": (-1.0, 1.3, 1.1)},
+    {"axis": (0.9, 0.3, 0.003), "z_min": -4.0, "z_max": 30.0},
+]
+"""Of spheroids about the hyperboloid's axis, where two points of it may be nearest, and multipliers are at a pole."""
+
+
+@pytest.mark.parametrize("x", [0.0, 1e-13, 1e-9])
+@pytest.mark.parametrize("more", ON_AXIS)
+@pytest.mark.parametrize(("sizes", "z"), [(SIZES, 5.0), ((0.8, 0.4, 0.13, 0.16), 0.0), ((0.4, 0.45, 0.2, 0.1), -2.0)])
+def test_the_distance_along_the_normal_leads_from_the_nearest_point_to_a_spheroid_on_the_axis(sizes, z, more, x):
+    alpha, gamma, b, d = sizes
+    near = hypcheck.clearance(sizes, (x, 0.0, z), **more)
+    height = near.nearest[2] / gamma
+    assert abs(np.hypot(*near.nearest[:2]) / alpha - np.hypot(1, height)) < 1e-9
+    assert near.distance_upper - near.distance_lower < 1e-8
+    unit = np.array(more["axis"]) / np.linalg.norm(more["axis"])
+    for place, reach in ((near.nearest + near.distance_upper * near.normal, 1), (near.touch, 1 + near.upper)):
+        offset = place - (x, 0.0, z)
+        along = offset @ unit
+        across = np.linalg.norm(offset - along * unit)
+        assert abs(np.hypot(across / b, along / d) - reach) < 1e-7 * reach
+
+
+def test_the_nearest_of_two_mirrored_points_is_the_one_towards_x_or_else_z():
+    found = hypcheck.clearance((1, 2, 0.1, 0.2), (0, 0, 0), axis=[(3, 4, 0), (-3, 4, 0), (4, -3, 0), (0, 1, 0)])
+    assert np.allclose(found.touch, [(0.6, 0.8, 0), (0.6, -0.8, 0), (0.8, -0.6, 0), (0, 1, 0)], atol=1e-6)
+    assert np.allclose(found.nearest, found.touch, atol=1e-6)
+    assert found.tie.all()
+
+
+def test_the_nearest_point_beside_a_wall_that_ends_is_at_the_distance_where_clearance_says_it_too():
+    near = hypcheck.clearance((0.75, 0.4, 0.56, 0.4), (0, 0, 0), z_min=-2.5, z_max=5.4)
+    assert abs(near.nearest[2]) < 1e-6
+    assert abs(np.linalg.norm(near.nearest) - 0.56 - near.distance_upper) < 1e-12
+
+
 def test_in_contact_the_distance_is_0_the_normal_nan_and_a_flag_says_so():
     near = hypcheck.clearance(SIZES, [[2.0, 0.0, 0.0], [3.0, 0.0, 0.0], [2.25, 0.0, 0.0]])
     assert near.contact.tolist() == [True, False, True]

@@ -63,6 +63,16 @@ def test_bounds_of_the_distance_from_a_steep_wall_are_as_near_as_from_any(gamma)
     assert found.distance_upper * (1 - 1e-9) <= found.distance_lower <= 1.5 <= found.distance_upper
 
 
+@pytest.mark.parametrize("height", [None, Span(-0.8, 5.4)])
+def test_scene_nearest_bounds_the_distance_closely_where_two_points_beside_the_plane_of_symmetry_are_nearest(height):
+    wall = Hyperboloid("tower", 3.4, 3.5, height=height)
+    found = scene(wall, mover=Mover(0.08, 0.8, axis=(1.0, 0.0, 0.0))).nearest(0.0, 1.27, 0.38)
+    assert 0 < found.distance_upper - found.distance_lower < 1e-9
+    offset = found.point + found.distance_upper * found.normal - (0.0, 1.27, 0.38)
+    assert abs(np.hypot(offset[0] / 0.8, np.hypot(*offset[1:]) / 0.08) - 1) < 1e-6
+    assert abs(found.point[0]) > 1
+
+
 @pytest.mark.parametrize("number", range(6))
 def test_scene_nearest_measures_to_the_end_of_a_tree_above_its_end(number):
     rng = np.random.default_rng(number)
