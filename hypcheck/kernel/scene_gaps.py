@@ -77,8 +77,15 @@ def gaps(sizes: Rows, centres: Rows, axes: Rows | None, spans: Rows, solid: Mask
         result = _to_walls(pairs, spans, np.ldexp(farthest, unit_of))
         for end in (0, 1):
             _to_discs(result, pairs, spans[:, end], solid)
-        back = -unit_of
-        return Gaps(np.ldexp(result.lower, back), np.ldexp(result.upper, back), np.ldexp(result.point, back[:, None]))
+        lower, upper = (_in_unit(length, unit_of, way) for length, way in ((result.lower, 0), (result.upper, np.inf)))
+        return Gaps(lower, upper, np.ldexp(result.point, -unit_of[:, None]))
+
+
+def _in_unit(length: Floats, unit_of: Indices, towards: float) -> Floats:
+    """The lengths times 2^−unit_of, rounded towards a side where they are subnormal."""
+    result = np.ldexp(length, -unit_of)
+    back = np.ldexp(result, unit_of)
+    return np.where((back > length) if towards == 0 else (back < length), np.nextafter(result, towards), result)
 
 
 def _to_walls(pairs: _Pairs, spans: Rows, farthest: Floats) -> Gaps:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 import numpy as np
 import pytest
 
@@ -83,3 +85,16 @@ def test_clearance_scales_only_extreme_rows_and_only_by_exact_powers_of_two():
     assert np.abs(scaled[1]).max() < 8
     assert scaled[3, 2] > 1e-300
     assert shift[4] == 0
+
+
+@pytest.mark.parametrize("solid", [False, True])
+def test_distances_of_subnormal_numbers_from_a_wall_that_ends_are_rounded_outward(solid):
+    unit = 2.0**-1074
+    points = np.array([(3000 + 7 * k, 2000 - 11 * k, 0) for k in range(40)]) * unit
+    sizes = (1001 * unit, 50_000 * unit, 137 * unit, 137 * unit)
+    found = hypcheck.clearance(sizes, points, z_min=-900 * unit, z_max=2000 * unit, solid=solid)
+    for point, low, high in zip(points, found.distance_lower, found.distance_upper, strict=True):
+        squared = sum(Fraction(number) ** 2 for number in point.tolist())
+        shorter, longer = (Fraction(length) + Fraction(1138 * unit) for length in (low.item(), high.item()))
+        assert shorter**2 <= squared <= longer**2
+        assert high - low <= 4 * unit
