@@ -273,8 +273,9 @@ def _to_what_stands(pairs: _Pairs, bounds: tuple[Floats, Floats, Floats], some: 
         pairs.spans[some], pairs.bodies.solid[pairs.body[some]], high[some],
     )  # fmt: skip
     low[some] = np.fmax(low[some], measured.lower - pairs.rounded[some])
-    better = measured.upper + pairs.rounded[some] < high[some]
-    high[some[better]] = (measured.upper + pairs.rounded[some])[better]
+    upper = measured.upper + pairs.rounded[some] + _ROUNDED * np.abs(measured.point).sum(axis=1)
+    better = upper < high[some]
+    high[some[better]] = upper[better]
     point[some[better]] = measured.point[better]
 
 

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hypcheck import Scene, clearance
+from hypcheck import Scene, clearance, passage
 from hypcheck.errors import InputError
 from hypcheck.kernel import scene_nearest
 from hypcheck.kernel.scene_index import bodies_of
@@ -295,3 +295,14 @@ def test_the_normal_is_the_gradient_of_the_distance_wherever_bodies_are_tilted_a
     one = asked.nearest(points[np.argmax(clear)])
     assert (one.contact, one.index) == (False, found.index[np.argmax(clear)])
     assert one.normal == pytest.approx(found.normal[np.argmax(clear)], abs=1e-12)
+
+
+def test_the_upper_distance_from_a_far_rim_holds_the_roundings_of_the_rim():
+    rng = np.random.default_rng(4)
+    for _ in range(40):
+        alpha, gamma, b, end = rng.uniform(0.01, 2), 10 ** rng.uniform(-11, -1), 10 ** rng.uniform(-6, 0), -100.0
+        center = (rng.uniform(-1, 1) * alpha / gamma, rng.uniform(-1, 1), end + rng.uniform(1, 200))
+        wall = Hyperboloid("flat", alpha, gamma, height=Span(-np.inf, end))
+        found = scene(wall, mover=Mover(b, b, axis=(1.0, 2.0, 3.0))).nearest(*center)
+        radius = Fraction(b) + Fraction(found.distance_upper)
+        assert passage((alpha, gamma, radius, radius), center, center, z_max=end).hit
