@@ -91,8 +91,11 @@ def rounded(value: Fraction, bits: int) -> Fraction:
 
 
 def rounded_toward(number: Fraction, infinity: float) -> float:
-    """The nearest float64 that is not beyond the number on the side away from `infinity`."""
-    near = float(number)
+    """The nearest float64 that is not beyond the number on the side away from `infinity`; ±inf is one."""
+    try:
+        near = float(number)
+    except OverflowError:
+        near = math.inf if number > 0 else -math.inf
     wrong_side = near > number if infinity < 0 else near < number
     return math.nextafter(near, infinity) if wrong_side else near
 

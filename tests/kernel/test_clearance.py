@@ -161,3 +161,13 @@ def test_clearance_refuses_invalid_rows_or_marks_them_with_127():
     assert found.position.tolist() == [-1, 127]
     assert np.isnan([found.lower[1], found.distance_upper[1], *found.touch[1]]).all()
     assert found.lower[0] <= 7 <= found.upper[0]
+
+
+@pytest.mark.parametrize("more", [{"z_max": 1.0}, {"z_max": 1.0, "solid": True}, {"z_max": 1.0, "axis": (1, 1, 0)}])
+def test_a_clearance_beside_a_wall_that_ends_may_leave_float64(more):
+    near = hypcheck.clearance((1, 1, 1e-200, 1e-200), (1e150, 0, 0), **more)
+    assert near.position == 1
+    assert (near.lower, near.upper) == (sys.float_info.max, np.inf)
+    assert near.distance_lower <= 1e150 * 0.5**0.5 <= near.distance_upper * (1 + 2.0**-50)
+    assert near.distance_upper < 1e150
+    assert hypcheck.classify((1, 1, 1e-200, 1e-200), (1e150, 0, 0), margin=1.0, **more) == 1
