@@ -64,6 +64,8 @@ _OFF = 2.0**-20
 """How far from a mirror, in units of the greatest coordinate, a point has to be to be moved by it."""
 
 _POLE_HALVINGS = 100
+_LARGEST = 2.0**200
+"""Of the numbers next to a pole, whose squares do not overflow then."""
 
 _RANGE = (2.0**-100, 2.0**100)
 _RATIO = 20
@@ -250,10 +252,11 @@ def _at_a_pole(form: Floats, unit: Floats, ratio: Floats, centre: Floats) -> Flo
     stretch = unit[:, :, None] * unit[:, None, :]
     inward = np.eye(3) + (1 / ratio - 1)[:, None, None] * stretch
     outward = np.eye(3) + (ratio - 1)[:, None, None] * stretch
-    known = np.concatenate([form, inward.reshape(-1, 9), centre], axis=1)
-    usable: Mask = np.asarray(np.isfinite(known).all(axis=1))
-    matrix = np.where(usable[:, None, None], inward @ (form[:, :, None] * inward), np.eye(3) * (1.0, 1.0, -1.0))
-    values, vectors = np.linalg.eigh((matrix + matrix.transpose(0, 2, 1)) / 2)
+    matrix = inward @ (form[:, :, None] * inward)
+    known = np.abs(np.concatenate([matrix.reshape(-1, 9), outward.reshape(-1, 9), centre], axis=1))
+    usable: Mask = np.asarray((known <= _LARGEST).all(axis=1))
+    matrix = np.where(usable[:, None, None], (matrix + matrix.transpose(0, 2, 1)) / 2, np.eye(3) * (1.0, 1.0, -1.0))
+    values, vectors = np.linalg.eigh(matrix)
     across = np.swapaxes(vectors, 1, 2)
     own = (across @ (outward @ centre[:, :, None]))[:, :, 0]
     below, above = -1 / values[:, 2], -1 / values[:, 0]

@@ -83,6 +83,15 @@ def test_the_distance_along_the_normal_leads_from_the_nearest_point_to_a_spheroi
         assert abs(np.hypot(across / b, along / d) - reach) < 1e-7 * reach
 
 
+@pytest.mark.parametrize("exponent", [-150, -60, -12, 12, 60, 150])
+def test_the_distance_from_the_axis_is_bounded_for_sizes_far_apart(exponent):
+    near = hypcheck.clearance((1, 2, 10.0**exponent, 1e-3), (0, 0, 0.5), axis=[(1, 2, 3), (0, 1, 0), (1e-150, 0, 1)])
+    clear = ~near.contact
+    assert clear.any() == (exponent < 0)
+    assert (near.distance_lower[clear] <= 1.04).all()
+    assert (near.distance_upper[clear] >= 1.0).all()
+
+
 def test_the_nearest_of_two_mirrored_points_is_the_one_towards_x_or_else_z():
     found = hypcheck.clearance((1, 2, 0.1, 0.2), (0, 0, 0), axis=[(3, 4, 0), (-3, 4, 0), (4, -3, 0), (0, 1, 0)])
     assert np.allclose(found.touch, [(0.6, 0.8, 0), (0.6, -0.8, 0), (0.8, -0.6, 0), (0, 1, 0)], atol=1e-6)
