@@ -173,3 +173,9 @@ def test_one_pair_has_numbers_and_many_have_arrays():
 def test_the_distance_is_said_first():
     said = repr(hypcheck.clearance(*SIZES, 3, 4, 0))
     assert said.index("distance_lower") < said.index("nearest") < said.index(" lower=")
+
+
+def test_a_tilted_spheroid_whose_squares_overflow_is_in_contact_as_any():
+    near = hypcheck.clearance((1, 2, 1e100, 1e180), (0, 0, 0.5), axis=(1, 2, 3))
+    assert near.contact
+    assert near.distance_upper == 0
