@@ -24,6 +24,22 @@ def side_of_centre(rows):
     inside = ((x / alpha) ** 2 + (y / alpha) ** 2 <= 1 + (z / gamma) ** 2) & (low <= z) & (z <= high)
     return 1 - 2 * inside.astype(int)
 """
+ENDLESS = """
+hypcheck = {"takes": ["heights"]}
+
+def without_its_ends(rows):
+    alpha, gamma, b, d, x, y, z, *_ = rows.T
+    return ((x / alpha) ** 2 + (y / alpha) ** 2 > 1 + (z / gamma) ** 2).astype(int)
+"""
+A_LITTLE_SMALLER = """
+import numpy, hypcheck as right
+hypcheck = {"takes": ["heights"]}
+
+def smaller_beside_one_end(rows):
+    rows = rows.copy()
+    rows[numpy.isfinite(rows[:, -3]) != numpy.isfinite(rows[:, -2]), 2:4] *= 1 - 1e-9
+    return right.classify(rows)
+"""
 NEVER = """
 hypcheck = {"takes": ["end", "axis", "heights"], "question": "passage"}
 
@@ -54,6 +70,22 @@ def test_a_hunt_asks_about_ends_where_heights_are_taken_and_keeps_what_it_finds(
     assert {len(case.row) for case in kept} == {width}
     assert main(["cases", "check", str(out)]) == 0
     assert main(["replay", shown, spec]) == 1
+
+
+def test_a_hunt_searches_beside_the_wrong_answers_of_what_takes_heights_and_no_axis(capsys, tmp_path):
+    spec = program(tmp_path, A_LITTLE_SMALLER)
+    assert main(["hunt", spec, "--queries", "7500", "--show", "1", "--isolate", "off"]) == 1
+    assert "7,500 rows asked" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("axis_z", [1.0, -1.0, 0.25, -3e300])
+def test_an_upright_axis_may_have_any_length_where_heights_are_taken_and_no_axis(axis_z, capsys, tmp_path):
+    row = ",".join(map(repr, (*PIERCED[:9], axis_z, *PIERCED[10:])))
+    assert main(["replay", row, program(tmp_path, ENDLESS)]) == 0
+    capsys.readouterr()
+    tilted = ",".join(map(repr, (*PIERCED[:7], 1e-9, *PIERCED[8:])))
+    assert main(["replay", tilted, program(tmp_path, ENDLESS)]) == 2
+    assert "takes no axis, and not all of the rows are upright" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(
