@@ -72,6 +72,7 @@ def test_a_hunt_asks_about_ends_where_heights_are_taken_and_keeps_what_it_finds(
     assert main(["replay", shown, spec]) == 1
 
 
+@pytest.mark.thorough  # it takes 7,400 rows to get there
 def test_a_hunt_searches_beside_the_wrong_answers_of_what_takes_heights_and_no_axis(capsys, tmp_path):
     spec = program(tmp_path, A_LITTLE_SMALLER)
     assert main(["hunt", spec, "--queries", "7500", "--show", "1", "--isolate", "off"]) == 1
