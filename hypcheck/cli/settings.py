@@ -165,18 +165,31 @@ def _checked(source: TomlSource, key: str, value: object) -> Any:  # noqa: ANN40
         source.refuse((key,), str(error))
 
 
-def _texts(value: object) -> tuple[str, ...]:
-    if not isinstance(value, list) or not value or not all(isinstance(text, str) and text for text in value):
-        raise ValueError('a list of texts, such as ["command:./adapter"]')
-    return tuple(value)
+def _texts(wanted: str) -> Callable[[object], tuple[str, ...]]:
+    """Lists of texts; `wanted` is what the error says that they must be."""
+
+    def check(value: object) -> tuple[str, ...]:
+        if not isinstance(value, list) or not value or not all(isinstance(text, str) and text for text in value):
+            raise ValueError(wanted)
+        return tuple(value)
+
+    return check
 
 
-def _names(value: object) -> str:
-    """A list of names and globs in the form of the option: separated by commas."""
-    parts = [value] if isinstance(value, str) else value
-    if not isinstance(parts, list) or not parts or not all(isinstance(part, str) and part.strip() for part in parts):
-        raise ValueError('names and globs, such as ["ring", "tower-*"]')
-    return ",".join(parts)
+def _names(wanted: str) -> Callable[[object], str]:
+    """Lists of names, or one text of them, in the form of the option: separated by commas."""
+
+    def check(value: object) -> str:
+        names = [value] if isinstance(value, str) else value
+        if (
+            not isinstance(names, list)
+            or not names
+            or not all(isinstance(name, str) and name.strip() for name in names)
+        ):
+            raise ValueError(wanted)
+        return ",".join(names)
+
+    return check
 
 
 def _path(value: object) -> str:
@@ -229,9 +242,9 @@ def _domain(value: object) -> str:
 
 _KEYS: Mapping[str, Callable[[object], Any]] = MappingProxyType(
     {
-        "specs": _texts,
+        "specs": _texts('a list of texts, such as ["command:./adapter"]'),
         "out": _path,
-        "families": _names,
+        "families": _names('names and globs, such as ["ring", "tower-*"]'),
         "count": _integer(0),
         "seed": _integer(0, LARGEST_SEED),
         "tolerance": toml.not_negative,
@@ -247,8 +260,8 @@ _KEYS: Mapping[str, Callable[[object], Any]] = MappingProxyType(
         "restarts": _integer(0),
         "memory": _bytes,
         "isolate": toml.one_of("auto", "on", "off"),
-        "pass_env": _names,
-        "see": _texts,
+        "pass_env": _names('names of environment variables, such as ["LANG", "LD_LIBRARY_PATH"]'),
+        "see": _texts('a list of paths, such as ["vendor/lib"]'),
     }
 )
 """Checks the value of each key, and gives it the form of its option."""

@@ -207,6 +207,21 @@ def test_any_toml_value_of_a_setting_is_accepted_or_refused_in_one_sentence(valu
     assert said.startswith(FILE) if found is None else set(found.options) | {"specs"} >= set(values)
 
 
+@pytest.mark.parametrize(
+    ("text", "wanted"),
+    [
+        ('specs = "builtin:fast"', 'a list of texts, such as ["command:./adapter"]'),
+        ("families = 3", 'names and globs, such as ["ring", "tower-*"]'),
+        ("pass_env = [3]", 'names of environment variables, such as ["LANG", "LD_LIBRARY_PATH"]'),
+        ('see = "vendor"', 'a list of paths, such as ["vendor/lib"]'),
+    ],
+)
+def test_a_value_that_is_no_list_is_refused_with_an_example_for_its_own_key(project, capsys, text, wanted):
+    project(text)
+    assert main(["verify", "builtin:fast"]) == 2
+    assert f"it must be {wanted}" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("language", ["python", "c"])
 def test_the_settings_file_that_init_writes_is_valid(tmp_path, monkeypatch, language):
     monkeypatch.chdir(tmp_path)
