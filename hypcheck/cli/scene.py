@@ -291,7 +291,7 @@ def _answers(scene: Scene, table: FlightTable) -> list[dict[str, Any]]:
                 "distance_upper": float(least.distance_upper[place]),
                 "segment": int(least.segment[place]), "time": float(least.time[place]),
                 "hyperboloid": names[int(least.index[place])], "center": least.center[place].tolist(),
-            },
+            } if least.segment[place] >= 0 else None,
         })  # fmt: skip
     return answers
 
@@ -299,6 +299,8 @@ def _answers(scene: Scene, table: FlightTable) -> list[dict[str, Any]]:
 def _in_words(answer: dict[str, Any]) -> str:
     contact, least = answer["contact"], answer["least"]
     begin = "" if answer["flight"] is None else f"flight {answer['flight']}: "
+    if not (contact or least):
+        return f"{begin}clear; the least distance is not known, for lengths of the scene are too large for its bounds"
     where = f"({', '.join(f'{part:.6g}' for part in (contact or least)['center'])})"
     if contact is not None:
         return (

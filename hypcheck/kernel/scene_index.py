@@ -212,8 +212,9 @@ def _counted(counts: Indices) -> Indices:
 
 def grid_of(x: Floats, y: Floats, reaches: Floats) -> PlaneGrid:
     """The grid of hyperboloids at (x, y) with these reaches, (m,) each; its cells are as wide as most reach."""
-    finite = np.isfinite(reaches)
-    side = float(2 * np.median(reaches[finite])) if finite.any() else 1.0
+    finite = reaches[np.isfinite(reaches)]
+    with np.errstate(over="ignore"):  # one cell that holds everything
+        side = float(2 * np.median(finite)) if len(finite) else 1.0
     columns, rows, members, everywhere = _cells_of(x, y, reaches, side)
     size = 1 << (ROOM * len(members)).bit_length()
     places = hashed(columns, rows, size)
@@ -245,8 +246,8 @@ def _entries(
     low_x: Floats, high_x: Floats, low_y: Floats, high_y: Floats, chosen: Indices
 ) -> tuple[Indices, Indices, Indices]:
     """Column, row and hyperboloid for each cell that one of the chosen stands in."""
-    across = (high_x - low_x)[chosen].astype(np.int64) + 1
-    along = (high_y - low_y)[chosen].astype(np.int64) + 1
+    across = (high_x[chosen] - low_x[chosen]).astype(np.int64) + 1
+    along = (high_y[chosen] - low_y[chosen]).astype(np.int64) + 1
     counts = across * along
     place = _counted(counts)
     wide = np.repeat(across, counts)

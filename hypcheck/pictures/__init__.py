@@ -29,7 +29,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck.errors import UnavailableError
+from hypcheck.errors import InputError, UnavailableError
 from hypcheck.messages import counted, escaped
 from hypcheck.scene.model import Mover, SceneModel
 
@@ -95,10 +95,20 @@ class ScenePage:
         return f'<iframe srcdoc="{html.escape(self.html)}" width="100%" height="640" style="border:0"></iframe>'
 
 
+_FARTHEST = 1e18
+"""What is drawn reaches no farther, since the browser squares lengths in float32."""
+
+
 def page_of(model: SceneModel, flight: ShownFlight | None = None) -> str:
-    """The page of a scene, and of a flight where there is one."""
-    bodies = drawn_bodies(model, flight)
-    view, middle = _view(bodies, flight)
+    """The page of a scene, and of a flight where there is one. Raises InputError for a scene that is too large."""
+    with np.errstate(all="ignore"):
+        bodies = drawn_bodies(model, flight)
+        view, middle = _view(bodies, flight)
+    if not np.max([view["extent"], bodies[:, :2].max(), model.mover.b, model.mover.d]) <= _FARTHEST:  # not if NaN
+        raise InputError(
+            f"the scene {escaped(repr(model.name))} is too large to draw: what is shown of its hyperboloids, its mover "
+            f"and the flight must be within {_FARTHEST:g} units of length"
+        )
     bodies[:, 4:7] -= middle
     mover = model.mover
     data: dict[str, Any] = {

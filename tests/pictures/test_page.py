@@ -6,6 +6,7 @@ import hashlib
 import json
 import re
 import tarfile
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -70,6 +71,18 @@ def test_the_page_says_what_first_contact_says():
 def test_a_page_without_a_flight_or_with_one_that_stays_has_no_nan():
     for page in (forest().show(), forest().show([[2.5, 2.5, 2.0]]), Scene.from_toml("tower").show()):
         assert "NaN" not in json.dumps(data_of(page))
+
+
+@pytest.mark.parametrize(
+    ("alpha", "gamma", "x", "path"),
+    [(1, 1e-160, 0, None), (1e308, 6, 0, None), (1, 1e308, 0, None), (1, 6, 1e300, [[5, 0, 0], [0, 0, 5]])],
+)
+def test_a_scene_that_is_too_large_to_draw_is_refused_without_warnings(alpha, gamma, x, path):
+    scene = Scene.from_arrays(alpha, gamma, [[0, 0, 0], [x, 0, 0]], z_max=17, mover=(0.25, 0.15))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with pytest.raises(InputError, match=r"is too large to draw: .* within 1e\+18 units"):
+            scene.show(path)
 
 
 def test_a_page_shows_one_flight_and_needs_a_free_axis():
