@@ -274,6 +274,15 @@ def with_axis(rows: Rows, layout: Layout = PAIRS) -> Rows:
     return wide
 
 
+def scenes_of(rows: Rows) -> list[Indices]:
+    """The indices of the rows that differ in their centres alone, from the most rows to the fewest."""
+    fixed = np.delete(rows, (4, 5, 6), axis=1)
+    _, scene = np.unique(fixed, axis=0, return_inverse=True)
+    order = np.argsort(scene.reshape(-1), kind="stable")
+    parts = np.split(order, np.cumsum(np.bincount(scene.reshape(-1)))[:-1]) if len(rows) else []
+    return sorted(parts, key=len, reverse=True)
+
+
 def with_heights(rows: Rows, layout: Layout = PAIRS) -> Rows:
     """The same queries with an axis and heights: rows without them get those that mean upright and without ends."""
     if layout.has_heights(rows):

@@ -13,7 +13,7 @@ from types import TracebackType
 import numpy as np
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.rows import CANNOT_SAY, Rows, as_rows, parts_of, with_axis
+from hypcheck.geometry.rows import CANNOT_SAY, Rows, as_rows, parts_of, scenes_of, with_axis
 from hypcheck.implementations.description import Description
 from hypcheck.implementations.domain import Domain
 from hypcheck.implementations.frames import LARGEST
@@ -199,8 +199,7 @@ class Implementation:
     def _check_scene(self, rows: Rows, *, by_scene: bool) -> None:
         if by_scene and not self.scene:
             raise InputError(f"{self.spec} cannot be asked by scene")
-        fixed = np.delete(rows, (4, 5, 6), axis=1)
-        if by_scene and len(rows) and (fixed != fixed[0]).any():
+        if by_scene and len(scenes_of(rows)) > 1:
             raise InputError(f"{self.spec} cannot be asked by scene about rows of several sizes")
 
 
@@ -303,6 +302,7 @@ class Crashed:
     """
 
     proven_batch = 1
+    scene = False
 
     def __init__(self, most: int | None, reason: str, allowance: Allowance) -> None:
         self.max_rows = most
@@ -312,7 +312,7 @@ class Crashed:
     def close(self) -> None:
         """Do nothing: there is no process."""
 
-    def classify(self, rows: Rows, *, batch: int | None = None) -> Answered:  # noqa: ARG002 - however it is asked
+    def classify(self, rows: Rows, *, batch: int | None = None, by_scene: bool = False) -> Answered:  # noqa: ARG002 - however it is asked
         """CRASH for every row."""
         n = len(rows)
         status = np.full(n, Outcome.CRASH, dtype=np.int8)

@@ -16,7 +16,7 @@ from msgspec import structs
 from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import REFUSED
-from hypcheck.geometry.rows import Floats, Indices, Rows
+from hypcheck.geometry.rows import Floats, Indices, Rows, scenes_of
 from hypcheck.implementations import domain
 from hypcheck.implementations.domain import Domain, claimed
 from hypcheck.implementations.implementation import Crashed, Implementation
@@ -103,7 +103,8 @@ def merged_result(results: Iterable[CasesResult]) -> CasesResult:
 
 
 RETESTED_CASES = 32
-"""At least so many cases of each chunk are asked again; of large chunks, one in a hundred."""
+"""At least so many cases of each chunk are asked again; of large chunks, one in a hundred. All of a family's first
+chunk, if they are of one scene and there is a function for scenes, which the retest asks."""
 
 RETESTED_MOVEMENTS = 8
 """At least so many movements of each chunk are asked again if its cases follow objects from moment to moment."""
@@ -171,7 +172,8 @@ def ask_chunk(chunk: CaseChunk, implementation: Implementation | Crashed, rules:
     answered = implementation.classify(rows)
     part = as_slice(indices)
     scored = score(cases.by_column[part], cases.positions[part], answered, rules.criterion)
-    cut = _first_pending(chunk, indices)
+    every = implementation.scene and chunk.start == 0 and len(scenes_of(rows)) == 1
+    cut = 0 if every else _first_pending(chunk, indices)
     tail = scored.answered[cut:]
     kept = cut + np.flatnonzero(tail)
     settled = np.append(np.arange(cut), cut + np.flatnonzero(~tail))

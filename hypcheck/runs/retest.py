@@ -3,7 +3,8 @@
 An implementation that answers many rows at once can be wrong at one place of a batch only: in the tail that fills no
 vector, in the first row of a thread, in a block that is never computed. Such an answer may equal the truth by luck.
 Therefore cases are tested alone, in batches of every size, and so that each place of a large batch holds a case of each
-position.
+position. A function for scenes, which answers about many centres beside one hyperboloid, is other code, and must give
+the same answers.
 """
 
 from __future__ import annotations
@@ -11,12 +12,13 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from itertools import chain
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import Position
-from hypcheck.geometry.rows import CANNOT_SAY, Indices, Layout, Mask, Positions, Rows, as_wide
+from hypcheck.geometry.rows import CANNOT_SAY, Indices, Layout, Mask, Positions, Rows, as_wide, scenes_of
 from hypcheck.implementations.implementation import Crashed, Implementation
 from hypcheck.implementations.session import Answered, Outcome
 from hypcheck.record.lines import Retest
@@ -29,6 +31,9 @@ from hypcheck.runs.tally import STATUSES
 
 RetestQuestion = tuple[Indices, int | None]
 """Indices of cases, and the size of the batches in which they are asked; None: the largest possible."""
+
+SCENES = 128
+"""At most so many scenes of a round are asked by the function for scenes: those with the most cases."""
 
 ALONE, SINGLE_STEP = 32, 20
 """Cases that are asked one by one, and questions of one row between two looks at the clock."""
@@ -114,17 +119,21 @@ def retest(step: RetestStep, implementation: Implementation | Crashed, rules: Ju
         step.part,
         step.pace,
     )
-    for places, batch in asking:
-        answered = implementation.classify(sample.rows[places], batch=batch)
+    by_scene = scene_questions(sample.rows) if implementation.scene else ()
+    asked = chain(((*question, False) for question in asking), ((*question, True) for question in by_scene))
+    for places, batch, one_scene in asked:
+        answered = implementation.classify(sample.rows[places], batch=batch, by_scene=one_scene)
         outcomes |= answered.outcomes
         status = status_of(answered)
         for offset in np.flatnonzero(_differs(sample.before, places, answered) | ~answered.answered).tolist():
             place = int(places[offset])
             if changes.get(place, (Status.TOLERATED, ""))[0] is Status.TOLERATED:
                 if answered.answered[offset]:
-                    changes[place] = _change(sample, place, answered, offset, rules.criterion)
+                    now = _BY_SCENE if one_scene else _AGAIN
+                    changes[place] = _change(sample, place, answered, offset, rules.criterion, now)
                 else:
-                    reason = f"when asked again: {answered.reasons.get(offset, '')}"
+                    how = "when its function for scenes is asked" if one_scene else "when asked again"
+                    reason = f"{how}: {answered.reasons.get(offset, '')}"
                     changes[place] = STATUSES[status[offset]], reason
     within = sum(status is Status.TOLERATED for status, _ in changes.values())
     beyond = sum(status is Status.NONDETERMINISTIC for status, _ in changes.values())
@@ -173,7 +182,13 @@ def _moments(pending: PendingRetest) -> NDArray[np.int64]:
     return (pending.chunk.start + pending.indices) % pending.chunk.movement
 
 
-def _change(sample: _Sample, place: int, answered: Answered, offset: int, criterion: Criterion) -> tuple[Status, str]:
+_AGAIN = "when asked again, in another order and batch"
+_BY_SCENE = "when its function for scenes is asked"
+
+
+def _change(
+    sample: _Sample, place: int, answered: Answered, offset: int, criterion: Criterion, now: str
+) -> tuple[Status, str]:
     """The status of a case whose answer, at an offset among others, differs from the first, and the reason."""
     before = sample.before
     pair = np.array([before.answers[place], answered.answers[offset]], dtype=np.int8)
@@ -189,8 +204,7 @@ def _change(sample: _Sample, place: int, answered: Answered, offset: int, criter
         f"{answer}" if times is None or answer != 1 else f"{answer} at time {time!r}"
         for answer, time in zip(pair.tolist(), [None, None] if times is None else times.tolist(), strict=True)
     )
-    reason = f"answered {first} at first and {then} when asked again, in another order and batch"
-    return Status.NONDETERMINISTIC, reason
+    return Status.NONDETERMINISTIC, f"answered {first} at first and {then} {now}"
 
 
 def _judged(
@@ -245,6 +259,13 @@ def retest_questions(
             yield from _in_every_place(order, truth, random, proven_batch())
         yield from _one_by_one(np.resize(order, pace.single_rows), pace.single_s)
     yield from _moment_by_moment(moments)
+
+
+def scene_questions(rows: Rows) -> Iterator[RetestQuestion]:
+    """The cases of each scene in one question, and some in small ones, for a function for scenes."""
+    for number, cases in enumerate(scenes_of(rows)[:SCENES]):
+        yield cases, None
+        yield cases[:IN_LENGTHS], LENGTHS[number % len(LENGTHS)]
 
 
 def _one_by_one(cases: Indices, seconds: float) -> Iterator[RetestQuestion]:

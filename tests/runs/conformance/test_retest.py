@@ -8,6 +8,7 @@ from hypcheck.cli.main import main
 from hypcheck.record import read
 from hypcheck.record.lines import GroupLine, ImplementationLine
 from hypcheck.runs.retest import FULL_QUESTION
+from tests.kernel.compiling import needs_compiler, shared_library
 from tests.runs import faulty
 
 pytestmark = pytest.mark.usefixtures("text_reports")
@@ -82,3 +83,29 @@ def test_fault_during_the_retest_is_recorded_with_its_reason(gate):
     (line,) = record.of(GroupLine)
     assert set(line.counts) == {"right", "error"}
     assert line.faults[0].reason.startswith("when asked again: it raised ValueError: one is not enough")
+
+
+SCENE_CALLS = "many(n, x, y, z, positions);"
+
+
+@needs_compiler
+@pytest.mark.parametrize(
+    ("instead", "code"),
+    [
+        (SCENE_CALLS, 0),
+        (f"{SCENE_CALLS} for (size_t i = 0; i < n; i++) positions[i] = 0;", 1),
+        (f"{SCENE_CALLS} if (n > 8) positions[n - 1] = !positions[n - 1];", 1),
+        (f"{SCENE_CALLS} for (size_t i = 0; i < n; i++) if (z[i] > 5 && z[i] < 5.5) positions[i] = 0;", 1),
+        (f"if (n < 100) {SCENE_CALLS}", 1),
+    ],
+)
+def test_function_for_scenes_must_answer_as_the_function_for_rows_does(tmp_path, instead, code):
+    """The kernel of a scene, in whose code the loop over the centres is changed."""
+    assert main(["emit", "--scene", "tower", "--language", "c", "--output", str(tmp_path / "kernel.c")]) == 0
+    text = (tmp_path / "kernel.c").read_text(encoding="utf-8")
+    assert text.count(SCENE_CALLS) == 1
+    shared_library(tmp_path, text.replace(SCENE_CALLS, f"{{ {instead} }}"))
+    spec = f"library:{tmp_path / 'library.so'}"
+    assert main(["verify", spec, "--count", "300", "--out", str(tmp_path / "out")]) == code
+    reasons = [fault.reason for line in read(tmp_path / "out").of(GroupLine) for fault in line.faults]
+    assert {"when its function for scenes is asked" in reason for reason in reasons} == ({True} if code else set())
