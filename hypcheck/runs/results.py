@@ -103,8 +103,10 @@ def merged_result(results: Iterable[CasesResult]) -> CasesResult:
 
 
 RETESTED_CASES = 32
-"""At least so many cases of each chunk are asked again; of large chunks, one in a hundred. All of a family's first
-chunk, if they are of one scene and there is a function for scenes, which the retest asks."""
+"""At least so many cases of each chunk are asked again; of large chunks, one in a hundred."""
+
+RETESTED_OF_SCENE = 2048
+"""At least so many of a family's first chunk, if all are of one scene and a function for scenes is to be asked."""
 
 RETESTED_MOVEMENTS = 8
 """At least so many movements of each chunk are asked again if its cases follow objects from moment to moment."""
@@ -172,8 +174,8 @@ def ask_chunk(chunk: CaseChunk, implementation: Implementation | Crashed, rules:
     answered = implementation.classify(rows)
     part = as_slice(indices)
     scored = score(cases.by_column[part], cases.positions[part], answered, rules.criterion)
-    every = implementation.scene and chunk.start == 0 and len(scenes_of(rows)) == 1
-    cut = 0 if every else _first_pending(chunk, indices)
+    of_scene = implementation.scene and chunk.start == 0 and len(scenes_of(rows)) == 1
+    cut = _first_pending(chunk, indices, RETESTED_OF_SCENE if of_scene else RETESTED_CASES)
     tail = scored.answered[cut:]
     kept = cut + np.flatnonzero(tail)
     settled = np.append(np.arange(cut), cut + np.flatnonzero(~tail))
@@ -239,9 +241,9 @@ def _diagnosed(
     return diagnose(answered, wrong, right, [(chunk.place(case), chunk.name(case)) for case in cases])
 
 
-def _first_pending(chunk: CaseChunk, indices: Indices) -> int:
+def _first_pending(chunk: CaseChunk, indices: Indices, least: int) -> int:
     """The first tested case that stays pending. From there on are the tail of a vector loop and whole movements."""
-    wanted = max(RETESTED_CASES, len(indices) // 100 + 1)
+    wanted = max(least, len(indices) // 100 + 1)
     if chunk.movement > 1:
         wanted = max(wanted, RETESTED_MOVEMENTS * chunk.movement)
     cut = max(0, len(indices) - wanted)
