@@ -273,7 +273,7 @@ def test_position_nearest_and_passage_agree_about_contact_a_hair_from_the_surfac
     assert position.tolist() == [tree.position(*centre) for centre in centres.tolist()]
     assert ((found.distance_upper == 0) == (position == 0)).all()
     assert (found.distance_lower <= found.distance_upper).all()
-    assert (tree.passage(centres, centres) == (position == 0)).all()
+    assert (tree.passage(centres, centres).hit == (position == 0)).all()
 
 
 @pytest.mark.parametrize("solid", [False, True])

@@ -299,8 +299,8 @@ def test_a_ring_of_parts_that_leans_lets_a_tree_through_where_the_upright_one_do
     centre = (-0.2, 0.0, 0.0)  # the part is at the tree, or turned down by 90 degrees beside it
     assert upright.position(*centre) == CONTACT
     assert pitched.position(*centre) == EXTERIOR
-    assert pitched.passage(centre, (-0.3, 0.0, 0.0)).tolist() == [0]
-    assert pitched.passage(centre, (0.3, 0.0, 0.0)).tolist() == [1]
+    assert pitched.passage(centre, (-0.3, 0.0, 0.0)).hit == 0
+    assert pitched.passage(centre, (0.3, 0.0, 0.0)).hit == 1
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -312,7 +312,7 @@ def test_sweep_of_a_tilted_mover_with_parts_hits_where_one_of_its_times_does(see
     for _ in range(40):
         start, end = (tuple(draw.uniform(-4, 4) for _ in range(3)) for _ in range(2))
         heading = draw.uniform(-180, 180)
-        hits.append(scene.passage(start, end, heading).tolist()[0])
+        hits.append(scene.passage(start, end, heading).hit)
         times = np.linspace(0, 1, 60)[:, None]
         x, y, z = (np.array(start) + times * (np.array(end) - np.array(start))).T
         touched = (scene.classify(x, y, z, heading) == CONTACT).any()
