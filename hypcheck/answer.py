@@ -20,6 +20,7 @@ from typing import Any
 from hypcheck.errors import Exit, HypcheckError
 from hypcheck.geometry.pair import HEIGHTS, TILTED_COLUMNS, TILTED_SWEEP_COLUMNS, WITHOUT_ENDS, Pair, Position
 from hypcheck.kernel.choice import choice, compiled
+from hypcheck.kernel.precision import are_apart
 from hypcheck.messages import counted
 from hypcheck.proof_text import is_rule, proof_as_json, proof_lines
 from hypcheck.tables.numbers import equals_text, exact_text, readable_text
@@ -175,7 +176,9 @@ def _distance_in_c(pair: Pair) -> tuple[float, float] | None:
     position, numbers = array("b", [0]), array("d", [0.0] * 11)
     compiled().clearance(array("d", pair.upright.row), position, numbers)
     _, _, touch_error, low, high, *_ = numbers
-    return None if touch_error == sys.float_info.max else (low, high)
+    if touch_error == sys.float_info.max or are_apart(low, high, max(pair.b, pair.d)):
+        return None
+    return low, high
 
 
 def _distance_by_arrays(pair: Pair) -> tuple[float, float]:

@@ -1,5 +1,9 @@
 """Clearances, distances and nearest points of many pairs, each between two proved numbers; and positions with a margin.
 
+Without ends, clearance_bounds.py proves them by exact decisions. Where its bounds of a distance are farther apart than
+promised, scene_gaps.py measures the gap by branch and bound: the guessed nearest point was another stationary one, or a
+larger spheroid reaches the hyperboloid elsewhere.
+
 Beside hyperboloids that end, rows (n, 13), exact decisions of truth/exact.py enclose the clearance. A spheroid scaled
 about its centre by 1 + clearance just touches wall, rim or disc. Let c be the clearance of a clear pair. Every point
 nearer than c min(b, d) lies in the scaled spheroid, and the point that it touches is at most c max(b, d) from the
@@ -26,13 +30,24 @@ from hypcheck.errors import InputError
 from hypcheck.float_environment import in_default_environment
 from hypcheck.geometry.forms import Argument, questions_of
 from hypcheck.geometry.pair import REFUSED, TILTED_COLUMNS, Pair, Position, trouble_with
-from hypcheck.geometry.rows import PAIRS, Floats, Indices, Mask, Positions, Rows, invalid
+from hypcheck.geometry.rows import PAIRS, Floats, Indices, Mask, Positions, Rows, invalid, with_heights
 from hypcheck.kernel.choice import POSITION_OF, Question, required
 from hypcheck.kernel.clearance_bounds import Clearance, clearances_without_ends
 from hypcheck.kernel.in_use import positions_of_rows
-from hypcheck.kernel.scene_gaps import gaps
+from hypcheck.kernel.numpy_kernel import is_tilted
+from hypcheck.kernel.precision import are_apart
+from hypcheck.kernel.scene_gaps import gaps, gaps_at
 
 _ROUNDED = 2.0**-47
+_LEAST = 2.0**-1074
+"""Where the product of that is 0, the points are rounded by so much."""
+
+_FAR, _WIDE = 2.0**12, 2.0**-12
+"""Of a wall so many times as large as a tilted spheroid, many places are nearly as near, and to tell them apart takes
+30 ms a row: there gaps are measured where bounds are farther apart than that share."""
+
+_AT_A_TIME = 256
+"""How many gaps are measured together: each may need thousands of cells."""
 
 
 @in_default_environment
@@ -52,10 +67,10 @@ def clearance(
     The first invalid row raises InputError; with on_invalid="flag" such rows have the position 127 and NaN everywhere.
 
     The clearance is known within 2⁻³⁰ of 1 + clearance, or of 1 where that is greater, unless the spheroid so much
-    enlarged leaves float64. The distance is known within 2⁻²⁹ of itself and b or d, unless a spheroid that holds all
-    points so near reaches the hyperboloid elsewhere: long ones in a groove, and some tilted ones. Then it lies between
-    clearance · min(b, d) and clearance · max(b, d), or nearer. So it does where the hyperboloid ends; there no error of
-    the touching point is proved, and a row takes some milliseconds.
+    enlarged leaves float64. The distance is known within 2⁻²⁹ of itself and the longer of b and d, unless lengths are
+    more than 10³ times as large as others. Then it lies between clearance · min(b, d) and clearance · max(b, d), or
+    nearer, as it mostly does. For some long and flat spheroids, and wherever the hyperboloid ends, a row takes
+    milliseconds; beside ends no error of the touching point is proved.
 
     >>> near = clearance(2, 17.8, 0.25, 0.15, [3, 4, 0])
     >>> near.distance_lower <= 2.75 <= near.distance_upper
@@ -74,9 +89,11 @@ def clearance(
 
 def clearances(queries: Rows, threads: int | None = None) -> Clearance:
     """Clearances of rows of any width; invalid rows have the position 127 and NaN everywhere."""
-    if not PAIRS.has_heights(queries):
-        return clearances_without_ends(queries, threads)
-    return _ended_clearances(queries, threads)
+    if PAIRS.has_heights(queries):
+        return _ended_clearances(queries, threads)
+    result = clearances_without_ends(queries, threads)
+    _measure_gaps(result, np.flatnonzero(_still_apart(result, np.ones(len(queries), np.bool_))))
+    return result
 
 
 def _ended_clearances(rows: Rows, threads: int | None = None) -> Clearance:
@@ -113,24 +130,68 @@ def _ended_clearances(rows: Rows, threads: int | None = None) -> Clearance:
         result.touch_error[index] = np.inf
         result.distance_lower[index] = toward(low * Fraction(min(pair.b, pair.d)), -np.inf) if clear else 0.0
         result.distance_upper[index] = toward(high * Fraction(max(pair.b, pair.d)), np.inf) if clear else 0.0
-    _measure_gaps(result, rows, ended[result.position[ended] != Position.CONTACT])
+    whole = np.asarray(np.isinf(rows[:, 10:12]).all(axis=1))
+    wanted = _still_apart(result, whole)
+    wanted[ended] = result.position[ended] != Position.CONTACT
+    _measure_gaps(result, np.flatnonzero(wanted))
     return result
 
 
-def _measure_gaps(result: Clearance, rows: Rows, clear: Indices) -> None:
-    """Replace bounds of distances, and nearest points, by better ones where the gap can be measured."""
-    some = rows[clear]
+def _still_apart(result: Clearance, whole: Mask) -> Mask:
+    """Where the gap to a whole hyperboloid has to be measured, after the points known as nearest were measured again.
+
+    The bound of a long spheroid's measured gap grows by the square of d/b in clearance_bounds.py, and here not at all.
+    """
+    with np.errstate(all="ignore"):
+        apart = np.flatnonzero(_apart(result) & whole)
+        some = with_heights(result.rows[apart])
+        upper, point = gaps_at(some[:, :4], some[:, 4:7], some[:, 7:10], result.nearest[apart])
+        upper += _roundings(some, point)
+        better = upper < result.distance_upper[apart]
+        result.distance_upper[apart[better]], result.nearest[apart[better]] = upper[better], point[better]
+        return _apart(result) & whole
+
+
+def _apart(result: Clearance) -> Mask:
+    """Where the bounds of a distance from a whole hyperboloid are too far apart, and the gap can be measured."""
+    longer, low, high = result.rows[:, 2:4].max(axis=1), result.distance_lower, result.distance_upper
+    apart: Mask = are_apart(low, high, longer) & np.isfinite(high)
+    some = np.flatnonzero(apart)
+    rows, longer, low, high = result.rows[some], longer[some], low[some], high[some]
+    reach = np.abs(rows[:, 2:7]).max(axis=1)
+    shares = rows[:, :4] / reach[:, None]
+    apart[some] = ((shares >= _RANGE[0]) & (shares <= _RANGE[1])).all(axis=1)
+    if PAIRS.has_axis(rows):
+        far = is_tilted(rows) & (np.maximum(reach, rows[:, 0]) > _FAR * longer)
+        apart[some] &= ~far | (high - low > _WIDE * (low + longer))
+    return apart
+
+
+def _measure_gaps(result: Clearance, clear: Indices) -> None:
+    """Replace bounds of distances, and nearest points, of some rows by better ones where the gap can be measured."""
+    with np.errstate(all="ignore"):
+        for start in range(0, len(clear), _AT_A_TIME):
+            _measure_some(result, clear[start : start + _AT_A_TIME])
+
+
+def _measure_some(result: Clearance, clear: Indices) -> None:
+    some = with_heights(result.rows[clear])
     measured = gaps(
         some[:, :4], some[:, 4:7], some[:, 7:10], some[:, 10:12], some[:, 12] != 0, result.distance_upper[clear]
     )
-    # Points and distances are right within 64u of the lengths that they are computed from.
-    lengths = np.abs(measured.point).sum(axis=1) + np.abs(some[:, 4:7]).sum(axis=1) + some[:, 2:4].sum(axis=1)
-    upper = measured.upper + _ROUNDED * lengths
+    rounded = _roundings(some, measured.point)
+    upper = measured.upper + rounded
     better = upper < result.distance_upper[clear]
-    shown = measured.upper <= result.distance_upper[clear] + _ROUNDED * lengths
+    shown = measured.upper <= result.distance_upper[clear] + rounded
     result.distance_lower[clear] = np.fmax(result.distance_lower[clear], measured.lower)
     result.distance_upper[clear[better]] = upper[better]
     result.nearest[clear[shown]] = measured.point[shown]
+
+
+def _roundings(rows: Rows, point: Rows) -> Floats:
+    """What points of walls, and their distances, are off: 64u of the lengths that they are computed from."""
+    lengths = np.abs(point).sum(axis=1) + np.abs(rows[:, 4:7]).sum(axis=1) + rows[:, 2:4].sum(axis=1)
+    return np.asarray(_ROUNDED * lengths + _LEAST)
 
 
 _OUTWARD = 1 + 2.0**-48

@@ -66,11 +66,10 @@ def gaps(sizes: Rows, centres: Rows, axes: Rows | None, spans: Rows, solid: Mask
 
     `sizes` are α, γ, b, d (n, 4); `axes` (n, 3), None where all are upright; `farthest` (n,) are upper bounds.
     """
-    unit = np.tile((0.0, 0.0, 1.0), (len(sizes), 1)) if axes is None else axes / np.abs(axes).max(axis=1, keepdims=True)
-    unit = unit / np.sqrt((unit * unit).sum(axis=1, keepdims=True))
+    unit = np.tile((0.0, 0.0, 1.0), (len(sizes), 1)) if axes is None else _unit(axes)
     upright = (unit[:, :2] == 0).all(axis=1) | (sizes[:, 2] == sizes[:, 3])
     with np.errstate(all="ignore"):
-        unit_of = -np.frexp(np.maximum(np.abs(centres).max(axis=1), sizes[:, 2:].max(axis=1)))[1]  # squares overflow
+        unit_of = _unit_of(sizes, centres)
         sizes, centres, spans = (np.ldexp(column, unit_of[:, None]) for column in (sizes, centres, spans))
         alpha, gamma, b, d = np.ascontiguousarray(sizes.T)
         pairs = _Pairs(alpha, gamma, b, d, centres, unit, upright)
@@ -79,6 +78,35 @@ def gaps(sizes: Rows, centres: Rows, axes: Rows | None, spans: Rows, solid: Mask
             _to_discs(result, pairs, spans[:, end], solid)
         lower, upper = (_in_unit(length, unit_of, way) for length, way in ((result.lower, 0), (result.upper, np.inf)))
         return Gaps(lower, upper, np.ldexp(result.point, -unit_of[:, None]))
+
+
+def gaps_at(sizes: Rows, centres: Rows, axes: Rows, points: Rows) -> tuple[Floats, Rows]:
+    """The distances (n,) of spheroids from the points (n, 3) of walls at the height of some points, but for roundings.
+
+    And those points: they are upper bounds of the distance from the wall.
+    """
+    with np.errstate(all="ignore"):
+        unit_of = _unit_of(sizes, centres)
+        sizes, centres, points = (np.ldexp(column, unit_of[:, None]) for column in (sizes, centres, points))
+        points = at_height(sizes, points, points[:, 2])
+        distance, _ = from_spheroids(sizes[:, 2], sizes[:, 3], _unit(axes), points - centres)
+        return _in_unit(distance, unit_of, np.inf), np.ldexp(points, -unit_of[:, None])
+
+
+def at_height(rows: Rows, point: Rows, height: Floats) -> Rows:
+    """The points of the hyperboloids at these heights, in the half planes of some points."""
+    share = rows[:, 0] * np.hypot(1, height / rows[:, 1]) / np.hypot(point[:, 0], point[:, 1])
+    return np.stack([point[:, 0] * share, point[:, 1] * share, height], axis=1)
+
+
+def _unit(axes: Rows) -> Rows:
+    longer = axes / np.abs(axes).max(axis=1, keepdims=True)
+    return np.asarray(longer / np.sqrt((longer * longer).sum(axis=1, keepdims=True)))
+
+
+def _unit_of(sizes: Rows, centres: Rows) -> Indices:
+    """Exponents by which lengths become about 1 at most, as squares overflow."""
+    return np.asarray(-np.frexp(np.maximum(np.abs(centres).max(axis=1), sizes[:, 2:].max(axis=1)))[1])
 
 
 def _in_unit(length: Floats, unit_of: Indices, towards: float) -> Floats:
@@ -210,7 +238,8 @@ def _least(of: _Pairs, cells: Floats, normal: Floats) -> tuple[Floats, Floats]:
     chosen = np.where(np.isnan(values), np.inf, values).argmin(axis=0), np.arange(len(cells))
     best, place = values[chosen], points.reshape(-1, len(cells), 3)[chosen]
     steep = (normal * of.axis).sum(axis=1)
-    flat = np.sqrt(np.maximum(1 - steep * steep, 0))
+    across = normal - steep[:, None] * of.axis  # 1 − steep² would lose what counts beside a flat spheroid
+    flat = np.sqrt((across * across).sum(axis=1))
     bound = best - np.hypot(of.b * flat, of.d * steep) - _LOOSE * _size(of, np.abs(cells[:, :2]).max(axis=1))
     return np.where(np.isfinite(bound), bound, -np.inf), place
 

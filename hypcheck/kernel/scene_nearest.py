@@ -9,7 +9,7 @@ The distance to a whole hyperboloid is a lower bound of that to the wall between
 nearest point lies between them. Else a point P at the near end gives an upper bound: with f the factor by which the
 spheroid reaches P, its point on the way to P is (1 − 1/f) |P − C| away. An end disc is no nearer than its plane. For
 pairs that may be the nearest by these bounds, scene_gaps.py then finds the distance to the real surface between the
-ends, and so it does where clearance() leaves bounds that are apart, as for a long mover in a groove.
+ends, and so it does where clearance_bounds.py leaves bounds that are apart, as for a long mover in a groove.
 
 **A tilted hyperboloid** is asked in a frame of its own, whose rows are a unit vector along its axis and two across.
 So the offset is off by TURNING of its size, and the spheroid, by its axis, by TURNING of its longer semi-axis: both are
@@ -28,10 +28,10 @@ import numpy as np
 
 from hypcheck.geometry.pair import COLUMNS, TILTED_COLUMNS, UPRIGHT, Position
 from hypcheck.geometry.rows import PAIRS, Floats, Indices, Mask, Rows
-from hypcheck.kernel.clearance import clearances
+from hypcheck.kernel.clearance_bounds import clearances_without_ends
 from hypcheck.kernel.clearance_points import normals
 from hypcheck.kernel.scene_ends import positions_with_ends
-from hypcheck.kernel.scene_gaps import gaps
+from hypcheck.kernel.scene_gaps import at_height, gaps
 from hypcheck.kernel.scene_index import OUTWARD, Bodies
 from hypcheck.kernel.scene_pairs import along_and_across, tilted_positions
 from hypcheck.kernel.scene_queries import frames_of, turned, turned_axes
@@ -240,7 +240,7 @@ def _pairs_of(bodies: Bodies, mover: Mover, centres: Floats, axes: Floats | None
 def _to_wholes(pairs: _Pairs) -> tuple[Floats, Floats, Floats, Mask]:
     """Bounds of the distances by those to whole hyperboloids, points for the upper ones, and where more is needed."""
     rows, rounded, (bottom, top) = pairs.rows, pairs.rounded, pairs.spans.T
-    wholes = clearances(rows)
+    wholes = clearances_without_ends(rows)
     with np.errstate(all="ignore"):
         low, high = np.maximum(wholes.distance_lower - rounded, 0), wholes.distance_upper + rounded
         point = wholes.nearest.copy()
@@ -251,7 +251,7 @@ def _to_wholes(pairs: _Pairs) -> tuple[Floats, Floats, Floats, Mask]:
         cut |= solid & (to_planes < high)  # else its discs are farther than its wall
         low[solid] = np.minimum(low, np.maximum(to_planes, 0))[solid]
         some = np.flatnonzero(cut)
-        at = _at_height(rows[some], point[some], np.clip(level[some], bottom[some], top[some]))
+        at = at_height(rows[some], point[some], np.clip(level[some], bottom[some], top[some]))
         axes = pairs.own_axes
         point[some] = at
         high[some] = _reached(pairs.mover, None if axes is None else axes[some], at - rows[some, 4:7])
@@ -287,12 +287,6 @@ def _decide_contact(pairs: _Pairs, low: Floats, high: Floats) -> None:
     places = sizes, pairs.centres[some], bodies.origins[body], pairs.axes[some]
     position = positions_with_ends(tilted_positions(*places, bodies.axes[body]), *places, bodies, body)
     high[some[position == Position.CONTACT]] = 0.0
-
-
-def _at_height(rows: Rows, point: Rows, height: Floats) -> Rows:
-    """The points of the hyperboloids at these heights, in the half planes of some points."""
-    share = rows[:, 0] * np.hypot(1, height / rows[:, 1]) / np.hypot(point[:, 0], point[:, 1])
-    return np.stack([point[:, 0] * share, point[:, 1] * share, height], axis=1)
 
 
 def _reached(mover: Mover, axes: Floats | None, offset: Rows) -> Floats:

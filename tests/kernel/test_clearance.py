@@ -11,7 +11,7 @@ import pytest
 import hypcheck
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Pair
-from hypcheck.kernel import clearance_points
+from hypcheck.kernel import clearance_bounds, clearance_points
 from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES
 from tests.support.inside import clearances, nearest
 from tests.support.inside import kernel_choice as choice
@@ -73,11 +73,13 @@ def test_clearance_intervals_stay_right_if_the_gap_is_measured_at_another_point(
         return dataclasses.replace(said, there=moved, length=length)
 
     monkeypatch.setattr(clearance_points, "upright_gaps", gaps)
-    found = hypcheck.clearance(some)
+    found, unmeasured = hypcheck.clearance(some), clearance_bounds.clearances_without_ends(some)
     choice.choice.cache_clear()
-    assert (found.distance_lower <= true.distance_upper).all()
-    assert (found.distance_upper >= true.distance_lower).all()
-    assert (found.distance_upper > 1.01 * true.distance_upper).any()
+    for each in (found, unmeasured):
+        assert (each.distance_lower <= true.distance_upper).all()
+        assert (each.distance_upper >= true.distance_lower).all()
+    assert (unmeasured.distance_upper > 1.01 * true.distance_upper).any()
+    assert np.allclose(found.distance_upper, true.distance_upper, rtol=0, atol=1e-8)
 
 
 def test_clearance_of_the_numpy_kernel_agrees_with_each_instruction_set(rows, monkeypatch):
