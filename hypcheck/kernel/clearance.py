@@ -143,7 +143,10 @@ def _still_apart(result: Clearance, whole: Mask) -> Mask:
     The bound of a long spheroid's measured gap grows by the square of d/b in clearance_bounds.py, and here not at all.
     """
     with np.errstate(all="ignore"):
-        apart = np.flatnonzero(_apart(result) & whole)
+        wanted = _apart(result) & whole
+        apart = np.flatnonzero(wanted)
+        if not len(apart):
+            return wanted
         some = with_heights(result.rows[apart])
         upper, point = gaps_at(some[:, :4], some[:, 4:7], some[:, 7:10], result.nearest[apart])
         upper += _roundings(some, point)
@@ -154,9 +157,12 @@ def _still_apart(result: Clearance, whole: Mask) -> Mask:
 
 def _apart(result: Clearance) -> Mask:
     """Where the bounds of a distance from a whole hyperboloid are too far apart, and the gap can be measured."""
-    longer, low, high = result.rows[:, 2:4].max(axis=1), result.distance_lower, result.distance_upper
+    low, high = result.distance_lower, result.distance_upper
+    longer = np.maximum(result.rows[:, 2], result.rows[:, 3])
     apart: Mask = are_apart(low, high, longer) & np.isfinite(high)
     some = np.flatnonzero(apart)
+    if not len(some):
+        return apart
     rows, longer, low, high = result.rows[some], longer[some], low[some], high[some]
     reach = np.abs(rows[:, 2:7]).max(axis=1)
     shares = rows[:, :4] / reach[:, None]
