@@ -46,6 +46,12 @@ class Names(click.ParamType[str]):
         self.many = many
         self.files = files
 
+    def convert(self, value: str, param: click.Parameter | None, ctx: click.Context | None) -> str:
+        """The text; a list without any name is refused, for what it leads to is that of no list."""
+        if self.many and not names_in(value):
+            self.fail(f"{shown(value)} must be names, separated by commas.", param, ctx)
+        return value
+
     def shell_complete(
         self,
         ctx: click.Context,
