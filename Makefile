@@ -36,7 +36,7 @@ bench: $(VENV)/ready ## error against run time of every method (under 5 minutes)
 	$(BIN)/hypcheck bench --out reports/bench
 
 deep: $(VENV)/ready ## a million cases through the oracles (under 15 minutes); reports in reports/reference/
-	$(BIN)/hypcheck verify --self --out reports/reference --count 33000 --roots 200000 --meshes 20000
+	$(BIN)/hypcheck verify --self --out reports/reference --count 33000 --roots 200000 --meshes 35000
 
 engines: $(VENV)/ready ## what collision engines get wrong, each installed apart (half an hour); reports in reports/engines/
 	$(BIN)/hypcheck engines install $(ENGINES)
