@@ -38,6 +38,8 @@ bench: $(VENV)/ready ## error against run time of every method (under 5 minutes)
 deep: $(VENV)/ready ## a million cases through the oracles (under 15 minutes); reports in reports/reference/
 	$(BIN)/hypcheck verify --self --out reports/reference --count 33000 --roots 200000 --meshes 35000
 
+# In a folder of the clone: reports name no folder of the machine that made them.
+engines: export HYPCHECK_ENGINES ?= $(VENV)/engines
 engines: $(VENV)/ready ## what collision engines get wrong, each installed apart (half an hour); reports in reports/engines/
 	$(BIN)/hypcheck engines install $(ENGINES)
 	$(BIN)/hypcheck engines verify $(ENGINES)
