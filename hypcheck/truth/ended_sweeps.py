@@ -108,7 +108,7 @@ def _larger(sweep: StraightSweep, middle: Fraction, half: Fraction) -> Position:
 
 
 def _radii(sweep: StraightSweep) -> Fraction:
-    """A lower bound of the sweep's length in radii of the spheroid in the sweep's direction."""
+    """An upper bound of the sweep's length in radii of the spheroid in the sweep's direction."""
     start, (u, v, w) = sweep.start, map(abs, sweep.step)
     if sweep.is_upright and start.upward == (0, 0, 1):
         return Fraction(u + v, start.b) + Fraction(w, start.d)
@@ -150,7 +150,8 @@ def meets(sweep: EndedSweep) -> bool:
 
 def grazes(sweep: StraightSweep) -> bool:
     """Whether all contact on a sweep with contact is a touch."""
-    times = [time for time in _gaps(EndedSweep(sweep).clusters(_BITS[0])) if time is not None]
+    gaps = (time for time in _gaps(EndedSweep(sweep).clusters(_BITS[0])) if time is not None)
+    times = (START, END, *gaps)  # a cluster that holds an end leaves no gap beside it
     return all(sweep.position(time) is not Position.CONTACT or sweep.tangent(time) for time in times)
 
 

@@ -357,3 +357,14 @@ def test_python_session_in_docs_motion_gives_the_results_that_it_shows():
     page = Path(__file__).resolve().parents[2] / "docs" / "motion.md"
     results = doctest.testfile(str(page), module_relative=False, encoding="utf-8")
     assert (results.failed, results.attempted) == (0, 4)
+
+
+@pytest.mark.parametrize("axis", [(0, 0, 1), (1, 2, 3)])
+@pytest.mark.parametrize("deep", [2.0**-70, 2.0**-300])
+def test_contact_that_begins_just_before_the_end_of_a_way_beside_a_disc_is_found_and_is_no_touch(axis, deep):
+    way = (8, 8, 1, 1), (0, 0, 4), (0, 0, 1), axis
+    found = passage(*way, z_max=deep, solid=True)
+    assert (found.hit, found.grazes) == (True, False)
+    assert 1 - 2.0**-53 <= found.first_lower <= found.first_upper == 1
+    assert passage(*way, z_max=0.0, solid=True).grazes
+    assert passage(*way, z_max=-deep, solid=True).clear
