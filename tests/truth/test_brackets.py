@@ -162,3 +162,22 @@ def test_derivatives_by_the_axis_are_those_of_another_algebra():
     # Turning the axis to v + ε k changes no length of v at first order only across it: both are taken across v.
     right = [value.diff(part).subs(at) for part in v]
     assert [sympy.nsimplify(part) for part in own] == [sympy.nsimplify(part) for part in right]
+
+
+@pytest.mark.parametrize("row", [[1, 1, 0.5, 0.25, 1e4, 0, 0, 1, 2, 3], [1, 1, 0.5, 0.25, 300, 1, 0, 1, 2, 3]])
+def test_a_bracket_of_a_pair_far_apart_ends_at_1(row):
+    assert quick_bracket(Pair.from_row(row), decided(row), CONTACT).upper == 1
+
+
+@pytest.mark.parametrize(("x", "answer"), [(1.2, EXTERIOR), (0.8, INTERIOR), (1.75, CONTACT)])
+def test_a_bracket_is_the_same_in_another_unit_of_length(x, answer):
+    row = [1, 4, 0.3, 0.25, x, 0.0, 0.3, 0, 1, 1]
+    small = [*(number * 2.0**-20 for number in row[:7]), *row[7:]]
+    assert bracket(Pair.from_row(small), decided(small), answer) == bracket(Pair.from_row(row), decided(row), answer)
+
+
+def test_the_estimate_where_the_centre_is_on_the_other_side_is_by_the_hyperboloid_alone():
+    """The margin is -1 there; (x² + y²)/α² and z²/γ² count four times, for the centre and for the sizes."""
+    row = [1, 1, 0.75, 0.25, 0.5, 0.5, 0.5, 1, 2, 3]
+    assert decided(row).position is CONTACT
+    assert estimate(Pair.from_row(row), decided(row), EXTERIOR) == pytest.approx(1 / (4 * 0.5 + 4 * 0.25))

@@ -118,3 +118,12 @@ def test_a_cut_box_is_two_halves_that_together_are_the_box():
     assert (one.low.tolist(), other.high.tolist()) == (whole.low.tolist(), whole.high.tolist())
     rest = [0, 1, 3, 4, 5]
     assert (one.high[rest].tolist(), other.low[rest].tolist()) == (whole.high[rest].tolist(), whole.low[rest].tolist())
+
+
+def test_a_lower_end_at_the_least_step_is_excluded_as_any_other_is():
+    goal = Goal(Position.EXTERIOR, leave=False)
+    rows = np.array([[1, 4, 0.125, 0.25, 1.125 - k * 2.0**-52, 0, 0, 0, 1, 0] for k in range(140, 240, 5)])
+    ends = float_boxes.lower_ends(rows, [goal] * len(rows))
+    found = ends > 0
+    assert ends[found].min() == 2.0**float_boxes.LEAST
+    assert float_boxes.excluded(rows[found], [goal] * int(found.sum()), ends[found]).all()

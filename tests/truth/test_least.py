@@ -279,3 +279,17 @@ def test_a_bound_that_overflows_tells_nothing(row):
 )
 def test_positions_by_the_least_value_are_those_found_by_hand(row, expected):
     assert least.position(Pair.from_row(row)) is expected
+
+
+def test_the_bound_of_a_cell_at_a_narrow_waist_pays_for_how_the_wall_bends_there():
+    """Far from the axis, beside a waist whose radius of curvature is a thousandth of that distance."""
+    draw = np.random.default_rng(3)
+    pair = Pair.from_row((0.125, 0.0125, 4, 4, 5, 0, 0, 0, 0, 1, -1, 1, 0))
+    w, t = draw.uniform(-0.02, 0.02, 200), draw.uniform(-1, 1, 200)
+    some = np.stack([w, t, 10 ** draw.uniform(-3, -1, 200), 10 ** draw.uniform(-6, -3, 200)])
+    found = least._bounds(pair, some, least._at)
+    assert (1 + found.below <= in_cells(pair, some, draw) * (1 + 1e-12) + 1e-12).all()
+
+
+def test_a_spheroid_much_smaller_than_the_roundings_of_the_wall_is_left_undecided():
+    assert least.position(Pair.from_row((1, 1, 2.0**-60, 2.0**-60, 1 + 2.0**-50, 0, 0, 0, 0, 1, -1, 1, 0))) is None

@@ -13,6 +13,7 @@ from hypcheck.truth import mesh_meridian
 from hypcheck.truth.mesh_meridian import REACH, UNIT, meridian_of, window_of
 from tests.support.examples import examples
 from tests.support.fractions_truth import everyday, rows_of
+from tests.support.inside import MeshOutcome
 
 
 @pytest.mark.slow
@@ -50,3 +51,28 @@ def test_window_of_the_meridian_holds_every_point_within_reach(row, share):
 )
 def test_the_nearest_point_of_a_segment_is_at_its_foot_or_at_an_end(ends, nearest):
     assert mesh_meridian._nearest_on(*ends) == nearest
+
+
+def test_a_segment_without_length_is_left_out_of_a_ribbon_and_another_becomes_a_square():
+    vertices, triangles = mesh_meridian.ribbon([((1.0, 2.0), (1.0, 2.0)), ((3.0, 5.0), (3.0, 9.0))])
+    assert vertices.tolist() == [[3, -2, 5], [3, 2, 5], [3, 2, 9], [3, -2, 9]]
+    assert triangles.tolist() == [[0, 1, 2], [0, 2, 3]]
+
+
+@pytest.mark.parametrize(
+    ("row", "outside", "clear"),
+    [
+        ((1, 1, 1, 1, 2.14, 0, 0), True, True),
+        ((1, 1, 1, 1, 1.9, 0, 0), True, False),
+        ((4, 4, 1, 1, 2.9, 0, 0), False, True),
+        ((4, 4, 1, 1, 3.1, 0, 0), False, False),
+    ],
+)
+def test_a_mesh_is_nearer_than_the_wall_where_the_pair_is_clear_and_farther_where_it_is_in_contact(row, outside, clear):
+    """Chords have their ends on the wall; tangents meet within it."""
+    search = mesh_meridian.refine(Pair(*map(float, row)))
+    x, _, z = (search.meshes[0][0] + (row[4], 0, 0)).T
+    level = (x * x / row[0] ** 2 - z * z / row[1] ** 2) - 1
+    assert (search.outcome is MeshOutcome.CLEAR) == clear
+    assert (level < 1e-9).all()
+    assert (level > -1e-9).all() == (outside == clear)

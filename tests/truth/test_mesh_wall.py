@@ -85,6 +85,7 @@ def test_contact_is_shown_by_one_mesh_inside_the_hyperboloid_and_one_outside_bot
     search = refine(Pair.from_row((1.0, 2.0, 1.0, 1.0, x, 0.3, 0.5, 0, 0, 1, -1.0, 0.75, 0)))
     assert search.outcome is MeshOutcome.CONTACT
     for side, (vertices, triangles) in zip((-1, 1), search.meshes, strict=True):
+        assert len(vertices) == 9  # of one cell, though others are within as well
         for triangle in triangles:
             px, py, pz = (draw.dirichlet([1, 1, 1], 20) @ vertices[triangle] + (x, 0.3, 0.5)).T
             assert (side * (px * px + py * py - pz * pz / 4 - 1) >= -1e-12).all()
@@ -99,6 +100,7 @@ def test_mesh_oracle_is_undecided_where_fcl_does_not_confirm_what_it_found_about
 
 
 def test_mesh_oracle_leaves_extreme_ratios_of_lengths_beside_an_end_undecided():
+    assert refine(Pair.from_row((1, 1, 1e-300, 1e-290, 2, 0, 0, 1, 2, 3, -1, 1, 0))).levels == 0
     assert verdict(Pair.from_row((1, 1, 1e-300, 1e-290, 2, 0, 0, 1, 2, 3, -1, 1, 0))).position is None
     assert verdict(Pair.from_row((1e300, 1, 1e-300, 1, 2, 0, 0, 0, 0, 1, -1, 1, 0))).position is None
 

@@ -6,12 +6,14 @@ import math
 from fractions import Fraction
 
 import pytest
+import sympy
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import hypcheck
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Lengths, Pair, Position
+from hypcheck.truth import polynomials
 from hypcheck.truth.sweep import _ring_between
 from hypcheck.vectors.tilted import RINGS, TWO_POINTS
 from tests.support.examples import examples
@@ -256,3 +258,16 @@ def test_the_positions_at_both_ends_of_a_way_beside_an_end_are_told(axis):
     for start, end in ((above, within), (within, above)):
         found = passage((3, 4, 0.25, 0.5), start, end, axis, z_min=-3, z_max=5)
         assert (found.start, found.end) == tuple(1 if place is above else -1 for place in (start, end))
+
+
+def test_what_stands_for_a_discriminant_that_is_always_0_is_the_next_subresultant():
+    sweep = sweep_of((3, 1, 3, 1), (0, 0, 0), (Fraction(128, 9), 0, 64), (1, 0, 2))
+    assert not sweep.discriminant()
+    ratios = set()
+    for time in range(1, 7):
+        F = [polynomials.value(f, Fraction(time)) for f in sweep.pencil]
+        shifts = [[0] * k + F for k in range(2)] + [[0] * k + [*polynomials.derivative(F)] for k in range(3)]
+        determinant = sympy.Matrix([[*row, *[0] * 5][:5] for row in shifts]).det()
+        ratios.add(determinant / polynomials.value(sweep.root_changes(), Fraction(time)))
+    assert len(ratios) == 1
+    assert 0 not in ratios

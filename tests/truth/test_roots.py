@@ -169,6 +169,10 @@ def test_signs_and_multiplicities_of_roots_alone_give_the_expected_kinds(row, li
     assert set(report.literal_kinds) == kinds
 
 
+def test_where_c_squared_is_a_a_triple_root_has_one_meaning():
+    assert classify_by_roots(Pair(4, 2, 1, 1, 5, 0, 0)).literal_kinds == (Kind.EXTERIOR_TANGENT_OSCULATING,)
+
+
 ROW = (1, 0.25, 1, 1, 2, 0, 0.5)  # three roots above B
 
 
