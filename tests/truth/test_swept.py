@@ -368,3 +368,12 @@ def test_contact_that_begins_just_before_the_end_of_a_way_beside_a_disc_is_found
     assert 1 - 2.0**-53 <= found.first_lower <= found.first_upper == 1
     assert passage(*way, z_max=0.0, solid=True).grazes
     assert passage(*way, z_max=-deep, solid=True).clear
+
+
+@pytest.mark.parametrize("lean", [(0, 1, 1), (1, 0, 1)])
+def test_a_flat_spheroid_that_sweeps_over_a_small_body_as_leaning_as_itself_meets_it(lean):
+    """It is 16 times as wide as thick, and moves partly along its axis: in contact for a thirtieth of the way."""
+    start, end = ([side * part for part in (lean[0], lean[1], 0)] for side in (-2.2, 2))
+    found = passage((0.01, 0.01, 1, 0.0625), start, end, lean, lean, z_min=-0.01, z_max=0.01, solid=True)
+    assert found.hit
+    assert 0.49 < found.first_lower < 0.524
