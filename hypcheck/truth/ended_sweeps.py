@@ -37,8 +37,16 @@ from math import isqrt
 
 from hypcheck.geometry.pair import Lengths, Position
 from hypcheck.truth import exact
-from hypcheck.truth.polynomial_roots import Interval, enclosures
-from hypcheck.truth.polynomials import Polynomial, polynomial_product, polynomial_sum, primitive
+from hypcheck.truth.polynomial_roots import Interval, enclosures, roots_from_0_to_1
+from hypcheck.truth.polynomials import (
+    Polynomial,
+    common_divisor,
+    polynomial_product,
+    polynomial_sum,
+    primitive,
+    quotient,
+    squarefree,
+)
 from hypcheck.truth.sections import Sections
 from hypcheck.truth.sweep import StraightSweep
 
@@ -150,9 +158,26 @@ def meets(sweep: EndedSweep) -> bool:
 
 def grazes(sweep: StraightSweep) -> bool:
     """Whether all contact on a sweep with contact is a touch."""
-    gaps = (time for time in _gaps(EndedSweep(sweep).clusters(_BITS[0])) if time is not None)
-    times = (START, END, *gaps)  # a cluster that holds an end leaves no gap beside it
-    return all(sweep.position(time) is not Position.CONTACT or sweep.tangent(time) for time in times)
+    critical = EndedSweep(sweep).critical
+    gaps = (time for time in _gaps(_clusters(critical, _BITS[0])) if time is not None)
+    if any(_is_deep(sweep, time) for time in (START, END, *gaps)):
+        return False
+    # Where a cluster holds two roots, the contact between them lasts less than any gap that was asked.
+    roots = [START, *(end for root in roots_from_0_to_1(_with_all_roots(critical)) for end in root), END]
+    return not any(_is_deep(sweep, (low + high) / 2) for low, high in zip(roots[::2], roots[1::2], strict=True))
+
+
+def _is_deep(sweep: StraightSweep, time: Fraction) -> bool:
+    """Whether there is contact at a time that is no touch."""
+    return sweep.position(time) is Position.CONTACT and not sweep.tangent(time)
+
+
+def _with_all_roots(polynomials: Sequence[Polynomial]) -> Polynomial:
+    """A primitive polynomial, not 0, with the roots of all, each of them simple."""
+    product: Polynomial = (1,)
+    for f in map(squarefree, polynomials):
+        product = polynomial_product(product, quotient(f, primitive(common_divisor(product, f))))
+    return primitive(product)
 
 
 def _clear_in_pieces(sweep: EndedSweep, pieces: int = 4) -> bool:

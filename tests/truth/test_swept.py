@@ -377,3 +377,12 @@ def test_a_flat_spheroid_that_sweeps_over_a_small_body_as_leaning_as_itself_meet
     found = passage((0.01, 0.01, 1, 0.0625), start, end, lean, lean, z_min=-0.01, z_max=0.01, solid=True)
     assert found.hit
     assert 0.49 < found.first_lower < 0.524
+
+
+@pytest.mark.parametrize("aside", [2.0**-100, 2.0**-140, 2.0**-400])
+def test_contact_that_lasts_next_to_no_time_beside_ends_is_no_touch_where_it_is_none_without_them(aside):
+    """A ball as wide as the throat goes through it, exactly in the middle or a little aside."""
+    for place, grazes in ((0.0, True), (aside, False)):
+        way = (1, 1, 1, 1), (0, place, -1), (0, place, 1.5)
+        assert passage(*way).grazes == grazes
+        assert passage(*way, z_min=-5.0, z_max=5.0).grazes == grazes
