@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import COLUMNS, Lengths, Pair, Position
+from hypcheck.geometry.pair import COLUMNS, Lengths, Pair, Position, trouble_with_row
 from tests.support.pairs import pairs
 
 GOOD = dict(zip(COLUMNS, (1.0, 2.0, 1.0, 1.0, 2.5, 0.0, 0.0), strict=True))
@@ -111,3 +111,8 @@ def test_a_pair_refuses_heights_that_bound_nothing(heights, trouble):
     with pytest.raises(InputError) as refused:
         Pair(**GOOD, **dict(zip(("z_min", "z_max", "solid"), heights, strict=True)))
     assert str(refused.value) == trouble
+
+
+@pytest.mark.parametrize("more", [(), (0.0, 3.0, 1.0), (0.0, 3.0, 1.0, -2.0, math.inf, 1.0)])
+def test_a_valid_row_of_seven_ten_or_thirteen_numbers_has_no_trouble(more):
+    assert trouble_with_row((*GOOD.values(), *more)) is None

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import hypcheck
+from hypcheck.geometry.pair import Pair
 from tests.support import inside
 from tests.support.inside import Buffers, chunks, numpy_kernel, positions_of_scene, scene_lines
 
@@ -103,3 +104,37 @@ def test_a_last_chunk_that_is_not_full_is_answered_as_the_others(axis):
     expected = hypcheck.classify(rows)
     assert (numpy_kernel.positions(rows) == expected).all()
     assert (positions_of_scene(sizes, *columns, axis) == expected).all()
+
+
+def test_a_tilted_spheroid_whose_radius_is_its_place_is_decided_as_a_tilted_one():
+    """b = x: a sphere has b = d, and nothing else makes an axis count for nothing."""
+    row = (0.125, 2.0, 1.5, 0.25, 1.5, 0.0, 0.0, 1.0, 0.0, 0.0)
+    assert inside.position(Pair.from_row(row).lengths) == 1
+    assert numpy_kernel.positions(np.array([row])).tolist() == [1]
+
+
+@pytest.mark.parametrize(
+    ("centre", "expected"),
+    [
+        ((0.0, 0.0, -1.25), -1),  # farther than its reach from both ends
+        ((0.0, 0.0, 0.25), 2),  # it reaches over the upper end
+        ((0.0, 0.0, 1.75), 2),
+        ((0.0, 0.0, 2.25), 1),
+        ((0.0, 0.0, -2.5), 2),
+        ((0.0, 0.0, -4.5), 1),
+        ((9.0, 0.0, 0.25), 2),
+    ],
+)
+def test_the_numpy_kernel_says_beside_which_end_only_whole_spheroids_lie(centre, expected):
+    """Between -3 and 1, with a reach of 1."""
+    row = (3.0, 2.0, 0.5, 1.0, *centre, 0.0, 0.0, 1.0, -3.0, 1.0, 0.0)
+    assert numpy_kernel.answer_ended(np.array([row])).tolist() == [expected]
+
+
+@pytest.mark.parametrize("heights", [(), (-3.0, 1.0, 0.0), (-3.0, 1.0, 1.0)])
+def test_the_numpy_kernel_takes_another_side_at_the_end_for_contact_unless_there_is_an_opening(heights):
+    sizes, axis = (3.0, 2.0, 0.5, 1.0), (0.0, 0.0, 1.0) if heights else ()
+    out = (0.0, 0.0, -1.0, 0.0, 0.0, 9.0) if heights else (0.0, 0.0, -1.0, 9.0, 0.0, 0.0)
+    stays = (0.0, 0.0, -1.0, 0.0, 0.0, -1.5)
+    hits, _ = numpy_kernel.answer_sweeps(np.array([(*sizes, *way, *axis, *heights) for way in (out, stays)]))
+    assert hits.tolist() == [2 if heights and not heights[2] else 1, 2]

@@ -167,3 +167,12 @@ def test_a_cut_line_counts_as_a_lost_line_and_lines_after_a_damage_as_many(data,
     assert (found.lines, found.lost_lines, found.complete) == (2, 2, False)
     assert "damaged" in found.why or "checksum" in found.why
     assert (tmp_path / "good.jsonl").read_bytes() == resealed(LINES[:2])
+
+
+def test_all_that_follows_a_damage_counts_as_lost_however_much_it_is(data, tmp_path):
+    """More than what is read at a time."""
+    record, more = tmp_path / "record.jsonl", b"x" * (1 << 21) + b"\n"
+    record.write_bytes(data.replace(b"again", b"AGAIN") + more)
+    found = repair(record, tmp_path / "good.jsonl")
+    assert found.size + found.lost_bytes == len(data) + len(more)
+    assert (found.lines, found.lost_lines) == (2, 3)

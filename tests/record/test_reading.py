@@ -15,7 +15,7 @@ from hypcheck.geometry.rows import PAIRS, SWEEPS, with_axis, with_heights
 from hypcheck.record import SCHEMA, Record, Recorder, integrity, read
 from hypcheck.record.fields import FARTHEST, Histogram, decoded, numbers_of, row_of
 from hypcheck.record.lines import DriftLine, FooterLine, GroupLine, HeaderLine, ImplementationLine
-from hypcheck.record.measurements import AccuracyLine, BoundingLine
+from hypcheck.record.measurements import AccuracyLine, BoundingLine, StabilityLine
 from hypcheck.record.progress import Tally
 from hypcheck.record.reader import FILE, GROWING, file_and_newer, interrupted_in, recorded_cases
 from tests.support.records import GrowingText, resealed, unanswered_case
@@ -309,3 +309,33 @@ def test_the_error_about_a_line_that_lacks_a_field_names_the_field(path):
     path.write_bytes(resealed([broken, {**FOOTER, "lines": 2}]))
     with pytest.raises(InputError, match="line 1, header: it lacks started"):
         read(path)
+
+
+@pytest.mark.parametrize("error", [True, "large", None])
+def test_a_line_of_a_benchmark_with_a_distance_that_is_no_number_is_refused(error):
+    counts = dict.fromkeys(("asked", "wrong", "false_clear", "false_contact", "wrong_side", "abstained"), 0)
+    line = {"type": "accuracy", **counts, "method": "m", "workload": "near", "octaves": [], "worst": []}
+    decoded({**line, "reliable_above": "inf"}, AccuracyLine)
+    with pytest.raises(ValidationError, match=r'Expected `float` or "inf" - at `\$\.reliable_above`'):
+        decoded({**line, "reliable_above": error}, AccuracyLine)
+
+
+def test_a_line_of_a_benchmark_with_a_bin_farther_than_the_farthest_is_refused():
+    counts = dict.fromkeys(("asked", "wrong", "false_clear", "false_contact", "wrong_side", "abstained"), 0)
+    accuracy = {"type": "accuracy", **counts, "method": "m", "workload": "near", "reliable_above": 1.0, "worst": []}
+    decoded({**accuracy, "octaves": [[FARTHEST, 1, 1]]}, AccuracyLine)
+    with pytest.raises(ValidationError, match="octaves"):
+        decoded({**accuracy, "octaves": [[FARTHEST + 1, 1, 1]]}, AccuracyLine)
+    stability = {"type": "stability", "method": "m", "precision": "float64"}
+    decoded({**stability, "bins": [[0, FARTHEST, 1, 1]]}, StabilityLine)
+    for impossible in ([0, FARTHEST + 1, 1, 1], [0, 0, 1, 2]):
+        with pytest.raises(ValidationError, match="bins"):
+            decoded({**stability, "bins": [impossible]}, StabilityLine)
+
+
+def test_a_group_that_counts_no_skipped_cases_has_skipped_none():
+    counts = {"mistakes": {}, "octaves": {}, "place_bins": [], "size_bins": [], "worst": []}
+    names = {"method": "m", "title": "m", "exact": False, "question": "position", "precision": "float64", "family": "f"}
+    for counted in ({}, {"skipped": 2}):
+        group = decoded({"type": "group", **names, "asked": 2, "counts": counted, **counts}, GroupLine)
+        assert group.skipped == sum(counted.values())

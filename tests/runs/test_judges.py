@@ -149,3 +149,20 @@ def test_way_of_a_spheroid_that_leans_is_measured_along_its_own_axis():
 
 def test_answer_cannot_say_about_a_way_is_not_wrong(rows):
     assert judged(rows, lambda some: (np.full(len(some), 2), np.full(len(some), np.nan))) == []
+
+
+@pytest.mark.parametrize(
+    ("start", "end", "time", "mistake", "exponent"),
+    [
+        ((4.0, 0.0, 0.0), (0.0, 0.0, 0.0), 0.25 - 2.0**-20, Mistake.EARLY, 0),  # a quarter of four radii
+        ((4.0, 0.0, 0.0), (0.0, 0.0, 0.0), 0.75 - 2.0**-20, Mistake.LATE, -1),
+        ((4.0, 0.0, 0.0), (0.0, 0.0, 0.0), 0.5 - 2.0**-12 - 2.0**-20, Mistake.EARLY, -10),
+        ((2.0, -1e308, 0.0), (2.0, 0.0, 0.0), 0.25, Mistake.EARLY, 1022),
+        ((1.5, 0.0, 0.0), (1.5, 5e-324, 0.0), 0.25, Mistake.LATE, -math.inf),
+        ((2.0, -1e308, 0.0), (2.0, 1e308, 0.0), 0.25, Mistake.EARLY, math.inf),
+    ],
+)
+def test_the_exponent_of_a_wrong_time_is_that_of_its_radii(start, end, time, mistake, exponent):
+    row, exactly = np.array([[*BODY, *start, *end]]), Criterion("passage", tolerance=Fraction(0))
+    (case,) = judge.judged(row, np.array([1], np.int8), np.array([0]), exactly, np.array([time]))
+    assert (case.mistake, case.exponent, case.time) == (mistake, exponent, time)

@@ -219,3 +219,10 @@ def test_line_of_a_worst_answer_has_the_time_of_a_way_and_bounds_of_its_first_co
     still = worst_case((1, 1), "mine/1", way[:7], 1, 0, "false-contact", "wrong", 0.25)
     found = tally.worst_line(still, CRITERION)
     assert (found.case, found.row[4], found.time, found.first) == ("mine/1", (5.0).hex(), UNSET, UNSET)
+
+
+def test_a_line_has_the_answers_of_an_implementation_under_test_alone_and_only_where_it_gave_some():
+    whole = tallied(rows_near_contact(30))
+    assert line_of(whole).answers
+    assert line_of(EMPTY).answers is UNSET
+    assert tally.group_line(whole, "family", CRITERION, method="mine", title="mine").answers is UNSET
