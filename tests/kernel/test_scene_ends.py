@@ -318,3 +318,36 @@ def test_a_sweep_that_stops_before_a_wall_is_clear_by_the_numpy_kernel_too(by_nu
     by_numpy()
     for end, hit in ((2.5, 0), (2.375, 0), (2.1875, 1)):
         assert tower.passage([(2.75, 0.0, 0.125)], [(end, 0.0, 0.125)]).hit == hit
+
+
+def test_a_drone_that_meets_only_what_would_stand_above_an_end_is_clear():
+    """Beside the wall of a whole hyperboloid it is in contact, above the height at which this one ends.
+
+    At the drone's own height the radius is 1.345, 1.25 and 3; each drone reaches over another number near to that.
+    """
+    for (alpha, gamma, end), (b, reach, height) in (
+        ((1.0, 1.0, 1.0), (0.2, 1.65, 0.9)),
+        ((1.0, 1.2, 1.0), (0.2, 1.51, 0.9)),
+        ((2.0, 1.0, 1.2), (0.4, 3.55, 1.118)),
+    ):
+        wall = Hyperboloid("wall", alpha, gamma, (0.0, 0.0, 0.0), Span(-3.0, end))
+        whole, ended = (scene(body, mover=Mover(b, 1.5)) for body in (replace(wall, height=None), wall))
+        assert whole.position(reach, 0.0, height) == Position.CONTACT, reach
+        assert ended.position(reach, 0.0, height) == Position.EXTERIOR, reach
+        assert ended.classify([reach], [0.0], [height]).tolist() == [Position.EXTERIOR], reach
+
+
+def test_a_ball_just_above_a_flat_end_is_clear_though_a_rounding_hides_it():
+    """The difference of the centres loses 2**-60, and the ball is 2**-50 above the end."""
+    wide = Hyperboloid("wide", 5.0, 4.0, (2.0**-60, 0.0, 0.0), Span(-3.0, 1.0), solid=True)
+    tower = scene(wide, mover=Mover(1.0, 1.0))
+    assert tower.classify([1.0, 1.0], 0.0, [2.0, 2.0 + 2.0**-50]).tolist() == [Position.CONTACT, Position.EXTERIOR]
+    assert tower.position(1.0, 0.0, 2.0 + 2.0**-50) == Position.EXTERIOR
+
+
+def test_a_tilted_disc_reaches_an_end_by_its_longer_semi_axis():
+    wide = Hyperboloid("wide", 5.0, 4.0, (0.0, 0.0, 0.0), Span(-3.0, 1.0), solid=True)
+    tower = scene(wide, mover=Mover(2.0, 0.5, axis=(1.0, 0.0, 0.0)))
+    heights = [2.75, 3.0, 3.25]
+    assert tower.classify(0.0, 0.0, heights).tolist() == [Position.CONTACT, Position.CONTACT, Position.EXTERIOR]
+    assert [tower.position(0.0, 0.0, height) for height in heights] == [0, 0, 1]

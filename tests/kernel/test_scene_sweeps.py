@@ -324,3 +324,40 @@ def test_length_of_an_axis_of_any_exponent_means_nothing_beside_a_tilted_hyperbo
     assert set(scaled.hit.tolist()) == {0, 1}
     found, other = scene.nearest(*starts.T, axis=axes), scene.nearest(*starts.T, axis=axes * scale)
     assert np.allclose(other.distance_upper, found.distance_upper, rtol=0, atol=1e-9)
+
+
+def ball_over(*bodies):
+    return Scene(SceneModel("s", "position", bodies, Mover(1.0, 1.0)))
+
+
+def test_a_ball_that_slides_on_a_flat_end_touches_it():
+    end = Hyperboloid("end", 5.0, 4.0, (0.0, 0.0, 0.0), Span(-3.0, 1.0), solid=True)
+    starts, ends = [[0.0, 0.0, 2.0], [0.0, 0.0, 2.0 + 2.0**-50]], [[0.5, 0.0, 2.0], [0.5, 0.0, 2.0 + 2.0**-50]]
+    assert ball_over(end).passage(starts, ends).hit.tolist() == [True, False]
+
+
+def test_a_ball_that_leaves_from_just_beside_an_edge_touches_nothing():
+    """What a rounding hides at the start is decided on the sweep alone, not behind its start."""
+    end = Hyperboloid("end", 5.0, 4.0, (2.0**-60, 0.0, 0.0), Span(-3.0, 1.0), solid=True)
+    start, up = [[1.0, 0.0, 2.0 + 2.0**-50]], [[1.0, 0.0, 9.0]]
+    assert ball_over(end).passage(start, up).hit.tolist() == [False]
+    wall = Hyperboloid("wall", 5.0, 4.0, (2.0**-60, 0.0, 0.0), Span(-3.0, 0.5))
+    start, away = [[6.0 + 2.0**-50, 0.0, 0.0]], [[9.0, 0.0, 0.0]]
+    assert ball_over(wall).passage(start, away).hit.tolist() == [False]
+
+
+def test_the_first_hyperboloid_that_is_touched_is_found_beside_the_way_too():
+    """The way passes 1 beside the axis of one, which is touched first, and through that of the other."""
+    one = Hyperboloid("beside", 1.0, 10.0, (0.0, 1.0, 0.0), Span(-1.0, 1.0))
+    other = Hyperboloid("ahead", 1.0, 10.0, (0.75, 0.0, 0.0), Span(-1.0, 1.0))
+    both = Scene(SceneModel("s", "position", (other, one), Mover(0.25, 0.25)))
+    found = both.passage([[-10.0, 0.0, 0.0]], [[10.0, 0.0, 0.0]])
+    assert found.index.tolist() == [1]
+    assert found.first_lower[0] == pytest.approx((10 - 0.75) / 20, abs=1e-3)
+
+
+def test_a_sweep_that_is_nowhere_is_refused_also_where_nothing_is_near():
+    end = Hyperboloid("end", 5.0, 4.0, (0.0, 0.0, 0.0), Span(-3.0, 1.0))
+    for place in ((0.0, 0.0, float("nan")), (99.0, 0.0, float("nan")), (0.0, 0.0, float("inf"))):
+        with pytest.raises(InputError, match="must be finite"):
+            ball_over(end).passage(place, place)

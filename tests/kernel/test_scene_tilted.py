@@ -318,3 +318,14 @@ def test_sweep_of_a_tilted_mover_with_parts_hits_where_one_of_its_times_does(see
         touched = (scene.classify(x, y, z, heading) == CONTACT).any()
         assert hits[-1] == 1 or not touched
     assert set(hits) == {0, 1}
+
+
+def test_a_ball_within_the_wide_part_of_a_tilted_hyperboloid_touches_its_narrow_part():
+    """In the plane of the axis it is 1 along and 1 beside it; the wall is 0.76 away where it is 0.25 along."""
+    along, across = (0.6, 0.0, 0.8), (0.8, 0.0, -0.6)
+    horn = Hyperboloid("horn", 1.0, 0.5, axis=along)
+    there = [a + b for a, b in zip(along, across, strict=True)]
+    for radius, expected in ((0.5, INTERIOR), (0.8, CONTACT)):
+        ball = Scene(SceneModel("s", "position", (horn,), Mover(radius, radius)))
+        assert ball.classify([there]).tolist() == [expected]
+        assert ball.position(there) == expected
