@@ -10,6 +10,7 @@ import pytest
 
 import hypcheck
 from hypcheck.errors import InputError
+from hypcheck.kernel.classify import classify
 
 ROWS = [[1, 2, 1, 1, 2.5, 0, 0], [1, 2, 1, 1, 2, 0, 0], [4, 4, 1, 1, 0, 0, 0]]
 
@@ -165,3 +166,13 @@ def test_classify_refuses_an_unknown_on_invalid():
         hypcheck.classify(ROWS, on_invalid="ignore")
     with pytest.raises(InputError, match="on_invalid is 'ignore'; it must be 'raise' or 'flag'"):
         hypcheck.classify_scene((1, 2, 1, 1), 1, 2, 3, on_invalid="ignore")
+
+
+def test_invalid_rows_are_flagged_where_that_is_asked_for_and_else_refused():
+    good, bad = [2.0, 3.0, 0.5, 0.5, 9.0, 0.0, 0.0, 0.0, 1.0, 1.0], [2.0, 3.0, -0.5, 0.5, 9.0, 0.0, 0.0, 0.0, 1.0, 1.0]
+    rows = np.array([good, bad])
+    for given in (rows, rows[:, :7], rows.tolist()):
+        for asked in (hypcheck.classify, classify):
+            assert asked(given, on_invalid="flag").tolist() == [1, 127]
+            with pytest.raises(InputError, match=r"row 1: b is -0\.5"):
+                asked(given)

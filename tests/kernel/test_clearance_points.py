@@ -217,3 +217,38 @@ def written_error(row, rounded, poles, point):
     by_zeta = d * up + b * A * (zeta + up) / (B * at_zeta) * up
     by_rho = b * across + d * (B / A * ((rho + across) ** 2 - rho**2) / at_rho + slack) if at_rho else np.inf
     return min(by_zeta, by_rho) + rounded * np.abs(point).sum()
+
+
+@pytest.mark.parametrize("wrong", [0.0, 1e-9, 1e-3, -0.3, 0.5, 2.0, 40.0, -2.0, -5.0])
+def test_the_error_bound_of_a_tilted_touch_is_not_below_its_written_formulas(wrong):
+    """In units of b: |r|/μ + √(tr G/μ) (|h|/|n| + |r|/μ), with the least eigenvalue μ of G; else nothing is known."""
+    rows = np.concatenate([TILTED, stretched(TILTED), stretched(TILTED, seed=6)])
+    at = numpy_kernel.multipliers(rows) * (1 + wrong)
+    found = clearance_points.tilted_touches(rows, at)
+    b = rows[:, 2]
+    form = np.stack([(b / rows[:, 0]) ** 2, (b / rows[:, 0]) ** 2, -((b / rows[:, 1]) ** 2)], axis=1)
+    spheroid = metric(rows) * (b * b)[:, None, None]
+    whole = spheroid + at[:, None, None] * form[:, :, None] * np.eye(3)
+    centre = rows[:, 4:7] / b[:, None]
+    own = np.einsum("nij,nj->ni", spheroid, centre)
+    place = np.linalg.solve(whole, own[:, :, None])[:, :, 0]
+    least = np.linalg.eigvalsh(whole)[:, 0]
+    squares, normal = form * place * place, np.linalg.norm(form * place, axis=1)
+    sizes = np.abs(spheroid).sum(axis=(1, 2)), np.abs(at) * np.abs(form).sum(axis=1)
+    terms = sizes[0] / 3 * (np.abs(place) + np.abs(centre)).sum(axis=1) / 3 + np.abs(at) * np.abs(form * place).sum(
+        axis=1
+    )
+    left = 2.0**-46 * terms / least
+    beside = (np.abs(squares.sum(axis=1) - 1) + 2.0**-46 * np.abs(squares).sum(axis=1)) / normal
+    written = left + np.sqrt(np.trace(whole, axis1=1, axis2=2) / least) * (beside + left)
+    shown = (least > 0) & (beside * np.abs(form).max(axis=1) < normal)
+    known = np.isfinite(found.error)
+    assert known.any() == shown.any()
+    assert shown[known].all()
+    assert (found.error[known] >= (b * written)[known] * (1 - 1e-6)).all()
+
+
+def test_a_tilted_touch_of_a_disc_so_thin_that_elimination_shows_nothing_has_no_known_error():
+    """Eight roundings of the terms of G, 3 (b/d)² at least, are then more than half of an eigenvalue of 1."""
+    rows = np.array([[2.0, 3.0, 0.5, 0.5 * 2.0**-k, 4.0, 1.0, 2.0, 1.0, 0.5, 0.25] for k in (12, 20)])
+    assert np.isfinite(clearance_points.tilted_touches(rows).error).tolist() == [True, False]

@@ -179,3 +179,32 @@ def test_a_tilted_spheroid_whose_squares_overflow_is_in_contact_as_any():
     near = hypcheck.clearance((1, 2, 1e100, 1e180), (0, 0, 0.5), axis=(1, 2, 3))
     assert near.contact
     assert near.distance_upper == 0
+
+
+@pytest.mark.parametrize("turn", [0, 1])
+def test_a_bar_that_lies_across_a_plane_of_symmetry_is_as_near_on_both_sides(turn):
+    """Its centre is beside the hyperboloid's axis, on a coordinate axis."""
+    centre, axis = ((0.125, 0.0, 0.0), (0.0, 1.0, 0.0)) if turn == 0 else ((0.0, 0.125, 0.0), (1.0, 0.0, 0.0))
+    near = hypcheck.clearance(1.0, 2.0, 0.0625, 0.75, centre, axis=axis)
+    assert near.position == -1
+    assert abs(near.nearest[1 - turn]) > 0.5
+    assert near.tie
+    assert not hypcheck.clearance(1.0, 2.0, 0.0625, 0.0625, centre).tie
+
+
+@pytest.mark.parametrize(("b", "d"), [(1.0, 1e-150), (1e-150, 1.0)])
+def test_the_normal_of_a_very_thin_disc_or_needle_far_away_points_to_its_centre(b, d):
+    near = hypcheck.clearance(3.0, 3.0, b, d, (1e12, 0.0, 0.0))
+    assert near.position == 1
+    assert near.normal * (1, 1, 0) == pytest.approx((np.hypot(*near.normal[:2]), 0.0, 0.0))
+    assert np.linalg.norm(near.normal) == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("length", [2.0**700, 2.0**-700])
+def test_an_axis_of_any_length_gives_the_same_touch_and_gap(length):
+    one = hypcheck.clearance(2.0, 3.0, 0.25, 0.75, (3.5, 0.25, 1.0), axis=(0.5, 0.25, 0.75))
+    other = hypcheck.clearance(
+        2.0, 3.0, 0.25, 0.75, (3.5, 0.25, 1.0), axis=(0.5 * length, 0.25 * length, 0.75 * length)
+    )
+    for name in ("distance_lower", "distance_upper", "nearest", "lower", "upper", "touch", "touch_error"):
+        assert np.array_equal(getattr(one, name), getattr(other, name)), name

@@ -122,3 +122,18 @@ def test_a_scene_with_parts_says_when_a_part_is_hit_first():
     assert found.hit
     assert found.first_lower <= 0.265 <= found.first_upper
     assert found.first_upper - found.first_lower < 1e-12
+
+
+def test_one_sweep_in_arrays_or_by_name_is_answered_exactly_as_in_numbers():
+    expected = passage(SIZES, (3.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+    named = dict(zip(("alpha", "gamma", "b", "d"), SIZES, strict=True))
+    start, end = np.array([3.0, 0.0, 0.0]), np.zeros(3)
+    for found in (
+        hypcheck.passage(SIZES, start, end),
+        hypcheck.passage(np.array(SIZES), start, end),
+        hypcheck.passage(**named, start=start, end=end),
+        hypcheck.passage(*SIZES, start=start, end=end),
+        hypcheck.passage(SIZES, start=start, end=end),
+    ):
+        assert type(found) is type(expected)
+        assert found == expected

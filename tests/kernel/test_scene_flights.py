@@ -12,6 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hypcheck import InputError, Scene, passage
+from hypcheck.kernel.scene_flights import shown_flight
 from hypcheck.scene.model import FREE, UPRIGHT, Hyperboloid, Mover, MoverPart, Region, SceneModel, Span
 
 BALL, DRONE = Mover(1.0, 1.0), Mover(0.3, 0.15)
@@ -306,3 +307,24 @@ def test_a_flight_far_from_all_trees_finds_the_nearest(away):
     assert least.distance_upper >= near.distance_lower - 1
     assert least.distance_upper - least.distance_lower < 1e-6 * away
     assert world.nearest(least.center).distance_upper >= least.distance_lower
+
+
+@pytest.mark.parametrize("height", [None, 2.0**-30])
+def test_a_least_distance_is_not_above_the_true_one_where_coordinates_are_large(height):
+    """A ball stands half a unit beside the waist, 2**20 from the origin, and flies along it by less than a rounding."""
+    far = 2.0**20
+    span = None if height is None else Span(-height, height)
+    scene = Scene(
+        SceneModel("s", "position", (Hyperboloid("far", 1.0, 2.0**30, (far, 0.0, 0.0), span),), Mover(0.25, 0.25))
+    )
+    for path in ([(far + 1.75, 0.0, 0.0)], [(far + 1.75, 0.0, 0.0), (far + 1.75, 2.0**-33, 0.0)]):
+        least = scene.first_contact(path).least
+        assert least.distance_lower <= 0.5 <= least.distance_upper
+
+
+def test_a_contact_is_shown_where_the_first_contact_on_its_segment_is():
+    scene = Scene(SceneModel("s", "position", (TOWER,), Mover(0.25, 0.25)))
+    path = [(9.0, 0.0, 0.0), (5.0, 0.0, 0.0), (-1.0, 0.5, 0.0)]
+    found, (shown,) = scene.first_contact(path), shown_flight(scene, path).contacts
+    assert (shown.segment, shown.index) == (found.segment, found.index) == (1, 0)
+    assert shown.center == pytest.approx(found.center)

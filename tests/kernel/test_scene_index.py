@@ -199,3 +199,12 @@ def test_scene_position_of_one_centre_takes_an_axis_for_each_answer():
     axes = [(1.0, 0.0, 0.0), (0.0, 0.0, 1.0)]
     assert [disk.position(2.5, 0.0, 0.0, axis=axis) for axis in axes] == [1, 0]
     assert disk.position(2.5, 0.0, 0.0, axis=axes).tolist() == [1, 0]
+
+
+def test_scene_position_asks_the_parts_only_where_the_mover_has_contact():
+    """Rotors on either side of a thin tree, of a mover that is far off, and on the tree."""
+    tree, mover = Hyperboloid("tree", 0.125, 9.0), Mover(1.0, 0.5, (MoverPart(0.125, 0.125, 0.75),))
+    scene = Scene(model.SceneModel("s", "position", (tree,), mover))
+    for x, expected in ((0.0, 1), (9.0, 1), (-0.75, 0), (-0.9, 0), (1.125, 1)):
+        assert scene.position(x, 0.0, 0.0) == expected, x
+        assert scene.classify([x], 0.0, 0.0).tolist() == [expected], x

@@ -110,3 +110,24 @@ def test_scene_classify_takes_empty_arrays_and_arrays_of_any_layout():
 def test_a_scene_without_hyperboloids_raises_an_error():
     with pytest.raises(InputError, match="the scene has no hyperboloid"):
         Scene(replace(model.SceneModel("s", "position", HILLS, Mover(0.3, 0.9)), hyperboloids=()))
+
+
+def test_scene_position_of_many_centres_or_axes_is_that_of_classify():
+    scene = Scene(model.SceneModel("s", "position", HILLS, Mover(0.3, 0.9)))
+    assert scene.position(0.0, 0.0, [0.0, 1.0]).tolist() == scene.classify(0.0, 0.0, [0.0, 1.0]).tolist()
+    free = Scene(replace(scene.model, mover=Mover(0.3, 0.9, axis=model.FREE)))
+    axes = [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]
+    assert free.position(0.5, 0.0, 0.0, axis=axes).tolist() == free.classify(0.5, 0.0, 0.0, axis=axes).tolist()
+    with pytest.raises(InputError, match="x is True; it must be a number"):
+        scene.position(True, False, 0.0)
+    with pytest.raises(InputError, match="x is an integer too large for float64"):
+        scene.position(10**400, 10**400, 0.0)
+
+
+def test_a_hyperboloid_that_stands_farther_out_than_cells_are_numbered_is_not_forgotten():
+    far = 2.0**45
+    bodies = [Hyperboloid("here", 1.0, 9.0), *(Hyperboloid(f"far {k}", 1.0, 9.0, (far, 8.0 * k, 0.0)) for k in (1, 2))]
+    scene = Scene(model.SceneModel("s", "position", tuple(bodies), Mover(0.25, 0.25), model.Region(z=Span(-1.0, 1.0))))
+    for k in (1, 2):
+        assert both(scene, (far + 1.0, 8.0 * k, 0.0)) == 0
+        assert scene.passage((far + 4.0, 8.0 * k, 0.0), (far, 8.0 * k, 0.0)).hit

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from hypcheck import Scene, clearance, passage
 from hypcheck.errors import InputError
-from hypcheck.kernel import scene_nearest
+from hypcheck.kernel import scene_gaps, scene_nearest
 from hypcheck.kernel.scene_index import bodies_of
 from hypcheck.scene.model import Hyperboloid, Mover, SceneModel, Span
 
@@ -306,3 +306,18 @@ def test_the_upper_distance_from_a_far_rim_holds_the_roundings_of_the_rim():
         found = scene(wall, mover=Mover(b, b, axis=(1.0, 2.0, 3.0))).nearest(*center)
         radius = Fraction(b) + Fraction(found.distance_upper)
         assert passage((alpha, gamma, radius, radius), center, center, z_max=end).hit
+
+
+@pytest.mark.parametrize("place", [(0.9, 0.7), (-0.9, 0.7), (0.3, -1.1), (0.0, 1.15), (2.0, -2.5)])
+def test_the_gap_to_a_wall_between_two_heights_is_the_least_of_a_dense_sample(place):
+    """The wall bends within one of the first cells, which are coarse, towards a ball inside."""
+    heights = np.linspace(-0.5, 40.0, 400_001)
+    for z in (-0.25, 0.0, 0.05, 0.5, 1.5):
+        sizes, spans = np.array([(1.5, 0.75, 0.125, 0.125)]), np.array([(-0.5, 40.0)])
+        found = scene_gaps.gaps(
+            sizes, np.array([(*place, z)]), None, spans, np.zeros(1, np.bool_), np.full(1, 100.0)
+        )  # fmt: skip
+        least = np.hypot(1.5 * np.hypot(1, heights / 0.75) - np.hypot(*place), heights - z).min() - 0.125
+        least = max(least, 0.0)
+        assert least - 1e-7 <= found.upper[0] <= least + 1e-12
+        assert found.upper[0] - 1e-11 <= found.lower[0] <= found.upper[0]
