@@ -32,8 +32,9 @@ from hypcheck.runs.tally import STATUSES
 RetestQuestion = tuple[Indices, int | None]
 """Indices of cases, and the size of the batches in which they are asked; None: the largest possible."""
 
-SCENES = 128
-"""At most so many scenes of a round are asked by the function for scenes: those with the most cases."""
+SCENES = 256
+"""So many scenes of a round are asked by the function for scenes: those with the most cases; and about as many of the
+others, evenly, for tilted spheroids hardly share their axes."""
 
 ALONE, SINGLE_STEP = 32, 20
 """Cases that are asked one by one, and questions of one row between two looks at the clock."""
@@ -263,9 +264,12 @@ def retest_questions(
 
 def scene_questions(rows: Rows) -> Iterator[RetestQuestion]:
     """The cases of each scene in one question, and some in small ones, for a function for scenes."""
-    for number, cases in enumerate(scenes_of(rows)[:SCENES]):
+    scenes = scenes_of(rows)
+    others = scenes[SCENES:]
+    for number, cases in enumerate([*scenes[:SCENES], *others[:: 1 + len(others) // SCENES]]):
         yield cases, None
-        yield cases[:IN_LENGTHS], LENGTHS[number % len(LENGTHS)]
+        if len(cases) > 1:
+            yield cases[:IN_LENGTHS], LENGTHS[number % len(LENGTHS)]
 
 
 def _one_by_one(cases: Indices, seconds: float) -> Iterator[RetestQuestion]:

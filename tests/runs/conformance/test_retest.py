@@ -10,6 +10,7 @@ from hypcheck.record.lines import GroupLine, ImplementationLine
 from hypcheck.runs.retest import FULL_QUESTION
 from tests.kernel.compiling import needs_compiler, shared_library
 from tests.runs import faulty
+from tests.support.inside import HEADER
 
 pytestmark = pytest.mark.usefixtures("text_reports")
 
@@ -95,7 +96,7 @@ SCENE_CALLS = "many(n, x, y, z, positions);"
         (SCENE_CALLS, 0),
         (f"{SCENE_CALLS} for (size_t i = 0; i < n; i++) positions[i] = 0;", 1),
         (f"{SCENE_CALLS} if (n > 8) positions[n - 1] = !positions[n - 1];", 1),
-        (f"{SCENE_CALLS} for (size_t i = 0; i < n; i++) if (z[i] > 5 && z[i] < 5.5) positions[i] = 0;", 1),
+        (f"{SCENE_CALLS} for (size_t i = 0; i < n; i++) if (z[i] > 5 && z[i] < 7) positions[i] = 0;", 1),
         (f"if (n < 100) {SCENE_CALLS}", 1),
     ],
 )
@@ -106,6 +107,30 @@ def test_function_for_scenes_must_answer_as_the_function_for_rows_does(tmp_path,
     assert text.count(SCENE_CALLS) == 1
     shared_library(tmp_path, text.replace(SCENE_CALLS, f"{{ {instead} }}"))
     spec = f"library:{tmp_path / 'library.so'}"
-    assert main(["verify", spec, "--count", "300", "--out", str(tmp_path / "out")]) == code
+    words = ["--families", "tower-body,tower-rotors", "--count", "300", "--out", str(tmp_path / "out")]
+    assert main(["verify", spec, *words]) == code
     reasons = [fault.reason for line in read(tmp_path / "out").of(GroupLine) for fault in line.faults]
     assert {"when its function for scenes is asked" in reason for reason in reasons} == ({True} if code else set())
+
+
+TILTED_LIBRARY = """
+#define HYPCHECK_IMPLEMENTATION
+#define hypcheck_classify_tilted_scene right
+#include "hypcheck.h"
+#undef hypcheck_classify_tilted_scene
+const char *hypcheck_describe(void) {{ return "{{\\"tilt\\": true}}"; }}
+void hypcheck_classify_tilted_scene(const double sizes[4], const double axis[3], size_t n, const double *x,
+                                    const double *y, const double *z, int8_t *positions)
+{{
+    right(sizes, axis, n, x, y, z, positions);
+    {then}
+}}
+"""
+
+
+@needs_compiler
+@pytest.mark.parametrize(("then", "code"), [("", 0), ("if (axis[0] > axis[1]) positions[0] = 0;", 1)])
+def test_function_for_scenes_of_tilted_spheroids_is_asked_though_hardly_two_rows_share_an_axis(tmp_path, then, code):
+    shared_library(tmp_path, TILTED_LIBRARY.format(then=then), f"-I{HEADER.parent}")
+    words = ["--families", "tilted-uniform,tilted-stiff", "--count", "100", "--out", str(tmp_path / "out")]
+    assert main(["verify", f"library:{tmp_path / 'library.so'}", *words]) == code
