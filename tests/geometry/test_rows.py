@@ -8,7 +8,17 @@ import numpy as np
 import pytest
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.rows import SWEEPS, FixedSizes, as_rows, first_trouble, invalid, require_valid, with_axis, within
+from hypcheck.geometry.rows import (
+    SWEEPS,
+    FixedSizes,
+    as_rows,
+    first_trouble,
+    invalid,
+    require_valid,
+    scenes_of,
+    with_axis,
+    within,
+)
 
 GOOD = [1.0, 2.0, 1.0, 1.0, 2.5, 0.0, 0.0]
 WAY = [1.0, 2.0, 1.0, 1.0, 2.5, 0.0, 0.0, 0.0, 0.0, 4.0]
@@ -135,3 +145,12 @@ def test_fixed_sizes_hold_rows_with_their_axis_or_with_any_if_it_is_free():
     rows = np.array([upright, leaning])
     for axis, expected in ((None, [True, False]), (tuple(AXIS), [False, True]), ("free", [True, True])):
         assert FixedSizes(tuple(GOOD[:4]), axis=axis).holds(rows).tolist() == expected
+
+
+@pytest.mark.parametrize("place", [4, 5, 6])
+def test_rows_of_one_scene_differ_in_their_centres_alone(place):
+    rows = np.tile([2.0, 3.0, 1.0, 0.5, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0], (5, 1))
+    rows[:, place] = [4.0, 5.0, 6.0, 7.0, 8.0]
+    rows[3, 9] = 2.0
+    assert [part.tolist() for part in scenes_of(rows)] == [[0, 1, 2, 4], [3]]
+    assert scenes_of(rows[:0]) == []
