@@ -260,7 +260,7 @@ def test_what_the_ledger_says_of_bench_is_what_its_reference_report_says():
         (found,) = (verdicts for title, verdicts in claims.items() if title.startswith(opening))
         told = re.findall(r"\*\*(.*?)\*\*.*? in (numpy|C)", found)
         assert len(told) == 2
-        said = re.findall(r"(does not hold|holds) in (numpy|C)", BENCH[key])
+        said = re.findall(r"(does not hold|inconclusive|holds) in (numpy|C)", BENCH[key])
         assert said == told, key
     for key, shape in (("spheres", "sphere"), ("cylinders", "cylinder")):
         shares = [
