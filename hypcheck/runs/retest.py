@@ -133,7 +133,7 @@ def retest(step: RetestStep, implementation: Implementation | Crashed, rules: Ju
                     now = _BY_SCENE if one_scene else _AGAIN
                     changes[place] = _change(sample, place, answered, offset, rules.criterion, now)
                 else:
-                    how = "when its function for scenes is asked" if one_scene else "when asked again"
+                    how = _BY_SCENE if one_scene else "when asked again"
                     reason = f"{how}: {answered.reasons.get(offset, '')}"
                     changes[place] = STATUSES[status[offset]], reason
     within = sum(status is Status.TOLERATED for status, _ in changes.values())
