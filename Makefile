@@ -113,6 +113,10 @@ reference: $(VENV)/ready-dev ## every generated figure and page anew, resumable,
 evidence: $(VENV)/ready-dev ## what mutants, fuzzing, coverage and faults find in our own code, anew; docs/evidence.md (some hours)
 	$(BIN)/python -m tests.tools.evidence all --write
 
+# One part of them: evidence-fuzz, evidence-python-coverage.
+evidence-%: $(VENV)/ready-dev
+	$(BIN)/python -m tests.tools.evidence $* --write
+
 kernels: $(VENV)/ready-dev ## 200 random scenes and the known ones as kernels in five languages (half an hour)
 	HYPCHECK_KERNELS=all $(BIN)/python -m pytest tests/kernel/emission
 

@@ -16,6 +16,7 @@ from hypcheck.geometry.pair import ENDS, HEIGHTS, SIZES
 from hypcheck.geometry.rows import PAIRS, Layout
 from hypcheck.implementations import domain
 from hypcheck.implementations.session import Limits
+from hypcheck.isolation.launch import MODES
 from hypcheck.messages import counted
 from hypcheck.record import Record, lines
 from hypcheck.record.fields import layout_of, numbers_of
@@ -288,4 +289,13 @@ def _options(options: Mapping[str, Any]) -> list[str]:
     limits, usual = options.get("limits"), Limits()
     limits = limits if isinstance(limits, dict) else {}
     unusual = [name for name in _LIMITS if name in limits and limits[name] != getattr(usual, name)]
-    return words + [f"--{name.replace('_', '-')}={limits[name]}" for name in unusual]
+    return words + [f"--{name.replace('_', '-')}={limits[name]}" for name in unusual] + [*_isolation(limits)]
+
+
+def _isolation(limits: Mapping[str, Any]) -> Iterator[str]:
+    """Options about what an implementation sees that differ from their defaults."""
+    if limits.get("isolate", MODES[0]) != MODES[0]:
+        yield f"--isolate={limits['isolate']}"
+    if limits.get("pass_env"):
+        yield f"--pass-env={','.join(limits['pass_env'])}"
+    yield from (f"--see={path}" for path in limits.get("see") or ())

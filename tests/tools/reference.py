@@ -21,6 +21,7 @@ from pathlib import Path
 import click
 
 from tests.tools import checked
+from tests.tools.evidence.parts import PARTS as MEASURES
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = "reports/README.md"
@@ -40,6 +41,14 @@ ANSWERS = tuple(f"hypcheck/{name}" for name in ("derivation", "geometry", "kerne
 VECTORS = ("cases", "hypcheck/vectors")
 GATE = (*ANSWERS, *VECTORS, "hypcheck/implementations", "hypcheck/runs")
 HEADER = "hypcheck/kernel/core"
+COMMANDS = tuple(f"hypcheck/{name}" for name in ("cli", "implementations", "isolation", "record", "report", "runs"))
+
+
+def _evidence(name: str, *sources: str) -> Part:
+    """A part of the evidence, which can take an hour: all are on one page, and each has its own stamp."""
+    return Part(f"evidence-{name}", "docs/evidence.md", (*sources, f"tests/tools/evidence/{MEASURES[name]}.py"))
+
+
 PARTS = (
     Part("paper", "docs/paper.md", ("hypcheck/derivation", "hypcheck/paper", "hypcheck/truth")),
     Part("figures", "docs/figures.md", ("hypcheck/paper", "hypcheck/pictures", "tests/tools/figures")),
@@ -48,9 +57,16 @@ PARTS = (
     Part("mutants", "tests/tools/mutants/README.md", (*GATE, "tests/tools/mutants/*.py")),
     Part("processors", "docs/processors.md", (HEADER, "cases", "tests/tools/processors")),
     Part("engines", "reports/engines/README.md", (*GATE, "hypcheck/engines")),
-    Part("evidence", "docs/evidence.md", ("hypcheck", "cases", "tests/tools/evidence", "tests/tools/fuzz")),
+    _evidence("fuzz", HEADER, "tests/tools/evidence/fuzzing/*.[ch]"),
+    _evidence("faults", *COMMANDS, "tests/tools/evidence/faulty_*"),
+    _evidence("python-coverage", "hypcheck"),
+    _evidence("python-mutants", "hypcheck", "tests/tools/evidence/mutations.py"),
+    _evidence("coverage", HEADER, "tests/tools/evidence/battery"),
+    _evidence("emitted", "hypcheck/kernel", "tests/tools/evidence/emitted_*.py"),
+    _evidence("kernel-mutants", HEADER, "tests/tools/evidence/battery", "tests/tools/evidence/c_sites.py"),
+    _evidence("constants", HEADER, "hypcheck/kernel/programs"),
 )
-"""In the order in which they are made: short ones first."""
+"""In the order in which they are made: mutants of Python are judged by the tests that coverage met."""
 
 
 def _git(*words: str) -> str:
@@ -144,7 +160,7 @@ def main(targets: tuple[str, ...], listed: bool, check: bool) -> None:
         for part in wanted:
             made = stamps().get(part.target, {})
             click.echo(
-                f"{part.target:16} {state(part):12} {made.get('commit', '-'):9} {made.get('date', '-'):11} {part.page}"
+                f"{part.target:24} {state(part):12} {made.get('commit', '-'):9} {made.get('date', '-'):11} {part.page}"
             )
         sys.exit(int(check and any(state(part) != "fresh" for part in wanted)))
     failed = [part.target for part in wanted if state(part) != "fresh" and not _make(part)]

@@ -140,6 +140,18 @@ def test_every_failing_family_has_a_command_that_shows_it(record):
         assert f"replay: {each.replay}" in xml
 
 
+def test_replay_command_isolates_as_the_run_did(tmp_path, capsys):
+    seen = tmp_path / "data.txt"
+    seen.touch()
+    options = ["--isolate=off", "--pass-env=HOME,LANG", f"--see={seen}"]
+    words = ["verify", "builtin:table-2-float64", "--families", "ring", "--count", "3", "--out", str(tmp_path / "out")]
+    assert main([*words, *options]) == 1
+    replays = [each.replay for each in failures(read(tmp_path / "out" / "record.jsonl"))]
+    assert [shlex.split(replay)[4:] for replay in replays] == [options]
+    capsys.readouterr()
+    assert main(shlex.split(replays[0])[1:]) == 1
+
+
 def test_replay_command_of_a_failure_reproduces_the_failure(record, capsys):
     wrong = next(each for each in failures(record) if each.kind == "wrong" and each.name == "table-2-float64")
     assert main([*shlex.split(wrong.replay)[1:], "--json"]) == 1

@@ -1,4 +1,7 @@
-"""`python -m tests.tools.evidence PART... [--write]`: measures parts of the evidence; ends with 1 if one fell."""
+"""`python -m tests.tools.evidence PART... [--write]`: measures parts of the evidence.
+
+Ends with 1 if a figure fell, and with 2 if a part could not be measured.
+"""
 
 from __future__ import annotations
 
@@ -16,10 +19,11 @@ from tests.tools.evidence.parts import KEPT, PARTS, Figures, Unavailable, kept, 
 @click.option("--write", is_flag=True, help="Keep the figures, and print docs/evidence.md from them.")
 def main(names: tuple[str, ...], write: bool) -> None:
     """Measure the named parts, or all, and print their sections."""
-    figures, fallen = kept(), []
+    figures, fallen, missing = kept(), [], False
     for name in PARTS if "all" in names else names:
         found = _measured(name)
         if found is None:
+            missing = True
             continue
         figures[name] = found
         fallen += broken(name, found)
@@ -29,7 +33,7 @@ def main(names: tuple[str, ...], write: bool) -> None:
         write_page(figures)
     for sentence in fallen:
         click.echo(sentence, err=True)
-    sys.exit(1 if fallen else 0)
+    sys.exit(1 if fallen else 2 if missing else 0)
 
 
 def _measured(name: str) -> Figures | None:
