@@ -135,6 +135,7 @@ def _in_radii(rows: Rows, centres: Floats) -> tuple[Floats, Floats]:
 def _along_and_across(rows: Rows, along: Floats, across: Floats) -> Floats:
     """Matrices (n, 3, 3) that multiply by `along` along the spheroid's axis, by `across` across it."""
     _, axis, _ = parts_of(rows, SWEEPS)
+    axis = axis / np.abs(axis).max(axis=1, keepdims=True)  # the square of a number of the axis may be infinite, or 0
     axis = axis / np.linalg.norm(axis, axis=1, keepdims=True)
     onto: Floats = axis[:, :, None] * axis[:, None, :]
     return across[:, None, None] * (np.eye(3) - onto) + along[:, None, None] * onto

@@ -20,6 +20,7 @@ from hypcheck.vectors import (
     random_pairs,
     sweeps,
     tilted,
+    together,
 )
 from hypcheck.vectors.border_lines import SEARCHED
 from hypcheck.vectors.family import MARK, Family
@@ -95,6 +96,7 @@ TILTED_FAMILIES = _table(
     Family("tilted-coincidences", crossed.crossed("tilted-coincidences"), 370, tilted=True, times=2),
     Family("tilted-strata", border_lines.tilted, 200, tilted=True, times=10),
     Family("tilted-one-number-changed", tilted.one_number_changed, tilted=True),
+    Family("tilted-whole-domain", together.tilted_domain, tilted=True),
     Family("extreme-tilted", tilted.whole_domain, 120, tilted=True, extreme=True),
 )
 """Those of spheroids whose axis may point anywhere: rows of ten numbers."""
@@ -119,6 +121,7 @@ SWEEP_FAMILIES = _table(
     Family("way-stiff", sweeps.stiff, 108, layout=SWEEPS),
     Family("way-small-integers", sweeps.small_integers, 108, layout=SWEEPS),
     Family("way-one-number-changed", sweeps.one_number_changed(sweeps.at_an_end, 10), layout=SWEEPS),
+    Family("way-whole-domain", together.sweep_domain, layout=SWEEPS),
     Family("way-coincidences", crossed.crossed("way-coincidences"), 353, layout=SWEEPS),
     Family("tilted-way-uniform", sweeps.tilted_uniform, 40, layout=SWEEPS, tilted=True),
     Family("tilted-way-end", sweeps.tilted_end, 40, layout=SWEEPS, tilted=True),
@@ -130,6 +133,7 @@ SWEEP_FAMILIES = _table(
         layout=SWEEPS,
         tilted=True,
     ),
+    Family("tilted-way-traps", together.sweep_tilts, layout=SWEEPS, tilted=True),
     Family(
         "tilted-way-coincidences", crossed.crossed("tilted-way-coincidences"), 80, layout=SWEEPS, tilted=True, times=3
     ),
@@ -138,15 +142,28 @@ SWEEP_FAMILIES = _table(
 
 ENDED_FAMILIES = _table(
     *(Family(name, make, frozen, ended=True) for name, (make, frozen) in ended.FAMILIES.items()),
+    Family("ended-whole-domain", together.ended_domain, ended=True),
     *(Family(name, make, frozen, tilted=True, ended=True) for name, (make, frozen) in ended.TILTED.items()),
+    Family("tilted-ended-traps", together.ended_tilts, tilted=True, ended=True, times=2),
+    Family("tilted-ended-coincidences", together.ended_coincidences, tilted=True, ended=True),
 )
 """Those of hyperboloids that end: rows of thirteen numbers, of upright spheroids and of tilted ones."""
 
 ENDED_SWEEP_FAMILIES = _table(
     *(Family(name, make, frozen, ended=True, layout=SWEEPS) for name, (make, frozen) in ended_sweeps.FAMILIES.items()),
+    Family("ended-way-lengths", together.ended_lengths, ended=True, layout=SWEEPS),
+    Family("ended-way-coincidences", together.ended_sweep_coincidences, ended=True, layout=SWEEPS),
     *(
         Family(name, make, frozen, tilted=True, ended=True, layout=SWEEPS)
         for name, (make, frozen) in ended_sweeps.TILTED.items()
+    ),
+    Family("tilted-ended-way-traps", together.ended_sweep_tilts, tilted=True, ended=True, layout=SWEEPS),
+    Family(
+        "tilted-ended-way-coincidences",
+        together.ended_tilted_sweep_coincidences,
+        tilted=True,
+        ended=True,
+        layout=SWEEPS,
     ),
 )
 """Those of sweeps beside hyperboloids that end: rows of sixteen numbers, of upright spheroids and of tilted ones."""

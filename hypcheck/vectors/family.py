@@ -67,7 +67,7 @@ class Family:
 
     `name`: kebab-case; `version`: of the generator, raised by every change of its output, since both are part of the
     case ids. `frozen`: the number of frozen rows; it is larger for rows with traps, smaller if proofs are long, 0
-    if rows matter in their order alone.
+    if rows matter in their order alone or are made of those of other families.
     `extreme`: lengths are near the limits of a float format, so the family is used only on request. `by_place`: the
     generator works place by place, so that it can make several blocks at one go. `movement`: the number of consecutive
     rows that follow one object from moment to moment; 1 if none do. `layout` is the layout of rows, of a position or a

@@ -333,10 +333,18 @@ def small_integers(draw: Draw, n: int) -> Rows:
     return np.stack(columns, axis=1).astype(np.float64) + 0.0
 
 
-def tilted_uniform(draw: Draw, n: int) -> Rows:
-    """All regimes and all directions, both ends all around the surface."""
-    rows = tilted.uniform(draw, n)
-    return between(rows, _ends(draw, Sizes(rows[:, 0], rows[:, 1], rows[:, 2], rows[:, 3]), rows))
+def beside_rows(rows_of: Maker) -> Maker:
+    """Sweeps from the centres of rows, upright or tilted, to ends all around the surface or near the start."""
+
+    def make(draw: Draw, n: int) -> Rows:
+        rows = rows_of(draw, n)
+        return between(rows, _ends(draw, Sizes(*rows[:, :4].T), rows))
+
+    return make
+
+
+tilted_uniform = beside_rows(tilted.uniform)
+"""All regimes and all directions, both ends all around the surface."""
 
 
 def tilted_integers(draw: Draw, n: int) -> Rows:
