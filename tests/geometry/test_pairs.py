@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import COLUMNS, Lengths, Pair, Position, trouble_with_row
+from hypcheck.geometry.pair import COLUMNS, Lengths, Pair, Position, counted_along, trouble_with_row
 from tests.support.pairs import pairs
 
 GOOD = dict(zip(COLUMNS, (1.0, 2.0, 1.0, 1.0, 2.5, 0.0, 0.0), strict=True))
@@ -116,3 +116,12 @@ def test_a_pair_refuses_heights_that_bound_nothing(heights, trouble):
 @pytest.mark.parametrize("more", [(), (0.0, 3.0, 1.0), (0.0, 3.0, 1.0, -2.0, math.inf, 1.0)])
 def test_a_valid_row_of_seven_ten_or_thirteen_numbers_has_no_trouble(more):
     assert trouble_with_row((*GOOD.values(), *more)) is None
+
+
+@pytest.mark.parametrize("upward", [(1, 0, 0), (-1, 0, 0), (0, -1, -1), (1, -3, 0)])
+@pytest.mark.parametrize("share", [1, 2, 0.25, -1, -2])
+def test_heights_along_a_parallel_axis_are_counted_upside_down_if_it_points_the_other_way(upward, share):
+    along = [part * share for part in upward]
+    expected = (-5, 7) if share > 0 else (-7, 5)
+    assert counted_along(along, upward, -5, 7) == expected
+    assert counted_along(along, upward, None, 7) == ((None, 7) if share > 0 else (-7, None))

@@ -227,6 +227,22 @@ def test_an_empty_list_is_no_points_and_no_axis():
         hypcheck.classify(SIZES, POINTS, axis=[])
 
 
+@pytest.mark.parametrize("form", [list, tuple, np.array])
+def test_four_sizes_are_a_list_a_tuple_or_an_array(form):
+    assert hypcheck.classify(form(SIZES), [(3.0, 0.0, 0.0)]).tolist() == [1]
+
+
+@pytest.mark.parametrize("form", [list, tuple, np.array])
+def test_three_sizes_are_refused_by_their_number(form):
+    with pytest.raises(InputError, match="the sizes are 3; they must be four"):
+        hypcheck.classify(form(SIZES[:3]), POINTS)
+
+
+def test_a_list_of_one_number_is_no_point():
+    with pytest.raises(InputError, match=r"is of shape \(1,\); it must be three numbers, x, y, z, or an array"):
+        hypcheck.classify(SIZES, [1.0])
+
+
 def test_heights_may_be_columns():
     tops = np.array([4.0, 6.0, 4.0, 6.0])
     rows = [(*row, 0.0, 0.0, 1.0, -np.inf, top, 0.0) for row, top in zip(ROWS, tops.tolist(), strict=True)]

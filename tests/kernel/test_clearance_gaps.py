@@ -70,3 +70,17 @@ def test_a_huge_wall_and_unlike_units_give_bounds_in_a_moment_and_raise_nothing(
         found = hypcheck.clearance(rows)
     assert (found.distance_lower <= found.distance_upper).all()
     assert found.distance_upper[:3] * (1, 1e-150, 1e150) == pytest.approx([found.distance_upper[0]] * 3, rel=1e-9)
+
+
+LONG_AND_TILTED = [1.2723, 2.2682, 0.167, 5.0219, 6.9888, -8.2508, 6.6449, 0.16757, 1.00563, -0.01132]
+"""A rod of which another point of the wall is nearest than the first that is tried: its gap has to be measured."""
+
+
+@pytest.mark.parametrize(("unit", "axis"), [(2.0**20, 1.0), (2.0**-20, 1.0), (1.0, 2.0**30), (1.0, 2.0**-30)])
+def test_a_gap_is_measured_in_any_unit_of_lengths_and_with_an_axis_of_any_length(unit, axis):
+    row = np.array([LONG_AND_TILTED])
+    row[:, :7] *= unit
+    row[:, 7:] *= axis
+    found = hypcheck.clearance(row)
+    low, high = found.distance_lower.item(), found.distance_upper.item()
+    assert 0 < high - low <= 2.0**-29 * (low + 5.0219 * unit)

@@ -252,3 +252,32 @@ def test_a_tilted_touch_of_a_disc_so_thin_that_elimination_shows_nothing_has_no_
     """Eight roundings of the terms of G, 3 (b/d)² at least, are then more than half of an eigenvalue of 1."""
     rows = np.array([[2.0, 3.0, 0.5, 0.5 * 2.0**-k, 4.0, 1.0, 2.0, 1.0, 0.5, 0.25] for k in (12, 20)])
     assert np.isfinite(clearance_points.tilted_touches(rows).error).tolist() == [True, False]
+
+
+@pytest.mark.parametrize(
+    ("row", "square", "point"),
+    [
+        ((1.0, 0.5, 0.1, 0.2, 9.0, 0.0, 0.0, 1.0, 0.0, 0.0), 987.5, (4.5, 0.0, 4.8125**0.5)),
+        ((1.0, 0.5, 0.1, 0.2, 2.4, 0.0, 0.0, 1.0, 0.0, 0.0), 47.0, (1.2, 0.0, 0.11**0.5)),
+        ((1.0, 1.0, 1.2, 0.8, 0.0, 0.0, 1.0, 1.0, 0.0, 2.0), 1.5 / 1.44, (1.0, 0.5, 0.5)),
+        ((1.0, 1.0, 1.2, 0.8, 0.0, 0.0, 1.0, 3.0, 0.0, 6.0), 1.5 / 1.44, (1.0, 0.5, 0.5)),
+    ],
+)
+def test_a_tilted_touch_at_a_pole_of_the_multiplier_is_the_point_worked_out_by_hand(row, square, point):
+    """The touch X solves M (X − C) = −λ D X.
+
+    Of the first two rows λ is γ²/b², which leaves z free: x (1/d² + γ²/(α b)²) = c/d², and z² = γ² (x² − 1). Of the
+    others it is −1/b², and X − C is at right angles to the axis: z − 1 = −z, x + 2 (z − 1) = 0, and y² = 1 + z² − x².
+    """
+    found = clearance_points.tilted_touches(np.array([row]))
+    assert found.factor[0] ** 2 == pytest.approx(square, rel=1e-12)
+    assert found.point[0] == pytest.approx(point, rel=1e-9, abs=1e-12)
+
+
+@pytest.mark.parametrize("length", [2.0**700, 2.0**-700])
+def test_a_tilted_touch_is_that_of_the_axis_direction_alone(length):
+    rows = TILTED[:4].copy()
+    rows[:, 7:] *= length
+    one, other = (clearance_points.tilted_touches(some) for some in (TILTED[:4], rows))
+    assert np.array_equal(one.factor, other.factor)
+    assert np.array_equal(one.point, other.point)

@@ -208,3 +208,17 @@ def test_an_axis_of_any_length_gives_the_same_touch_and_gap(length):
     )
     for name in ("distance_lower", "distance_upper", "nearest", "lower", "upper", "touch", "touch_error"):
         assert np.array_equal(getattr(one, name), getattr(other, name)), name
+
+
+def test_the_distance_of_a_speck_on_the_axis_is_that_of_its_centre_but_for_a_share_of_the_waist():
+    """Of the wall's points the nearest to (0, 0, 1/2) are at z = 2/5: their squared distance is 1 + 1/25 + 1/100."""
+    near = hypcheck.clearance((1.0, 2.0, 1e-80, 1e-85), (0.0, 0.0, 0.5), axis=(0.0, 1.0, 0.0))
+    assert 1.05**0.5 - 2.0**-30 < near.distance_lower <= 1.05**0.5 <= near.distance_upper < 1.05**0.5 + 2.0**-34
+
+
+def test_an_axis_that_is_given_and_upright_gives_the_answer_of_none():
+    for centre in ((3.0, 4.0, 1.0), (1.9, 0.0, 0.0)):
+        one, other = hypcheck.clearance(*SIZES, *centre), hypcheck.clearance(*SIZES, *centre, axis=(0.0, 0.0, 1.0))
+        assert other.position == one.position
+        assert max(one.lower, other.lower) <= min(one.upper, other.upper)
+        assert max(one.distance_lower, other.distance_lower) <= min(one.distance_upper, other.distance_upper)

@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 
 from hypcheck.geometry.pair import Position
+from hypcheck.kernel.scene_ends import limits_of, meets_for_sure
+from hypcheck.kernel.scene_index import bodies_of
 from hypcheck.scene.model import FREE, UPRIGHT, Hyperboloid, Mover, MoverPart, Region, SceneModel, Span
 from tests.support.inside import Scene, kernel_choice, passage
 from tests.support.scenes import truth_beside, truth_in
@@ -351,3 +353,31 @@ def test_a_tilted_disc_reaches_an_end_by_its_longer_semi_axis():
     heights = [2.75, 3.0, 3.25]
     assert tower.classify(0.0, 0.0, heights).tolist() == [Position.CONTACT, Position.CONTACT, Position.EXTERIOR]
     assert [tower.position(0.0, 0.0, height) for height in heights] == [0, 0, 1]
+
+
+def test_bounds_show_that_a_mover_touches_a_wall_at_its_own_height_where_it_does():
+    """At the height 4 the wall is 2 √(1 + (4/3)²) = 10/3 from its axis; three other formulas give 4, 11/3 and more."""
+    across = np.array([10 / 3 - 0.2, 10 / 3, 10 / 3 + 0.2, 10 / 3 - 0.3, 10 / 3 + 0.3, 50 / 9, 20.1])
+    count = len(across)
+    places = np.column_stack([across, np.zeros(count), np.full(count, 4.0)])
+    shapes, spans = np.tile((2.0, 3.0), (count, 1)), np.tile((-1.0, 5.0), (count, 1))
+    found = meets_for_sure(np.full(count, 0.25), shapes, spans, places, np.zeros(count))
+    assert found.tolist() == [True, True, True, False, False, False, False]
+
+
+def test_bounds_show_no_contact_with_a_flat_wall_that_a_mover_misses_by_a_hair():
+    """A ball at the waist, 2⁻³⁶ from a wall that rises so little that an error of the height moves it far aside."""
+    count = 8
+    away = 2.0 ** -np.arange(33.0, 33 + count)
+    places = np.column_stack([1.25 + away, np.zeros(count), np.zeros(count)])
+    shapes, spans = np.tile((1.0, 2.0**-10), (count, 1)), np.tile((-1.0, 5.0), (count, 1))
+    assert not meets_for_sure(np.full(count, 0.25), shapes, spans, places, np.zeros(count)).any()
+
+
+@pytest.mark.parametrize(("axis", "reach"), [(UPRIGHT, 0.5), ((1.0, 0.0, 0.0), 2.0), ((0.0, 1.0, 3.0), 2.0)])
+def test_a_disc_lies_beyond_an_end_by_its_own_height_if_it_is_upright_and_by_its_longer_semi_axis_if_not(axis, reach):
+    trunk = Hyperboloid("trunk", 5.0, 4.0, (0.0, 0.0, 10.0), Span(-3.0, 1.0))
+    disc = Mover(2.0, 0.5, axis=axis)
+    (limits,) = limits_of(bodies_of([trunk]), disc)
+    assert limits == pytest.approx([7 - reach, 11 + reach, 7 + reach, 11 - reach], abs=1e-9)
+    assert limits[0] < 7 - reach < 11 + reach < limits[1]

@@ -328,3 +328,21 @@ def test_a_contact_is_shown_where_the_first_contact_on_its_segment_is():
     found, (shown,) = scene.first_contact(path), shown_flight(scene, path).contacts
     assert (shown.segment, shown.index) == (found.segment, found.index) == (1, 0)
     assert shown.center == pytest.approx(found.center)
+
+
+def test_a_least_distance_at_the_end_of_a_step_that_is_lost_in_the_length_of_the_flight_is_not_above_the_true_one():
+    """The steps before the last are 2³⁶ long: sums of lengths are rounded by more than the last step is long."""
+    world = scene(Hyperboloid("tower", 1.0, 2.0**30), mover=Mover(0.25, 0.25))
+    step = 2.0**-18
+    least = world.first_contact([(2.0**36, 0, 0), (16.0, 0, 0), (4.0, 0, 0), (4 - step, 0, 0)]).least
+    assert least.distance_lower <= 2.75 - step <= least.distance_upper
+    assert least.distance_upper - least.distance_lower < 1e-7
+
+
+@pytest.mark.parametrize("turn", [48, 49])
+def test_a_least_distance_beside_a_place_that_was_asked_holds_the_rounding_of_long_coordinates(turn):
+    """A ball passes a waist at the distance 1/2, 2²⁰ from the origin; the middle of its segment is a little beside."""
+    far, beside = 2.0**20, turn * 2.0**-14
+    world = scene(Hyperboloid("tower", 1.0, 2.0**30, (far, far, 0.0)), mover=Mover(0.25, 0.25))
+    least = world.first_contact([(far + 1.75, far - 1 + beside, 0), (far + 1.75, far + 1 + beside, 0)]).least
+    assert least.distance_lower <= 0.5 <= least.distance_upper

@@ -208,3 +208,16 @@ def test_scene_position_asks_the_parts_only_where_the_mover_has_contact():
     for x, expected in ((0.0, 1), (9.0, 1), (-0.75, 0), (-0.9, 0), (1.125, 1)):
         assert scene.position(x, 0.0, 0.0) == expected, x
         assert scene.classify([x], 0.0, 0.0).tolist() == [expected], x
+
+
+def test_parts_are_not_asked_beside_a_mover_that_is_clear_though_a_rounding_moves_one_out_of_it():
+    """At 2**20 the place of the part is rounded: it reaches 2**-34 beyond the mover, which is clear by 2**-35."""
+    far, more = 2.0**20, 3 * 2.0**-34
+    trees = (
+        Hyperboloid("beside", 1 - 2.0**-35, 2.0**30, (far, 0.0, 0.0)),
+        Hyperboloid("tilted", 1.0, 9.0, axis=(1, 0, 1)),
+    )
+    mover = Mover(1.0, 1.0, (MoverPart(0.25 - more, 0.25 - more, 0.75 + more),))
+    scene = Scene(model.SceneModel("s", "position", trees, mover))
+    assert scene.classify([far + 2], 0.0, 0.0, 180.0).tolist() == [Position.EXTERIOR]
+    assert scene.position(far + 2, 0.0, 0.0, 180.0) == Position.EXTERIOR

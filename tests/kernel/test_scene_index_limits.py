@@ -131,3 +131,10 @@ def test_a_hyperboloid_that_stands_farther_out_than_cells_are_numbered_is_not_fo
     for k in (1, 2):
         assert both(scene, (far + 1.0, 8.0 * k, 0.0)) == 0
         assert scene.passage((far + 4.0, 8.0 * k, 0.0), (far, 8.0 * k, 0.0)).hit
+
+
+def test_scene_position_beside_a_hyperboloid_farther_out_than_cells_are_numbered_is_contact():
+    far = 2.0**45
+    bodies = tuple(Hyperboloid(name, 1.0, 9.0, (x, 0.0, 0.0)) for name, x in (("here", 0.0), ("far", far)))
+    scene = Scene(model.SceneModel("s", "position", bodies, Mover(0.25, 0.25), Region(z=Span(-1.0, 1.0))))
+    assert scene.position(far + 1.0, 0.0, 0.0) == 0

@@ -321,3 +321,38 @@ def test_the_gap_to_a_wall_between_two_heights_is_the_least_of_a_dense_sample(pl
         least = max(least, 0.0)
         assert least - 1e-7 <= found.upper[0] <= least + 1e-12
         assert found.upper[0] - 1e-11 <= found.lower[0] <= found.upper[0]
+
+
+def test_a_gap_beside_a_wide_wall_is_measured_where_its_bounds_are_apart_by_more_than_the_distance_and_mover_allow():
+    """The coordinates of a mover beside the wall are long, as the wall is wide, and its distance is not."""
+    b = 0.61071
+    found = scene(Hyperboloid("wide", 147.62, 0.108084), mover=Mover(b, 0.0035413)).nearest(140.696, 0.0, 0.99996)
+    assert not found.contact
+    assert found.distance_upper - found.distance_lower <= 2.0**-27 * (found.distance_upper + b)
+
+
+@pytest.mark.parametrize(("b", "d"), [(0.5, 0.25), (0.25, 0.75), (3.0, 1.0)])
+def test_the_gap_from_a_tilted_spheroid_to_a_flat_end_is_that_of_its_lowest_point(b, d):
+    """With the axis v that point is √(b² (1 − v_z²) + d² v_z²) below the centre, and that divides its way aside."""
+    axes = np.array([(3.0, 0.0, 4.0), (4.0, 0.0, 3.0), (0.0, 3.0, 4.0)]) / 5
+    sizes, centres, spans = (np.tile(row, (3, 1)) for row in ((9.0, 40.0, b, d), (0.5, 0.25, 7.0), (-2.0, 3.0)))
+    found = scene_gaps.gaps(sizes, centres, axes, spans, np.ones(3, np.bool_), np.full(3, 50.0))
+    deep = np.sqrt(b * b * (1 - axes[:, 2] ** 2) + d * d * axes[:, 2] ** 2)
+    aside = ((b * b - d * d) * axes[:, 2] / deep)[:, None] * axes[:, :2]
+    assert found.upper == pytest.approx(4 - deep, rel=1e-12)
+    assert found.lower == pytest.approx(4 - deep, rel=1e-12)
+    assert (found.lower <= found.upper).all()
+    assert found.point == pytest.approx(np.column_stack([centres[:, :2] + aside, np.full(3, 3.0)]), rel=1e-12)
+
+
+def test_the_lower_bound_of_a_gap_holds_the_roundings_of_a_rim_that_is_far_wider_than_all_other_lengths():
+    """A ball about the origin: the rim at the lower end is the nearest, α√(1 + w²) from the axis, w above the ball."""
+    rng = np.random.default_rng(1)
+    alpha, low = 2.0**20 * rng.uniform(1, 2, (2, 16))
+    sizes, spans = np.column_stack([alpha, np.ones((16, 3))]), np.column_stack([low, 2 * low])
+    found = scene_gaps.gaps(sizes, np.zeros((16, 3)), None, spans, np.zeros(16, np.bool_), np.full(16, 2.0**50))
+    for row in range(16):
+        a, w = Fraction(alpha[row].item()), Fraction(low[row].item())
+        squared = a * a * (1 + w * w) + w * w
+        assert (Fraction(found.lower[row].item()) + 1) ** 2 <= squared
+        assert (Fraction(found.upper[row].item()) + 1) ** 2 >= squared * (1 - Fraction(1, 2**50))

@@ -329,16 +329,3 @@ def test_a_ball_within_the_wide_part_of_a_tilted_hyperboloid_touches_its_narrow_
         ball = Scene(SceneModel("s", "position", (horn,), Mover(radius, radius)))
         assert ball.classify([there]).tolist() == [expected]
         assert ball.position(there) == expected
-
-
-def test_parts_are_not_asked_beside_a_mover_that_is_clear_though_a_rounding_moves_one_out_of_it():
-    """At 2**20 the place of the part is rounded: it reaches 2**-34 beyond the mover, which is clear by 2**-35."""
-    far, more = 2.0**20, 3 * 2.0**-34
-    trees = (
-        Hyperboloid("beside", 1 - 2.0**-35, 2.0**30, (far, 0.0, 0.0)),
-        Hyperboloid("tilted", 1.0, 9.0, axis=(1, 0, 1)),
-    )
-    mover = Mover(1.0, 1.0, (MoverPart(0.25 - more, 0.25 - more, 0.75 + more),))
-    scene = Scene(SceneModel("s", "position", trees, mover))
-    assert scene.classify([far + 2], 0.0, 0.0, 180.0).tolist() == [EXTERIOR]
-    assert scene.position(far + 2, 0.0, 0.0, 180.0) == EXTERIOR
