@@ -36,6 +36,9 @@ SCENES = 256
 """So many scenes of a round are asked by the function for scenes: those with the most cases; and about as many of the
 others, evenly, for tilted spheroids hardly share their axes."""
 
+LONG_SCENES = 3
+"""Scenes of the first round whose cases fill questions of FULL_QUESTION centres: those with the most cases."""
+
 ALONE, SINGLE_STEP = 32, 20
 """Cases that are asked one by one, and questions of one row between two looks at the clock."""
 
@@ -120,7 +123,12 @@ def retest(step: RetestStep, implementation: Implementation | Crashed, rules: Ju
         step.part,
         step.pace,
     )
-    by_scene = scene_questions(sample.rows) if implementation.scene else ()
+    by_scene: Iterator[RetestQuestion] = iter(())
+    if implementation.scene:
+        first = step.number == step.part == 0
+        by_scene = scene_questions(
+            sample.rows, sample.truth, lambda: implementation.proven_batch if first else 0, rules.seed
+        )
     asked = chain(((*question, False) for question in asking), ((*question, True) for question in by_scene))
     for places, batch, one_scene in asked:
         answered = implementation.classify(sample.rows[places], batch=batch, by_scene=one_scene)
@@ -262,14 +270,22 @@ def retest_questions(
     yield from _moment_by_moment(moments)
 
 
-def scene_questions(rows: Rows) -> Iterator[RetestQuestion]:
-    """The cases of each scene in one question, and some in small ones, for a function for scenes."""
+def scene_questions(
+    rows: Rows, truth: NDArray[np.int8], proven_batch: Callable[[], int], seed: int
+) -> Iterator[RetestQuestion]:
+    """The cases of each scene in one question, and some in small ones, for a function for scenes.
+
+    The cases of LONG_SCENES are repeated as in retest_questions, if `proven_batch` returns LARGE_QUESTION or more.
+    """
+    random = np.random.Generator(np.random.Philox(seed))
     scenes = scenes_of(rows)
     others = scenes[SCENES:]
     for number, cases in enumerate([*scenes[:SCENES], *others[:: 1 + len(others) // SCENES]]):
         yield cases, None
         if len(cases) > 1:
             yield cases[:IN_LENGTHS], LENGTHS[number % len(LENGTHS)]
+        if number < LONG_SCENES and proven_batch() >= LARGE_QUESTION:
+            yield from _in_every_place(cases, truth, random, min(FULL_QUESTION, proven_batch()))
 
 
 def _one_by_one(cases: Indices, seconds: float) -> Iterator[RetestQuestion]:

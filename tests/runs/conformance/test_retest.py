@@ -98,6 +98,8 @@ SCENE_CALLS = "many(n, x, y, z, positions);"
         (f"{SCENE_CALLS} if (n > 8) positions[n - 1] = !positions[n - 1];", 1),
         (f"{SCENE_CALLS} for (size_t i = 0; i < n; i++) if (z[i] > 5 && z[i] < 7) positions[i] = 0;", 1),
         (f"if (n < 100) {SCENE_CALLS}", 1),
+        (f"{SCENE_CALLS} if (n > 1000) positions[1000] = !positions[1000];", 1),
+        (f"{SCENE_CALLS} if (n > 4096) positions[4096] = 0;", 1),
     ],
 )
 def test_function_for_scenes_must_answer_as_the_function_for_rows_does(tmp_path, instead, code):
