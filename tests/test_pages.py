@@ -158,10 +158,11 @@ def test_no_committed_report_names_a_folder_of_the_machine_that_made_it():
 
 
 def test_every_make_command_on_a_page_is_a_target_of_the_makefile():
-    targets = set(re.findall(r"^([\w-]+):", (ROOT / "Makefile").read_text(encoding="utf-8"), re.MULTILINE))
+    targets = re.findall(r"^([\w%-]+):", (ROOT / "Makefile").read_text(encoding="utf-8"), re.MULTILINE)
+    known = re.compile("|".join(target.replace("%", r"[\w-]+") for target in targets))
     for page in PAGES:
         called = re.findall(r"(?:`|\$ )make ([a-z][\w-]*)", page.read_text(encoding="utf-8"))
-        assert set(called) <= targets, named(page)
+        assert [target for target in called if not known.fullmatch(target)] == [], named(page)
 
 
 def test_first_sentences_say_position_relative_to_a_hyperboloid():
