@@ -9,9 +9,10 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from tests.support.inside import clearances, passage
+from tests.support.inside import clearances
 from tests.tools.attack.strike import truth_of
-from tests.tools.evidence.seeds import CLEARANCES, LEANING_SCENE, LEANING_WAYS, ROWS, SCENE, SWEEPS
+from tests.tools.evidence.battery.timed import timed
+from tests.tools.evidence.seeds import CLEARANCES, LEANING_SCENE, ROWS, SCENE, SWEEPS
 
 HAIR = 2.0**-100
 
@@ -94,9 +95,8 @@ def constructed() -> Iterator[tuple[int, np.ndarray, np.ndarray]]:
     """The kind, the rows and the right answers."""
     for rows in (np.array(BESIDE_TANGENCIES, float), rows_of(CANCELLED), rows_of(NOT_TOLD)):
         yield ROWS, rows, truth_of(rows)
-    for kind, text in ((SWEEPS, WAYS_BEYOND_BOUNDS), (LEANING_WAYS, LEANING_WAYS_BEYOND_BOUNDS)):
-        rows = rows_of(text)
-        yield kind, rows, np.array([_hit(row) for row in rows.tolist()])
+    for text in (WAYS_BEYOND_BOUNDS, LEANING_WAYS_BEYOND_BOUNDS):
+        yield SWEEPS, *timed(rows_of(text))
     rows = np.array(CLEARANCES_AT_ENDS)
     known = clearances(rows)
     yield CLEARANCES, np.column_stack([rows, known.clearance]), known.position
@@ -105,10 +105,6 @@ def constructed() -> Iterator[tuple[int, np.ndarray, np.ndarray]]:
         valid = np.isfinite(scene).all(axis=1)
         right[valid] = truth_of(scene[valid])
         yield kind, scene, right
-
-
-def _hit(row: list[float]) -> bool:
-    return passage(row[:4], row[4:7], row[7:10], axis=row[10:] or (0, 0, 1)).hit
 
 
 def _scenes() -> Iterator[tuple[int, np.ndarray]]:

@@ -14,7 +14,7 @@
 #include "exact_guards.h"
 #include "limits.h"
 
-enum { ROWS, LEANING, SCENE, LEANING_SCENE, WAYS, LEANING_WAYS, CLEARANCES };
+enum { ROWS, LEANING, SCENE, LEANING_SCENE, WAYS, CLEARANCES = 6, ENDED };
 enum { MODES = 4 };
 static const int modes[MODES] = {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
 
@@ -27,9 +27,10 @@ typedef struct {
 static long counts[24];
 static const char *const names[] = {"single", "certified", "fixed point", "tangencies", "roots in 128 bits", "roots in 256 bits",
                                     "in the plane", "one line", "two lines", "tilted", "one plane", "two planes",
-                                    "ways", "times", "clearances", "touches", "distances", "gaps"};
+                                    "ways", "times", "clearances", "touches", "distances", "gaps",
+                                    "rows beside ends", "ways beside ends", "times beside ends", "near times"};
 enum { SINGLE, CERTIFIED, FIXED, TANGENCIES, IN_128, IN_256, IN_PLANE, ONE_LINE, TWO_LINES, TILTED, ONE_PLANE, TWO_PLANES,
-       DECIDED_WAYS, TIMES, NARROW, TOUCHES, DISTANCES, GAPS, ALL };
+       DECIDED_WAYS, TIMES, NARROW, TOUCHES, DISTANCES, GAPS, ENDED_ROWS, ENDED_WAYS, ENDED_TIMES, NEAR_TIMES, ALL };
 
 static void wrong(const batch *b, int mode, int i, const char *what, int found) {
     int k;
@@ -82,8 +83,8 @@ static void ask_exact_stages(const batch *b, int mode, int i) {
 static void ask_rows(const batch *b, int mode) {
     int8_t *answers = malloc((size_t)b->n);
     int i, leaning = b->kind == LEANING;
-    if (leaning) hypcheck_ask_tilted(HYPCHECK_POSITION, (size_t)b->n, b->rows, answers);
-    else hypcheck_ask(HYPCHECK_POSITION, (size_t)b->n, b->rows, answers);
+    if (leaning) hypcheck_classify_columns((size_t)b->n, 10, b->rows, answers);
+    else hypcheck_classify_columns((size_t)b->n, 7, b->rows, answers);
     for (i = 0; i < b->n; i++) {
         const double *r = b->rows + b->width * i;
         if (answers[i] != b->right[i]) wrong(b, mode, i, "an answer", answers[i]);
@@ -189,20 +190,43 @@ static void ask_scene(const batch *b, int mode) {
     free(x), free(y), free(z), free(answers), free(left), free(signs);
 }
 
+/* A row has two times behind it: before the first a spheroid that is a little larger is clear, as hypcheck.h says, and by the
+   second there is contact. */
 static void ask_ways(const batch *b, int mode) {
-    int8_t *hits = malloc((size_t)b->n), *alone = malloc((size_t)b->n);
-    double *times = malloc(8 * (size_t)b->n);
+    const size_t n = (size_t)b->n, width = (size_t)b->width - 2;
+    double *rows = malloc(8 * n * width), *times = malloc(8 * n);
+    int8_t *hits = malloc(n), *alone = malloc(n);
     int i;
-    (b->kind == WAYS ? hypcheck_passage : hypcheck_passage_tilted)((size_t)b->n, b->rows, hits, times);
-    (b->kind == WAYS ? hypcheck_passage : hypcheck_passage_tilted)((size_t)b->n, b->rows, alone, NULL);
+    for (i = 0; i < b->n; i++) memcpy(rows + width * (size_t)i, b->rows + b->width * i, 8 * width);
+    hypcheck_passage_columns(n, width, rows, hits, times);
+    if (width == 10) hypcheck_passage(n, rows, alone, NULL);
+    else if (width == 13) hypcheck_passage_tilted(n, rows, alone, NULL);
+    else hypcheck_passage_columns(n, width, rows, alone, NULL);
     for (i = 0; i < b->n; i++) {
+        const double *const within = b->rows + b->width * i + width;
         if (hits[i] != b->right[i] && (hits[i] != 2 || b->right[i] == 127)) wrong(b, mode, i, "a hit", hits[i]);
         if (alone[i] != b->right[i] && (alone[i] != 2 || b->right[i] == 127)) wrong(b, mode, i, "a hit alone", alone[i]);
-        if (times[i] == times[i] ? hits[i] != 1 || times[i] < 0 || times[i] > 1 : 0) wrong(b, mode, i, "a time", hits[i]);
-        counts[DECIDED_WAYS] += (hits[i] != 2) + (alone[i] != 2);
-        counts[TIMES] += times[i] == times[i];
+        if (times[i] == times[i] && !(hits[i] == 1 && times[i] >= within[0] && times[i] <= within[1])) wrong(b, mode, i, "a time", hits[i]);
+        counts[width == 16 ? ENDED_WAYS : DECIDED_WAYS] += (hits[i] != 2) + (alone[i] != 2);
+        counts[width == 16 ? ENDED_TIMES : TIMES] += times[i] == times[i];
+        counts[NEAR_TIMES] += times[i] >= within[1] * (1 - 0x1p-51);
     }
-    free(hits), free(alone), free(times);
+    free(rows), free(times), free(hits), free(alone);
+}
+
+/* Rows with heights, where the bounds may leave an answer open. */
+static void ask_ended(const batch *b, int mode) {
+    const size_t n = (size_t)b->n;
+    int8_t *answers = malloc(n), *by_width = malloc(n);
+    int i;
+    hypcheck_classify_ended(n, b->rows, answers);
+    hypcheck_classify_columns(n, 13, b->rows, by_width);
+    for (i = 0; i < b->n; i++) {
+        if (answers[i] != b->right[i] && (answers[i] != 2 || b->right[i] == 127)) wrong(b, mode, i, "a position beside ends", answers[i]);
+        if (by_width[i] != answers[i]) wrong(b, mode, i, "a position by its width", by_width[i]);
+        counts[ENDED_ROWS] += answers[i] != 2;
+    }
+    free(answers), free(by_width);
 }
 
 /* The 8th number of a row is its clearance, within 2^-50 of 1 + its size; NaN for an invalid row. */
@@ -255,6 +279,7 @@ int main(int argc, char **argv) {
             if (b.kind < SCENE) ask_rows(&b, mode);
             else if (b.kind < WAYS) ask_scene(&b, mode);
             else if (b.kind < CLEARANCES) ask_ways(&b, mode);
+            else if (b.kind == ENDED) ask_ended(&b, mode);
             else ask_clearances(&b, mode);
             fesetround(FE_TONEAREST);
         }

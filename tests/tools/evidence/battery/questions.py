@@ -15,12 +15,15 @@ import numpy as np
 
 from tests.tools.attack import places, tilted_places
 from tests.tools.attack.strike import truth_of
+from tests.tools.evidence.battery import ended, timed
 from tests.tools.evidence.battery.constructed import constructed
 from tests.tools.evidence.parts import ROOT
-from tests.tools.evidence.seeds import CLEARANCES, LEANING, LEANING_SCENE, LEANING_WAYS, ROWS, SCENE, SWEEPS, numbers
+from tests.tools.evidence.seeds import CLEARANCES, LEANING, LEANING_SCENE, ROWS, SCENE, SWEEPS, numbers
 
 ALL_MODES, NEAREST = 0b1111, 0b0001
-INVALID = 127
+ENDED = 7
+"""A kind besides those of fuzzing/fuzzer.c: rows of 13. Here SWEEPS are all sweeps, two times behind each row."""
+
 SIZE = 17 * 64
 """Centres of a scene: enough for half planes, and whole blocks."""
 
@@ -55,19 +58,17 @@ def _cases(path: Path) -> list[dict[str, Any]]:
 
 
 def frozen(every: int = 1) -> Iterator[Questions]:
-    """Each `every`-th row of every file of frozen vectors, the kinds as in fuzzing/fuzzer.c, but no scenes."""
+    """Each `every`-th row of every file of frozen vectors; no scenes."""
     for path in sorted((ROOT / "cases").glob("*.json")):
         cases = _cases(path)[::every]
         rows = np.array([numbers(case) for case in cases])
-        if "ended-" in path.stem:  # tests/test_corpus.py asks the header about these
-            continue
-        if path.stem.startswith(("way-", "tilted-way-")):
-            hits = np.array([case.get("hit", INVALID) for case in cases])
-            yield Questions(SWEEPS if rows.shape[1] == 10 else LEANING_WAYS, rows, hits, NEAREST | 4)
-        elif rows.shape[1] == 10:
-            yield Questions(LEANING, rows, np.array([case.get("position", INVALID) for case in cases]))
+        if "way-" in path.stem:
+            yield Questions(SWEEPS, *timed.frozen(rows, cases), NEAREST | 4)
+        elif rows.shape[1] > 7:
+            kind = LEANING if rows.shape[1] == 10 else ENDED
+            yield Questions(kind, rows, np.array([case.get("position", timed.INVALID) for case in cases]))
         else:
-            right = np.array([case.get("position", INVALID) for case in cases])
+            right = np.array([case.get("position", timed.INVALID) for case in cases])
             yield Questions(ROWS, rows, right)
             clearances = [float.fromhex(case.get("clearance_hex", "nan")) for case in cases]
             yield Questions(CLEARANCES, np.column_stack([rows, clearances]), right, NEAREST | 4)
@@ -105,10 +106,19 @@ def drawn(seed: int = 5) -> Iterator[Questions]:
         yield Questions(kind, scene.rows, truth_of(scene.rows), NEAREST | 2 << number % 3)
 
 
+def drawn_about_ends(seed: int, every: int) -> Iterator[Questions]:
+    """Rows and sweeps beside hyperboloids that end, under two rounding modes each."""
+    for number, rows in enumerate(ended.drawn_rows(seed, every)):
+        yield Questions(ENDED, rows, ended.positions_of(rows), NEAREST | 2 << number % 3)
+    for number, rows in enumerate(ended.drawn_sweeps(seed, every)):
+        yield Questions(SWEEPS, *timed.timed(rows), NEAREST | 2 << number % 3)
+
+
 def write(path: Path, every: int = 6, seeds: tuple[int, ...] = (5,)) -> Path:
     """Writes the file of questions that driver.c reads; what takes longest, scenes, comes last."""
     made = [Questions(kind, rows, right, NEAREST | 4) for kind, rows, right in constructed()]
-    asked = [*frozen(every), *made, *frozen_scenes(), *(each for seed in seeds for each in drawn(seed))]
+    of_seeds = (each for seed in seeds for each in (*drawn(seed), *drawn_about_ends(seed, every)))
+    asked = [*frozen(every), *made, *frozen_scenes(), *of_seeds]
     with path.open("wb") as file:
         for questions in sorted(asked, key=lambda each: each.kind in (SCENE, LEANING_SCENE)):
             file.write(questions.data)
