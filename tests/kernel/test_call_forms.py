@@ -243,6 +243,18 @@ def test_a_list_of_one_number_is_no_point():
         hypcheck.classify(SIZES, [1.0])
 
 
+def test_invalid_rows_of_a_table_are_marked_where_that_is_wanted():
+    table = {"alpha": 2, "gamma": 17.8, "b": [0.25, 0.0], "d": 0.15, "x": 3, "y": 0, "z": 5}
+    assert hypcheck.classify(table, on_invalid="flag").tolist() == [1, 127]
+
+
+def test_the_axis_of_the_hyperboloid_is_the_second_of_two():
+    """A ball on the x axis is outside of an upright hyperboloid, and inside of one that lies along that axis."""
+    way = (2.0, 17.8, 0.25, 0.25), (5.0, 0.0, 0.0), (4.0, 0.0, 0.0)
+    assert [hypcheck.passage(*way, (0, 0, 1), axis).start for axis in ((0, 0, 1), (1, 0, 0))] == [1, -1]
+    assert hypcheck.passage(*way, upward=(1, 0, 0)).start == -1
+
+
 def test_heights_may_be_columns():
     tops = np.array([4.0, 6.0, 4.0, 6.0])
     rows = [(*row, 0.0, 0.0, 1.0, -np.inf, top, 0.0) for row, top in zip(ROWS, tops.tolist(), strict=True)]

@@ -138,3 +138,18 @@ def test_the_numpy_kernel_takes_another_side_at_the_end_for_contact_unless_there
     stays = (0.0, 0.0, -1.0, 0.0, 0.0, -1.5)
     hits, _ = numpy_kernel.answer_sweeps(np.array([(*sizes, *way, *axis, *heights) for way in (out, stays)]))
     assert hits.tolist() == [2 if heights and not heights[2] else 1, 2]
+
+
+def test_buffers_of_a_chunk_are_as_long_as_the_chunk():
+    buffers = Buffers((2, 1), 8, np.float64)
+    for rows in (3, 8):
+        numbers, truths = buffers.of(rows)
+        assert [len(part) for part in (*numbers, *truths)] == [rows] * 3
+
+
+def test_a_row_is_tilted_by_its_axis_and_unlike_semi_axes_wherever_its_centre_is():
+    b, d = 0.5, 0.25
+    rows = [
+        [2.0, 3.0, b, size, x, 0.0, 0.0, *axis] for axis in ((1, 0, 1), (0, 0, 1)) for size in (d, b) for x in (b, d)
+    ]
+    assert numpy_kernel.is_tilted(np.array(rows)).tolist() == [True, True, False, False, False, False, False, False]

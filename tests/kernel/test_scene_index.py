@@ -11,7 +11,7 @@ import pytest
 
 import hypcheck
 from hypcheck.geometry.pair import Lengths, Position
-from hypcheck.kernel.scene_pairs import position_beside, positions_beside
+from hypcheck.kernel.scene_pairs import position_beside, positions_beside, tilted_position, tilted_positions
 from hypcheck.scene import model
 from hypcheck.scene.model import Hyperboloid, Mover, MoverPart, Region, Span
 from tests.support import inside
@@ -221,3 +221,14 @@ def test_parts_are_not_asked_beside_a_mover_that_is_clear_though_a_rounding_move
     scene = Scene(model.SceneModel("s", "position", trees, mover))
     assert scene.classify([far + 2], 0.0, 0.0, 180.0).tolist() == [Position.EXTERIOR]
     assert scene.position(far + 2, 0.0, 0.0, 180.0) == Position.EXTERIOR
+
+
+def test_positions_beside_a_tilted_hyperboloid_know_that_it_is_narrower_next_to_the_mover():
+    """At the height 1 the wall is √5 from its axis, and 1 at its waist: a ball of 0.8 there touches it lower down."""
+    along, centre = (0.6, 0.0, 0.8), (1.4, 0.0, 0.2)
+    upright, origin = (0.0, 0.0, 1.0), (0.0, 0.0, 0.0)
+    for radius, expected in ((0.5, Position.INTERIOR), (0.8, Position.CONTACT)):
+        sizes = (1.0, 0.5, radius, radius)
+        columns = (np.array([part]) for part in (sizes, centre, origin, upright, along))
+        assert tilted_positions(*columns).tolist() == [expected]
+        assert tilted_position(sizes, centre, origin, upright, along) == expected

@@ -12,7 +12,15 @@ import hypcheck
 from hypcheck.errors import InputError
 from hypcheck.scene.model import QUESTIONS
 from tests.kernel.test_tilted_integers import RINGS, small_rows, wide_rows
-from tests.support.inside import choice, exact_position, kernel, kernel_classify, numpy_kernel, positions
+from tests.support.inside import (
+    choice,
+    exact_position,
+    integers_whole_position,
+    kernel,
+    kernel_classify,
+    numpy_kernel,
+    positions,
+)
 
 KERNELS = [numpy_kernel, kernel()] if choice().kernel == "compiled" else [numpy_kernel]
 SIZES = (2.0, 3.0, 0.5, 1.5)
@@ -180,3 +188,8 @@ def test_position_refuses_columns_that_are_unknown_or_given_twice():
         hypcheck.position(*SIZES, 1.0, 0.0, 0.0, tilt=(1.0, 0.0, 0.0))
     with pytest.raises(InputError, match="z is given twice; it must be given once"):
         hypcheck.position(*SIZES, 1.0, 0.0, 0.0, axis=(1.0, 0.0, 0.0), z=3.0)
+
+
+@pytest.mark.parametrize(("row", "expected"), RINGS)
+def test_integers_tell_a_clear_pair_whose_quartic_has_a_double_root_at_a_pole_from_one_that_touches(row, expected):
+    assert integers_whole_position(row) == expected
