@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import random
 from dataclasses import replace
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -293,3 +294,15 @@ def test_the_bound_of_a_cell_at_a_narrow_waist_pays_for_how_the_wall_bends_there
 
 def test_a_spheroid_much_smaller_than_the_roundings_of_the_wall_is_left_undecided():
     assert least.position(Pair.from_row((1, 1, 2.0**-60, 2.0**-60, 1 + 2.0**-50, 0, 0, 0, 0, 1, -1, 1, 0))) is None
+
+
+def test_the_error_of_a_value_holds_any_error_of_the_coordinates_of_which_it_is_the_square():
+    """The step of the proof: n is off by e = s (|X| + |C|)/m at most, and so n² by e (2n + e)."""
+    draw = np.random.default_rng(9)
+    pair = Pair(1.0, 2.0, 2.0**-40, 2.0**-38, 3.0, 4.0, 12.0)
+    X, n = draw.normal(size=(3, 64)) * 10 ** draw.uniform(-3, 3, 64), 10 ** draw.uniform(-6, 6, 64)
+    lengths = np.linalg.norm(abs(X) + np.array([[3.0], [4.0], [12.0]]), axis=0)
+    for slack in (2.0**-45, 2.0**-30, 2.0**-10):
+        errors = least._error(pair, X, n * n, slack) * (1 + 2.0**-40)
+        for value, off, error in zip(n, slack * lengths / 2.0**-40, errors, strict=True):
+            assert (Fraction(value) + Fraction(off)) ** 2 - Fraction(value) ** 2 <= Fraction(error)

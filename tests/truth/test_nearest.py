@@ -285,8 +285,3 @@ def test_clearance_of_a_row_does_not_depend_on_the_other_rows_of_its_batch():
     forward, backward = clearances(rows), clearances(rows[::-1])
     assert (forward.clearance == backward.clearance[::-1]).all()
     assert (forward.stage == backward.stage[::-1]).all()
-
-
-def test_a_nearest_point_says_whether_the_surfaces_touch():
-    for x, tangent in ((4, True), (math.nextafter(4, 5), False), (3.5, False)):
-        assert nearest(Pair(1, 1, 3, 1, x, 0, 0)).tangent is tangent

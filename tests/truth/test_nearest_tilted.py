@@ -75,3 +75,8 @@ def test_clearances_of_many_rows_are_those_of_each_pair_alone_for_axes_of_any_le
         assert exact.sum() > 50
         assert (again.clearance == found.clearance[exact]).all()
         assert (again.stage == found.stage[exact]).all()
+
+
+def test_a_nearest_point_says_whether_the_surfaces_touch():
+    for x, tangent in ((4, True), (math.nextafter(4, 5), False), (3.5, False)):
+        assert nearest.nearest(Pair(1, 1, 3, 1, x, 0, 0)).tangent is tangent

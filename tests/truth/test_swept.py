@@ -16,6 +16,7 @@ from hypothesis import strategies as st
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Lengths, Position
+from hypcheck.truth import ended_sweeps
 from hypcheck.truth.ended_sweeps import EndedSweep, first_contact
 from hypcheck.truth.swept import sweep_of
 from tests.support.examples import examples
@@ -386,3 +387,14 @@ def test_contact_that_lasts_next_to_no_time_beside_ends_is_no_touch_where_it_is_
         way = (1, 1, 1, 1), (0, place, -1), (0, place, 1.5)
         assert passage(*way).grazes == grazes
         assert passage(*way, z_min=-5.0, z_max=5.0).grazes == grazes
+
+
+@pytest.mark.parametrize("axis", [(0, 0, 1), (0, 1, 1), (1, 0, 1)])
+@pytest.mark.parametrize(("b", "d"), [(16, 1), (1, 16)])
+def test_a_sweep_is_not_longer_than_its_bound_in_radii_of_a_spheroid_as_leaning_as_the_hyperboloid(axis, b, d):
+    """The step of the proof: a spheroid enlarged by that bound contains the moved one."""
+    for move in itertools.product((0, 1, 5), (0, -1, 3), (0, 1, -7)):
+        sweep = sweep_of((1, 1, b, d), (0, 0, 0), move, axis, axis)
+        along = Fraction(sum(map(int.__mul__, axis, move))) ** 2 / sum(part * part for part in axis)
+        across = sum(part * part for part in move) - along
+        assert ended_sweeps._radii(sweep) ** 2 >= across / b**2 + along / d**2
