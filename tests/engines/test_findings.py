@@ -11,7 +11,7 @@ from msgspec.structs import replace
 from hypcheck.engines.drawings import drawing
 from hypcheck.engines.engine import ENGINES, command, is_installed
 from hypcheck.engines.findings import Finding, proved, read_findings, reproduction
-from hypcheck.engines.report import write_findings
+from hypcheck.engines.report import write_findings, write_page
 from tests.engines.test_adapters import CACHE
 
 REPORTS = Path(__file__).parents[2] / "reports" / "engines"
@@ -62,6 +62,18 @@ def test_the_reproduction_program_of_each_engine_has_its_certificate_and_numbers
     assert read_findings(tmp_path) == [written]
 
 
+def test_the_drawing_of_a_missed_contact_magnifies_the_triangles_point_and_that_of_another_kind_the_spheroids():
+    """The nearest point of the triangle is at z = 0.5, and the point of the unit ball that faces it at z = 1."""
+    for kind, height in (("missed contact", 50), ("false contact", 100)):
+        assert f"M0.00,-{height}.00 L170,0" in drawing(finding(kind, error=0.001, d=1.0))
+
+
+def test_the_drawing_of_a_triangle_that_is_a_point_in_its_plane_shows_the_point():
+    point = drawing(finding("false contact", error=0.001, corners=[[0.0, 0.0, 0.5]] * 3))
+    assert '<line x1="0.00" y1="-50.00" x2="0.00" y2="-50.00"' in point
+    assert "nan" not in point
+
+
 def run_reproduction(found, folder):
     """Run a finding's file beside the installed engine; its exit code: 1 while the engine is wrong."""
     home = (CACHE / found.engine).absolute()
@@ -92,6 +104,17 @@ def test_findings_in_which_an_engine_contradicts_itself_lead_the_page_and_no_cel
     assert said[: len(contradicting)] == [words for words in said if words.startswith("contact, and")]
     assert {one.said for one in contradicting} == set(said[: len(contradicting)])
     assert re.search(r"\| [^|(\[]*\d/\d", page) is None
+
+
+def test_the_committed_page_badges_and_charts_are_those_of_the_committed_records_and_findings(tmp_path):
+    made = tmp_path / "engines"
+    shutil.copytree(REPORTS, made)
+    names = [path.name for path in REPORTS.iterdir() if path.suffix in {".md", ".svg"} or ".badge." in path.name]
+    assert len(names) == 1 + 2 * len([path for path in REPORTS.glob("*.json") if ".badge." not in path.name])
+    for name in names:
+        (made / name).unlink()
+    write_page(made)
+    assert [name for name in names if (made / name).read_text() != (REPORTS / name).read_text()] == []
 
 
 @pytest.mark.parametrize("one", COMMITTED, ids=lambda one: one.file)

@@ -82,6 +82,12 @@ def test_derive_leaves_no_file_if_the_claim_does_not_exist(capsys, tmp_path):
     assert list(tmp_path.iterdir()) == [target]
 
 
+def test_a_claim_that_is_nearly_written_right_gets_the_right_one(capsys):
+    code, _, errors = told(capsys, "--claim", "Propositon 3.1")
+    assert code == Exit.USAGE
+    assert "did you mean 'Proposition 3.1'?" in errors
+
+
 @pytest.mark.parametrize("form", ["text", "json", "latex", "markdown"])
 def test_failing_step_of_a_proof_is_shown_and_derive_ends_with_6(capsys, monkeypatch, form):
     chain = chains()["Proposition 3, repaired"]

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import base64
 import hashlib
 import json
 import re
+import sys
 import tarfile
 import warnings
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
 
 from hypcheck import InputError, Mover, Scene
+from hypcheck.errors import UnavailableError
 from hypcheck.scene.model import FREE
 from tests.report import browser
 
@@ -101,6 +105,30 @@ def test_a_name_cannot_break_out_of_the_page():
     page = scene.show([[5, 0, 0], [9, 0, 0]]).html
     assert "<b>" not in page
     assert "<script>alert" not in page
+
+
+def test_a_notebook_shows_the_page_in_a_frame_whose_text_is_the_page():
+    page = forest().show()
+    frame = ElementTree.fromstring(page._repr_html_())  # noqa: S314 - our own
+    assert frame.tag == "iframe"
+    assert frame.get("srcdoc").split() == page.html.split()
+
+
+def test_a_body_whose_axis_points_down_is_drawn_as_the_one_turned_over():
+    down, up = (
+        Scene.from_arrays(1, 6, [[0, 0, 3]], axis=[[0, 0, way]], z_min=low, z_max=high, mover=Mover(0.4, 0.2))
+        for way, low, high in ((-1, -2, 5), (1, -5, 2))
+    )
+    drawn = [np.frombuffer(base64.b64decode(data_of(scene.show())["bodies"]), np.float32) for scene in (down, up)]
+    assert drawn[0].tolist() == drawn[1].tolist()
+
+
+def test_without_matplotlib_a_plot_says_what_to_install(monkeypatch):
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    monkeypatch.delitem(sys.modules, "matplotlib.collections", raising=False)
+    monkeypatch.delitem(sys.modules, "matplotlib.figure", raising=False)
+    with pytest.raises(UnavailableError, match=r"a plot needs matplotlib; install it, or hypcheck with its extra"):
+        forest().plot(PATH)
 
 
 @pytest.fixture(scope="module")
