@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from hypcheck.report.advice import EVERYDAY, EVERYWHERE, dominated_methods, recommendations
+from hypcheck.report.advice import EVERYDAY, EVERYWHERE, best_rival_facts, dominated_methods, recommendations
 from tests.report import bench_lines
 from tests.report.bench_lines import bench_record
 
@@ -147,6 +147,16 @@ def test_advice_names_methods_that_another_method_beats():
         method("exact", 2.0, {"uniform": 0.0, "ring": 0.0}, exact=True),
     )
     assert [(loser.name, winner.name) for loser, winner in dominated_methods(record)] == [("slower", "good")]
+
+
+def test_a_method_of_the_user_is_compared_only_with_one_that_errs_no_farther_from_contact():
+    mine = bench_lines.line("method", "foreign-adapter", method="mine")
+    own = [mine, *list(method("mine", 6.0, {"uniform": 1e-9}))[1:]]
+    rough, near = (method(name, 2.0, {"uniform": above}) for name, above in (("rough", 1e-6), ("near", 1e-12)))
+    assert list(best_rival_facts(chosen(own, rough))) == ["mine: no other method that was measured is as reliable"]
+    assert list(best_rival_facts(chosen(own, near))) == [
+        "mine: takes 3 times as long as near, the fastest that is as reliable"
+    ]
 
 
 def test_nothing_is_advised_without_times():

@@ -15,8 +15,17 @@ from hypcheck.cli.main import main
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import PAIRS, SWEEPS
 from hypcheck.record.lines import DomainPart, FixedSizesPart
+from hypcheck.record.reader import line_of
 from hypcheck.report.document import Code, Emphasis, Strong, plain
-from hypcheck.report.messages import classify_command, domain_text, figure, from_hex, listed, short_row
+from hypcheck.report.messages import (
+    classify_command,
+    domain_text,
+    figure,
+    from_hex,
+    implementation_claims,
+    listed,
+    short_row,
+)
 from tests.report import record_samples
 
 
@@ -88,6 +97,15 @@ def test_short_text_of_a_row_has_at_most_six_digits_a_number():
 def test_a_number_beyond_float64_in_a_record_is_bad_input():
     with pytest.raises(InputError, match="too large for float64 in the row 0x1p\\+0, 0x1p\\+5000"):
         from_hex(["0x1p+0", "0x1p+5000"])
+
+
+def test_an_implementation_that_was_asked_every_row_claims_nothing_about_rows_that_it_was_not_asked():
+    line = next(line for line in record_samples.sample("failures") if line.get("name") == "engine")
+    some = list(implementation_claims(line_of(line)))
+    del line["not_asked"]
+    every = list(implementation_claims(line_of(line)))
+    assert every == [claim for claim in some if not claim.startswith("not asked: ")]
+    assert len(every) == len(some) - 1
 
 
 def test_text_of_a_domain_names_four_fixed_sizes_and_counts_the_rest():

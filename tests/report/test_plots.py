@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from itertools import combinations
+from pathlib import Path
 
 import pytest
 
+from hypcheck.record import read
+from hypcheck.record.measurements import SpeedLine
 from hypcheck.report.plots import curves, pareto, planes
 from hypcheck.report.plots.curves import TANGENT, Octave, curve, in_parts
 from hypcheck.report.plots.pareto import ParetoPoint, front
@@ -167,6 +171,13 @@ def test_axes_of_every_plot_have_names(name):
     for axes in found:
         assert axes.get_xlabel()
         assert axes.get_ylabel() or len(axes.get_yticklabels()) > 1
+
+
+def test_sweeps_that_were_not_timed_have_no_plot_against_time():
+    golden = read(Path(__file__).parent / "goldens" / "bench-ways" / "record.jsonl")
+    assert [plot.name for plot in draw_plots("front", golden)] == ["front-missed", "front-false"]
+    untimed = replace(golden, lines=tuple(line for line in golden.lines if not isinstance(line, SpeedLine)))
+    assert list(draw_plots("front", untimed)) == []
 
 
 def test_no_plot_is_drawn_for_a_record_without_its_lines():

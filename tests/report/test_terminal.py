@@ -92,6 +92,14 @@ def test_terminal_summary_escapes_control_characters_of_foreign_text(old, foreig
         assert line.isprintable()
 
 
+def test_a_bounding_volume_has_a_share_of_false_contacts_only_if_a_clear_row_was_asked():
+    bounding = bench_lines.line("bounding")
+    said = f"a bounding {bounding['shape']} in the spheroid's place, "
+    assert any(line.startswith(said) for line in shown(bounding))
+    none = {**bounding, "asked": 0, "false_contact": 0, "overlap": []}
+    assert not any(line.startswith(said) for line in shown(none))
+
+
 def test_a_benchmark_says_of_a_method_of_the_user_its_errors_its_time_and_the_fastest_that_is_as_reliable():
     golden = Path(__file__).parent / "goldens" / "bench" / "record.jsonl"
     lines = summary_lines(read(golden), ())

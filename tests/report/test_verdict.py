@@ -8,7 +8,7 @@ from hypcheck.report.model import timing_totals
 from hypcheck.report.verdict import failures, verdict
 from tests.report import bench_lines, record_samples
 from tests.report.bench_lines import bench_record
-from tests.report.record_samples import CRASHED, DISAGREEMENT, DRIFT, EXACT_WRONG, UNPROVED, group
+from tests.report.record_samples import CRASHED, DISAGREEMENT, DRIFT, EXACT_WRONG, UNPROVED, group, sample
 
 
 def of(*extra, exit_code=0, body=None):
@@ -122,6 +122,30 @@ def test_a_run_that_asked_nothing_has_not_passed(body):
     found = verdict(record_samples.record(body))
     assert found.sentence == "NOTHING was asked and nothing was judged: this is not a pass."
     assert not found.passed
+
+
+@pytest.mark.parametrize(
+    ("left_out", "ending"),
+    [({}, "u."), ({"not_asked": {"filter": {"ring": 9}}}, "; not asked: 1 family left out by --families.")],
+)
+def test_the_verdict_on_chosen_families_names_those_that_were_left_out_if_there_are_any(left_out, ending):
+    implementation = next(line for line in sample("failures") if line.get("name") == "engine")
+    del implementation["not_asked"]
+    body = [{**implementation, **left_out, "broke_protocol_throughout": False, "troubles": []}]
+    body.append(
+        group("engine", "float64", "uniform", {"right": 3}, spec="library:engine.so", failing=["wrong"], faults=[])
+    )
+    found = verdict(record_samples.record(body, options={"families": ["uniform"]}))
+    assert found.sentence.startswith("HELD: engine: 3 judged")
+    assert found.sentence.endswith(ending)
+
+
+def test_a_method_that_promises_to_be_exact_fails_a_benchmark_by_an_answer_of_which_no_case_was_kept():
+    fast = bench_lines.line("accuracy", "fast")
+    body = [fast | {"abstained": 3, "worst": []} if line == fast else line for line in bench_lines.lines()]
+    (failure,) = failures(bench_record(body, 1))
+    assert failure.message == "fast promises to be exact, but of 2,500 answers 3 not told"
+    assert (failure.name, failure.case) == ("fast", None)
 
 
 def test_answers_that_stay_undecided_make_a_run_inconclusive():
