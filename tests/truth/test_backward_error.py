@@ -10,7 +10,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from hypcheck.geometry.pair import Pair, Position
-from tests.support.inside import corner, decide, exponent, lower_ends, position, quick_bracket, tolerated
+from tests.support.inside import Decision, corner, decide, exponent, lower_ends, position, quick_bracket, tolerated
 from tests.support.pairs import grid_pairs, ordinary_pairs, pairs
 
 POSITIONS = st.sampled_from(list(Position))
@@ -83,9 +83,8 @@ def test_change_within_the_box_reaches_a_position_only_if_its_corner_does(pair, 
 
 
 def test_a_lower_bound_in_floats_is_searched_for_a_tilted_pair_without_ends_alone():
-    row = (1.0, 2.0, 0.5, 0.25, 2.0, 0.0, 0.0)
+    row, clear = (1.0, 2.0, 0.5, 0.25, 2.0, 0.0, 0.0), Decision(Position.EXTERIOR)
     pairs_ = [Pair(*row, *more) for more in ((), (1.0, 0.0, 1.0), (1.0, 0.0, 1.0, -1.0, 1.0, 0.0))]
-    truths = [decide(pair.lengths) for pair in pairs_]
-    upright, tilted, ended = lower_ends(pairs_, truths, [[Position.CONTACT]] * 3)
+    upright, tilted, ended = lower_ends(pairs_, [clear] * 3, [[Position.CONTACT]] * 3)
     assert upright == ended == 0
-    assert 0 < tilted <= quick_bracket(pairs_[1], truths[1], Position.CONTACT).upper
+    assert 0 < tilted < 0.25  # a change of every length by a quarter brings the spheroid into contact

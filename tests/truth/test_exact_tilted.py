@@ -13,6 +13,7 @@ from sympy.polys.rings import ring
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Lengths, Pair, Position
+from hypcheck.truth.exact import quartic_discriminant
 from tests.support.inside import Decision, Surd, decide, exact, quartic, sign_with_root
 from tests.support.inside import position as exact_position
 from tests.truth.tilted_cases import SYMMETRIC, TANGENT, TOUCHING_AND_CROSSING, WITNESSES, grown, random_rows
@@ -155,3 +156,12 @@ def test_the_signs_of_derivatives_at_the_end_of_the_interval_are_those_of_many_d
                 derived = [math.comb(4 - k, order) * each for k, each in enumerate(F.coefficients) if 4 - k >= order]
                 expected.append(int(mpmath.sign(mpmath.polyval(derived, end))))
             assert exact._signs_at_second(F) == expected
+
+
+@pytest.mark.parametrize(
+    ("coefficients", "expected"),
+    [((1, 0, 0, 0, -1), -256), ((1, -10, 35, -50, 24), 144), ((1, 0, -2, 0, 1), 0), ((4, 0, 0, 0, 1), 4**3 * 256)],
+)
+def test_discriminants_of_quartics_with_known_roots(coefficients, expected):
+    """1, −1, i, −i; 1 to 4; 1, 1, −1, −1; and 256 a³e³ where only these are not 0."""
+    assert quartic_discriminant(*coefficients) == 27 * expected

@@ -156,3 +156,14 @@ def exact_corner(scene, cell, place):
     angle, wide = [(start, 1), ((start + end) / 2, mp.cos((end - start) / 2)), (end, 1)][direction]
     r, z = scene.alpha * mp.cosh(s) / shrink, scene.gamma * mp.sinh(s) / shrink
     return r * mp.cos(angle) / wide, r * mp.sin(angle) / wide, z
+
+
+@pytest.mark.parametrize("axis", [(3.0, 0.0, 4.0), (4.0, 0.0, -3.0), (0.0, 1.0, 0.0)])
+@pytest.mark.parametrize(("b", "d"), [(1.0, 0.25), (0.25, 1.0)])
+def test_the_mesh_covers_all_heights_of_the_spheroid_and_not_many_more(axis, b, d):
+    """With the axis v these are √(b² (1 − v_z²) + d² v_z²) above and below its centre."""
+    scene = wall.scene_of(Pair(2.0, 3.0, b, d, 1.0, 0.5, 0.25, *axis, -9.0, 9.0))
+    share = axis[2] ** 2 / sum(part * part for part in axis)
+    half = math.sqrt(b * b * (1 - share) + d * d * share) * scene.alpha / 2.0
+    for reach in (scene.centre[2] - scene.low, scene.high - scene.centre[2]):
+        assert half < reach < 1.5 * half

@@ -398,3 +398,9 @@ def test_a_sweep_is_not_longer_than_its_bound_in_radii_of_a_spheroid_as_leaning_
         along = Fraction(sum(map(int.__mul__, axis, move))) ** 2 / sum(part * part for part in axis)
         across = sum(part * part for part in move) - along
         assert ended_sweeps._radii(sweep) ** 2 >= across / b**2 + along / d**2
+
+
+def test_a_sweep_of_many_radii_through_a_wall_is_not_proved_clear_by_its_clear_middle():
+    sweep = EndedSweep(sweep_of((10, 10, 0.125, 0.125), (-10, 0, 0), (10, 0, 0), None, None, (-1.0, 1.0, 0.0)))
+    assert not sweep.clear(Fraction(0), Fraction(1))
+    assert sweep.clear(Fraction(15, 32), Fraction(17, 32))
