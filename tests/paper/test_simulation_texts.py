@@ -102,6 +102,27 @@ def test_the_text_of_the_tower_ends_with_tilted_before_the_statement(flown):
     assert text[start - 1] == text[start + len(tilted)] == ""
 
 
+def test_the_text_of_a_tower_that_ends_counts_the_moves_of_the_table_only_if_it_was_flown(flown):
+    counts = {"asked": 9, "reaching": 7, "beyond": 4, "touching": 1, "dangerous": 2, "needless": 3}
+    lines = [
+        "of 9 moves asked about the body reaches beyond an end in 7;",
+        "    there the centre's height decides 5 otherwise: 2 dangerous, 3 needlessly refused",
+        "    of 4 draws to beyond the height 1 would touch the wall (25.000 %)",
+    ]
+    for table, names in ((None, ["figure"]), (counts, ["figure", "table"])):
+        text = list(tower_lines({**flown, "ends": {"flights": counts, "table_5": table}}))
+        start = text.index("The tower as it ends, where the flights ask for the height of the centre alone:") + 1
+        wanted = [line for name in names for line in (f"  flights of the {name}: {lines[0]}", *lines[1:])]
+        assert text[start : text.index("", start)] == wanted
+
+
+def test_the_text_of_a_tower_without_modelled_ends_says_so(flown):
+    endless = {**flown, "assumptions": {**flown["assumptions"], "height": None}}
+    begin = "  tower alpha = 2, gamma = 17.8; "
+    assert f"{begin}no end of its height is modelled" in list(tower_lines(endless))
+    assert any(line.startswith(f"{begin}its height from -17.8 to 17.8,") for line in tower_lines(flown))
+
+
 def stop(number):
     return {"kind": "phantom", "at": [0, 0, 0], "tried": [number, 0.0, 0.0], "trees": ["oak", "fir"], "gap": 1.5}
 
