@@ -6,6 +6,7 @@ import csv
 import json
 import math
 
+import numpy as np
 import pytest
 
 from hypcheck.cli.main import main
@@ -109,6 +110,9 @@ def test_tables_with_an_end_are_answered_about_the_sweep(tmp_path, tilted):
     source.write_text("".join(json.dumps(row) + "\n" for row in rows))
     assert main(["classify", "--input", str(source), "--output", str(tmp_path / "out.jsonl")]) == 0
     require_answers([json.loads(line) for line in (tmp_path / "out.jsonl").read_text().splitlines()], cases)
+    assert main(["classify", "--input", str(source), "--output", str(tmp_path / "out.npy")]) == 0
+    hits = np.load(tmp_path / "out.npy")
+    assert (hits.dtype, hits.tolist()) == (np.int8, [int(case["hit"]) for case in cases])
 
 
 def test_invalid_sweep_of_a_table_is_named_or_flagged(tmp_path, capsys):

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import lzma
 import os
 import stat
+import sys
 from pathlib import Path
 
 import pytest
@@ -11,6 +13,7 @@ import pytest
 from hypcheck.cli.main import main
 from hypcheck.geometry.pair import COLUMNS
 from hypcheck.tables import streams
+from tests.report import record_samples
 from tests.support.inside import float_filter, nearest_rows
 
 HEADER = ",".join(COLUMNS)
@@ -27,6 +30,40 @@ def source(tmp_path):
 
 def classify(source: object, target: object, *more: str) -> int:
     return main(["classify", "--input", str(source), "--output", str(target), *more])
+
+
+def test_a_packed_file_is_read_as_what_it_holds(tmp_path, capsys):
+    plain, packed = tmp_path / "record.jsonl", tmp_path / "record.jsonl.xz"
+    plain.write_text(record_samples.text_and_record()[0], encoding="utf-8")
+    packed.write_bytes(lzma.compress(plain.read_bytes()))
+    assert main(["record", "check", str(packed)]) == main(["record", "check", str(plain)]) == 0
+    first, second = capsys.readouterr().out.splitlines()
+    assert first == second.replace(str(plain), str(packed))
+
+
+@pytest.mark.parametrize(
+    ("data", "says"),
+    [
+        (b"{}", "cannot read {}: input format not supported by decoder"),
+        (lzma.compress(b"{}")[:-1], "cannot read {}: it is cut off, or holds more than 1 MiB"),
+        (lzma.compress(bytes((1 << 20) + 1)), "cannot read {}: it is cut off, or holds more than 1 MiB"),
+    ],
+    ids=["not packed", "cut off", "too large"],
+)
+def test_a_packed_file_that_cannot_be_unpacked_is_refused_with_the_reason(tmp_path, capsys, monkeypatch, data, says):
+    packed = tmp_path / "cases.json.xz"
+    packed.write_bytes(data)
+    monkeypatch.setattr(streams, "UNPACKED", 1 << 20)
+    assert main(["cases", "check", str(packed)]) == 2
+    assert capsys.readouterr().err == f"hypcheck: error: {says.format(packed)}\n"
+
+
+def test_a_packed_file_needs_a_python_with_lzma(tmp_path, capsys, monkeypatch):
+    packed = tmp_path / "cases.json.xz"
+    packed.write_bytes(lzma.compress(b"{}"))
+    monkeypatch.setitem(sys.modules, "lzma", None)
+    assert main(["cases", "check", str(packed)]) == 2
+    assert capsys.readouterr().err == f"hypcheck: error: cannot read {packed}: this Python was built without lzma\n"
 
 
 @pytest.mark.parametrize("kind", ["csv", "npy"])

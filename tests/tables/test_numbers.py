@@ -75,5 +75,18 @@ def test_json_value_that_is_no_number_is_refused_and_quoted_as_json(value):
     assert str(caught.value).startswith(f"x is {json.dumps(value)};")
 
 
+@pytest.mark.parametrize(
+    ("name", "value", "says"),
+    [
+        ("z_max", "high", 'z_max is "high"; it must be a number, "inf" or "-inf"'),
+        ("solid", "maybe", 'solid is "maybe"; it must be 0 or 1'),
+        ("x", 10**400, "which is too large for float64"),
+    ],
+)
+def test_json_value_that_no_number_or_word_stands_for_is_refused(name, value, says):
+    with pytest.raises(ValueError, match=says):
+        number_of_json(name, value)
+
+
 def test_message_shows_only_the_beginning_of_a_long_value():
     assert len(shown("a" * 10_000)) < 60
