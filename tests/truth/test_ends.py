@@ -227,3 +227,10 @@ def test_a_ball_about_an_irrational_end_of_a_leaning_wall_has_the_position_of_th
     place = (math.hypot(y, (x - z) * 0.5**0.5), 0.0, (x + z) * 0.5**0.5)
     turned = Lengths.of((alpha, gamma, b, d, *place, 0.0, 0.0, 1.0, low, high, 0.0))
     assert leaning is exact_position(turned) is expected
+
+
+@pytest.mark.parametrize("axis", [(0.0, 0.0, 1.0), (1.0, 0.0, 1.0)])
+def test_a_centre_exactly_at_the_end_of_an_open_wall_counts_as_inside(axis):
+    for height, expected in ((1.0, Position.INTERIOR), (math.nextafter(1.0, 2.0), Position.EXTERIOR)):
+        row = (5.0, 5.0, 0.5, 0.25, 0.0, 0.0, height, *axis, -math.inf, 1.0, 0.0)
+        assert exact_position(Lengths.of(row)) is expected
