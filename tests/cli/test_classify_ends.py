@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import json
+import math
+from fractions import Fraction
 
 import numpy as np
 import pytest
 
 import hypcheck
 from hypcheck.cli.main import main
+from tests.support.corpus import files
+from tests.support.tilted_fractions import combined, matrices, positive_definite
 
 PAIR = ["--alpha", "3", "--gamma", "4", "--b", "1", "--d", "1", "--center", "2", "0", "4"]
 COLUMNS = {"alpha": 3, "gamma": 4, "b": 1, "d": 1, "x": 2, "y": 0, "z": 4}
@@ -29,6 +33,65 @@ def test_one_row_with_ends_is_classified_with_its_proof(capsys):
     found = json.loads(out)
     assert (found["position"], found["tangent"], found["clearance"]) == (0, True, 0.0)
     assert found["proof"]["by"] == "points"
+
+
+def proof_of(capsys, row):
+    names = ("alpha", "gamma", "b", "d")
+    words = [word for name, value in zip(names, row, strict=False) for word in (f"--{name}", repr(value))]
+    words += ["--center", *map(repr, row[4:7]), "--z-max", repr(row[11])]
+    words += [] if row[10] == -math.inf else ["--z-min", repr(row[10])]
+    code, out, _ = said(capsys, *words, "--json")
+    assert code == 0
+    shown = said(capsys, *words)[1]
+    return json.loads(out)["proof"], shown
+
+
+def test_a_multiplier_of_a_pair_with_ends_misses_the_whole_surface(capsys):
+    """The row stands for an upright ball beside a hyperboloid that ends at the height 3."""
+    row = (3.0, 4.0, 1.0, 1.0, 9.0, 0.0, 4.0, 0.0, 0.0, 1.0, -math.inf, 3.0)
+    proof, shown = proof_of(capsys, row)
+    assert proof["by"] == "multiplier"
+    assert positive_definite(combined(*matrices(row[:10]), Fraction(proof["lambda"])))
+    assert "makes S + λH positive definite" in shown
+
+
+@pytest.mark.parametrize(("center", "low"), [((3.75, 0.0, 4.5), -math.inf), ((4.0, 0.0, -3.5), -2.0)])
+def test_pieces_of_heights_reach_from_end_to_end_and_the_spheroid_misses_each(capsys, center, low):
+    """S + λH + μZ > 0 and μ ≥ 0; on the wall H is 0, and Z, the product about the piece's ends, at most 0 in it."""
+    row = (3.0, 4.0, 1.0, 1.0, *center, 0.0, 0.0, 1.0, low, 3.0)
+    proof, shown = proof_of(capsys, row)
+    assert proof["by"] == "pieces"
+    S, H = matrices(row[:10])
+    reached = low
+    for piece in proof["pieces"]:
+        ends = [None if "inf" in text else Fraction(text) for text in (piece["low"], piece["high"])]
+        assert (-math.inf if ends[0] is None else ends[0]) <= reached
+        reached = math.inf if ends[1] is None else ends[1]
+        at, mu = Fraction(piece["lambda"]), Fraction(piece["mu"])
+        assert mu >= 0
+        whole = combined(S, H, at)
+        square, linear, constant = between(*ends)
+        whole[2][2] += mu * square
+        whole[2][3] += mu * linear / 2
+        whole[3][2] += mu * linear / 2
+        whole[3][3] += mu * constant
+        assert positive_definite(whole)
+    assert reached >= 3
+    assert shown.count("from ") >= len(proof["pieces"])
+
+
+def between(low, high):
+    """The coefficients of z², z and 1 in (z − low)(z − high), low − z or z − high."""
+    if low is None:
+        return 0, 1, -high
+    return (0, -1, low) if high is None else (1, -low - high, low * high)
+
+
+def test_a_contact_that_no_rational_point_shows_is_proved_by_the_rule_in_the_height(capsys):
+    case = next(case for case in files()["ended-groove"]["cases"] if case["id"] == "ended-groove-0048")
+    proof, shown = proof_of(capsys, tuple(map(float, case["row"])))
+    assert proof == {"by": "rule in the height"}
+    assert "no point can be written in rational numbers that shows this contact" in shown
 
 
 @pytest.mark.parametrize(
