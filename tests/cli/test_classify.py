@@ -10,7 +10,7 @@ from hypothesis import given, settings
 
 from hypcheck.answer import answer, answer_as_json, answer_as_text
 from hypcheck.cli.main import main
-from hypcheck.geometry.pair import Pair
+from hypcheck.geometry.pair import Pair, Position
 from hypcheck.tables.numbers import exact_text, readable_text
 from tests.support.inside import Certificate, Decision
 from tests.support.inside import exact as oracle
@@ -167,6 +167,31 @@ def test_classify_ends_with_6_and_prints_no_proof_if_the_proof_does_not_hold(mon
     monkeypatch.setattr(module, "prove", wrong)
     assert main(options(1, 2, 1, 1, 2.5, 0, 0)) == 6
     assert "does not hold" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("place", "more", "other"),
+    [
+        ("hypcheck.truth.least.position", ["--z-max", "9"], "by the least value interior"),
+        ("hypcheck.kernel.classify.classify", ["--margin", "0.1"], "with a margin interior"),
+    ],
+)
+def test_classify_ends_with_6_if_the_least_value_or_the_position_with_a_margin_disagrees(
+    place, more, other, monkeypatch, capsys
+):
+    monkeypatch.setattr(place, lambda *_, **__: Position.INTERIOR)
+    assert main([*options(1, 2, 1, 1, 2.5, 0, 0), *more]) == 6
+    output, errors = capsys.readouterr()
+    assert output == ""
+    assert "two oracles disagree about alpha 1.0" in errors
+    assert f"by exact decision exterior, {other};" in errors
+
+
+@pytest.mark.parametrize(("margin", "says"), [("0.25", "exterior: {} is proved"), ("1", "contact: {} is not proved")])
+def test_the_text_about_a_margin_says_what_is_proved(margin, says, capsys):
+    assert main([*options(1, 2, 1, 1, 2.5, 0, 0), "--margin", margin]) == 0
+    line = says.format(f"a distance of at least {margin}")
+    assert f"margin     {line}" in capsys.readouterr().out.splitlines()
 
 
 @pytest.mark.parametrize(
