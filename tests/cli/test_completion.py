@@ -135,6 +135,7 @@ NAMES = {
     "hypcheck hunt builtin:fast-": ["builtin:fast-numpy"],
     "hypcheck bench builtin:fast-": ["builtin:fast-numpy"],
     "hypcheck replay ring-000": [f"ring-000{digit}" for digit in range(10)],
+    "hypcheck replay tower": ["tower-body-", "tower-rotors-"],
     "hypcheck replay way-rin": [f"way-ring-{number:04}" for number in range(111)],
     "hypcheck minimise builtin:fast ring-001": [f"ring-001{digit}" for digit in range(10)],
     "hypcheck bench --methods fast,nearest": ["fast,nearest-point"],
