@@ -77,6 +77,11 @@ def test_square_root_gives_a_fraction_for_squares_and_a_surd_otherwise():
     assert square_root(Fraction(0)) == 0
 
 
+def test_equal_surds_are_one_element_of_a_set():
+    first, second = (square_root(Fraction(2)) * factor for factor in (Fraction(3), Fraction(6, 2)))
+    assert len({first, second, first + 1}) == 2
+
+
 def test_surds_of_two_different_roots_cannot_be_added():
     with pytest.raises(ValueError, match="one quadratic field"):
         square_root(Fraction(2)) + square_root(Fraction(3))

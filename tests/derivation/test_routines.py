@@ -88,6 +88,14 @@ def test_a_routine_is_run_in_the_arithmetic_it_is_given():
     assert run(halves, EXACT, {"x": 1}) == Fraction(1, 8)
 
 
+@pytest.mark.parametrize(("start", "answer"), [(1, 8), (3, 12), (100, 200)])
+def test_a_loop_ends_with_the_round_in_which_its_condition_holds(start, answer):
+    """Of three rounds that double a number, those until it is above 7: the last one counts."""
+    body = steps_of("y = k * 2\nenough = y > 7")
+    doubling = Routine("d", "", ("x",), (Loop(3, (("k", "x", "y"),), body, "enough"),), "k")
+    assert run(doubling, EXACT, {"x": start}) == answer
+
+
 def test_pairs_are_taken_apart_chosen_and_made():
     assert run(SWAPPED, EXACT, {"p": (3, 4)}) == (4, Fraction(3, 2))
     either = Routine(
