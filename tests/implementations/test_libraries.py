@@ -14,6 +14,7 @@ import pytest
 
 from hypcheck.errors import InputError
 from hypcheck.implementations import library as libraries
+from hypcheck.implementations.foreign import LoadError
 from hypcheck.implementations.frames import CALLS
 from hypcheck.implementations.implementation import open_implementation
 from hypcheck.implementations.session import Outcome, StartError
@@ -116,6 +117,32 @@ def test_seconds_each_calls_a_library_once_per_row_and_an_empty_call_for_no_rows
     assert calls.value == 40 * 25
     assert counting.seconds_each(some[:0], 25, CALLS[0])[1] == 0
     assert calls.value == 40 * 25
+
+
+def test_a_library_answers_with_times_and_is_timed_in_one_call(tmp_path):
+    """At x0 = 3, −1 and 2 and x1 = −1, −2 and 2 it crosses 0 after three quarters, never and never."""
+    library = libraries.Library(str(compiled("passage", tmp_path / "passage.so", *SHARED)))
+    with_times = next(call for call in CALLS if call.times and not call.columns)
+    some = np.zeros((3, 10))
+    some[:, 4], some[:, 7] = (3, -1, 2), (-1, -2, 2)
+    given = library.classify(some, with_times)
+    assert given.integers.tolist() == [1, 0, 0]
+    assert given.times[0] == 0.75
+    took, total = library.seconds(some, 2, with_times)
+    assert took > 0
+    assert total == 1
+
+
+def test_the_worker_refuses_a_file_that_is_no_library(tmp_path):
+    (tmp_path / "short.so").write_bytes(b"nothing")
+    silent = compiled("describes_nothing", tmp_path / "silent.so", *SHARED)
+    for path, sentence in (
+        (tmp_path / "none.so", "there is no file"),
+        (tmp_path / "short.so", "cannot be loaded: .*short.so"),
+        (silent, "hypcheck_describe returned a null pointer; it must be a JSON text"),
+    ):
+        with pytest.raises(LoadError, match=sentence):
+            libraries.Library(str(path))
 
 
 def test_a_relative_path_in_a_library_spec_is_relative_to_the_working_directory(right, monkeypatch):

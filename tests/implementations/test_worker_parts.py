@@ -69,6 +69,50 @@ def _raised(error):
 
 
 @pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("def g(rows): ...", "has no function 'f'; it has nothing with that name"),
+        ("f = 3", "has no function 'f'; it has a int"),
+        ("def f(x, y): ...", r"has f\(x, y\), which cannot be called with one argument; it must be f\(rows\)"),
+        (
+            "import sys\nsys.path.append('/no/such/folder')\nimport no_such_module",
+            "ModuleNotFoundError: .*; sys.path has '/no/such/folder', which is not there",
+        ),
+    ],
+)
+def test_the_worker_refuses_a_file_without_a_function_of_rows(loaded, text, reason):
+    with pytest.raises(LoadError, match=reason):
+        loaded(text)
+
+
+def test_the_worker_names_no_missing_folder_of_the_path_if_the_path_has_a_file(loaded, tmp_path):
+    (tmp_path / "archive.zip").write_bytes(b"")
+    with pytest.raises(LoadError) as caught:
+        loaded(f"import sys\nsys.path.append({str(tmp_path / 'archive.zip')!r})\nimport no_such_module")
+    assert "sys.path has" not in str(caught.value)
+
+
+def test_the_worker_takes_a_callable_whose_parameters_cannot_be_known(loaded):
+    """Python knows no parameters of `type`, which called with rows gives their class."""
+    with pytest.raises(ContractError, match="it returned a type"):
+        loaded("f = type").classify(ROWS, POSITION)
+
+
+@pytest.mark.parametrize(
+    ("returned", "reason"),
+    [
+        ("[0.5, 1, 0]", "it returned a list of float64; it must be integers, such as int8"),
+        ("[1, 0]", r"it returned a list of shape \(2,\) for 3 rows; it must be \(3,\)$"),
+        ("[[1], [1, 0], 1]", "it returned a list that is not an array of one integer a row"),
+        ("np.ma.masked_array([1, 0, 1], mask=[0, 0, 1])", "it returned a masked array with masked answers"),
+    ],
+)
+def test_a_function_that_does_not_return_an_integer_for_each_row_raises_an_error(loaded, returned, reason):
+    with pytest.raises(ContractError, match=reason):
+        loaded(f"import numpy as np\ndef f(rows):\n    return {returned}").classify(ROWS, POSITION)
+
+
+@pytest.mark.parametrize(
     ("returned", "reason"),
     [
         ("[1, 0, 1]", "with times it must return two arrays, hits and times"),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import resource
 import sys
 
 import numpy as np
@@ -73,6 +74,36 @@ def test_a_library_that_the_loader_does_not_find_is_blamed_on_isolation_as_a_pos
     )
     assert "show the folder by --see" in said
     assert not isolation_advice(text, (sys.executable,), Isolation("off"))
+
+
+ISOLATED = Isolation("auto", here=Means(True, 7, True))
+
+
+def test_a_missing_hypcheck_is_blamed_on_isolation_only_if_the_programs_python_has_it(monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)  # with no folder of this name
+    text = "ModuleNotFoundError: No module named 'hypcheck'"
+    assert isolation_advice(text, (sys.executable,), ISOLATED).endswith(OWN)
+    assert not isolation_advice(text, ("/no/such/folder/python3",), ISOLATED)
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/ptmx"), reason="it names a file that Linux has")
+def test_a_device_is_hidden_unless_isolated_programs_have_it():
+    text = "No such file or directory: '{}'"
+    assert "does not see '/dev/ptmx'" in isolation_advice(text.format("/dev/ptmx"), (sys.executable,), ISOLATED)
+    assert "'/dev/null'" not in isolation_advice(text.format("/dev/null"), (sys.executable,), ISOLATED)
+
+
+def test_a_read_only_folder_is_not_blamed_on_isolation_if_the_account_could_not_write_there_either():
+    text = "OSError: [Errno 30] Read-only file system: '{}/file'"
+    assert WRITES in isolation_advice(text.format(os.getcwd()), (sys.executable,), ISOLATED)
+    assert not isolation_advice(text.format("/no/such/folder"), (sys.executable,), ISOLATED)
+
+
+@pytest.mark.parametrize(("limit", "blamed"), [(resource.RLIM_INFINITY, True), (1_000_000, True), (20, False)])
+def test_a_missing_process_is_blamed_on_isolation_only_if_the_system_allows_more(limit, blamed, monkeypatch):
+    monkeypatch.setattr(resource, "getrlimit", lambda _: (limit, limit))
+    said = isolation_advice(f"RuntimeError: can't start new thread {limit}", (sys.executable,), ISOLATED)
+    assert ("processes and threads at most, which may be why" in said) is blamed
 
 
 NOT_CAUSED = (

@@ -171,6 +171,15 @@ def test_root_has_no_folder_that_is_seen_whole_but_those_of_the_system(project):
     assert str(project / "project") in needed
 
 
+@pytest.mark.skipif(os.path.islink("/var") or not os.path.isdir("/var/lib"), reason="it needs a home in /var")
+def test_home_in_a_folder_of_the_system_is_private_unless_all_of_it_is_needed(monkeypatch):
+    monkeypatch.setenv("HOME", "/usr/lib")
+    assert "/usr/lib" not in private_folders(())
+    monkeypatch.setenv("HOME", "/var/lib")
+    assert "/var/lib" in private_folders(())
+    assert "/var/lib" not in private_folders(("/var/lib",))
+
+
 def test_checkout_of_an_action_and_what_was_built_beside_this_package_are_hidden(project, monkeypatch):
     monkeypatch.setenv("GITHUB_ACTION_PATH", str(project / "beside"))
     hidden = hidden_paths((), needed_paths((sys.executable,), os.environ))
