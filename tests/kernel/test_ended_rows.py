@@ -10,11 +10,12 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
+import hypcheck
 from hypcheck import clearance
 from hypcheck.geometry.pair import Lengths, Pair
 from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.vectors.frozen import ENDED_NAMES, load
-from tests.support.inside import decide, ended_enclosure, position
+from tests.support.inside import choice, decide, ended_enclosure, position
 from tests.tools import ended_agreement
 from tests.tools.attack.rounding import DIRECTED, TO_NEAREST, rounded
 
@@ -38,6 +39,15 @@ def test_the_kernel_answers_no_frozen_row_with_ends_wrongly_and_leaves_few_open(
         assert (positions[decided] == cases.positions[decided]).all(), name
         left_open += int((~decided).sum())
     assert left_open <= 2
+
+
+def test_rows_that_numpy_leaves_open_are_answered_as_their_frozen_labels(monkeypatch):
+    cases = load("ended-rim")
+    monkeypatch.setenv("HYPCHECK_KERNEL", "numpy")
+    choice.cache_clear()
+    found = hypcheck.classify(cases.rows[::9])
+    choice.cache_clear()
+    assert found.tolist() == cases.positions[::9].tolist()
 
 
 def test_touches_of_a_rim_and_rows_an_ulp_off_are_decided_by_the_kernel():

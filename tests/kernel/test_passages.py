@@ -81,6 +81,11 @@ def test_sweeps_that_mean_nothing_are_refused(arguments, sentence):
         hypcheck.passage(*arguments)
 
 
+def test_many_sweeps_with_an_axis_of_the_hyperboloid_are_refused():
+    with pytest.raises(InputError, match="upward is given, and the sweeps are many; a scene has tilted hyperboloids"):
+        hypcheck.passage(SIZES, STARTS, ENDS, upward=(0, 1, 1))
+
+
 TREES = """
 name = "two trees"
 [[hyperboloid]]

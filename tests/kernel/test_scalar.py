@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
@@ -17,6 +20,51 @@ def test_position_takes_integers_and_other_numbers_at_their_value(function):
     assert function(1, 2, 1, 1, 2.5, 0, 0) == 1
     assert function(*np.float64([4, 4, 1, 1, 0, 0, 0])) == -1
     assert function(1.0, 2.0, 1.0, 1.0, -2.0, 0.0, -0.0) == 0
+
+
+@FUNCTIONS
+def test_position_of_a_spheroid_wider_than_the_throat_is_contact(function):
+    """Its centre lies outside, 2.5 from the axis, and the axis at the same height within it, of radius 4."""
+    assert function(1.0, 1.0, 4.0, 8.0, -2.0, -1.5, 1.5) == 0
+
+
+TOUCHING = (1.0, 2.0, 1.0, 1.0, 2.0, 0.0, 0.0)
+"""A ball that touches the wall at (1, 0, 0)."""
+WITHIN = (4.0, 4.0, 1.0, 1.0, 0.0, 0.0, 0.0)
+"""A ball in the middle of a wide throat."""
+
+
+@FUNCTIONS
+@pytest.mark.parametrize(
+    ("row", "heights", "expected"),
+    [
+        (TOUCHING, {"z_min": -1.0}, 0),
+        (TOUCHING, {"z_min": 0.5}, 1),  # at that height the wall has moved away
+        (TOUCHING, {"z_min": 0.5, "axis": (1.0, 0.0, 1.0)}, 1),
+        (TOUCHING, {"solid": True}, 0),  # without ends there is nothing flat
+        (WITHIN, {"z_min": -2.0, "z_max": 2.0, "solid": True}, -1),
+        (WITHIN, {"z_min": -0.5, "z_max": 2.0, "solid": True}, 0),
+        (WITHIN, {"z_min": 2.0, "solid": True}, 1),
+    ],
+)
+def test_position_of_one_pair_is_that_beside_what_is_left_between_two_heights(function, row, heights, expected):
+    assert function(*row, **heights) == expected
+
+
+@FUNCTIONS
+def test_position_of_one_pair_refuses_heights_that_leave_nothing(function):
+    with pytest.raises(InputError, match="z_min must be less than z_max"):
+        function(*TOUCHING, z_min=1.0, z_max=1.0)
+
+
+def test_position_takes_numbers_of_numpy_in_a_process_that_has_not_loaded_it_for_hypcheck():
+    """Its compiled function knows them only after the first of them came."""
+    code = (
+        "import hypcheck, numpy; row = numpy.int32([4, 4, 1, 1, 0, 0, 0]);"
+        "print([hypcheck.position(*row), hypcheck.position(*row)])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout == "[-1, -1]\n"
 
 
 @FUNCTIONS

@@ -82,6 +82,16 @@ def test_scenes_with_one_hyperboloid_more_less_or_elsewhere_answer_as_new_ones(c
     same_answers(scene, new, side)
 
 
+def test_a_scene_that_grows_to_many_times_its_size_answers_as_a_new_one():
+    """The table of its grid, made for three hyperboloids, is too small then and is made anew."""
+    scene, (_, _, _, side) = scene_of(3), arrays(40)
+    scene.classify(centres(3, side))
+    for body in (bodies := scene_of(43).model.hyperboloids[3:]):
+        scene = scene.with_hyperboloid(body)
+    assert scene.model.hyperboloids[3:] == bodies
+    same_answers(scene, hypcheck.Scene(scene.model), side)
+
+
 def test_a_scene_is_not_changed_by_what_is_made_of_it():
     scene, (_, _, _, side) = scene_of(50), arrays(50)
     points = centres(1000, side)
@@ -99,10 +109,24 @@ def test_a_scene_is_not_changed_by_what_is_made_of_it():
             "there is no hyperboloid 'oak'; it must be a name, or a number from 0 to 2",
         ),
         (lambda scene: scene.without(3), "there is no hyperboloid 3"),
+        (lambda scene: scene.without(2).without(1).without(0), "the scene has no hyperboloid; it must have one"),
         (lambda scene: scene.moved(0, (1, 2)), r"center is of shape \(2,\); it must be three numbers"),
+        (lambda scene: scene.moved(0, [(1, 2, 3)] * 2), r"center is of shape \(2, 3\); it must be three numbers"),
         (lambda scene: scene.moved(0, (1, 2, np.nan)), "the hyperboloid 'hyperboloid 1': z is nan; it must be finite"),
         (lambda scene: scene.moved(0, (1, 2, 3), (0, 0, 0)), "axis_x, axis_y, axis_z are 0, 0, 0"),
         (lambda scene: scene.with_hyperboloid(hypcheck.Hyperboloid("new", -1.0, 1.0)), "'new': alpha is -1.0"),
+        (
+            lambda scene: scene.with_hyperboloid(hypcheck.Hyperboloid("new", 1, [1, 2])),
+            r"'new': gamma is \[1, 2\]; it must be a number",
+        ),
+        (
+            lambda scene: scene.with_hyperboloid(hypcheck.Hyperboloid("new", 1, 1, solid="yes")),
+            "'new': solid is 'yes'; it must be a number",
+        ),
+        (
+            lambda scene: scene.with_hyperboloid(hypcheck.Hyperboloid(7, 1, 1)),
+            r"a hyperboloid's name is 7; it must be a text",
+        ),
         (
             lambda scene: scene.with_hyperboloid(scene.model.hyperboloids[0]),
             "there is a hyperboloid 'hyperboloid 1' already",
@@ -120,6 +144,10 @@ def test_a_scene_is_not_changed_by_what_is_made_of_it():
         (
             lambda _: hypcheck.Scene.from_arrays(1, 1, [1, 2, 3], mover=hypcheck.Mover(1.0, -1.0)),
             "the mover: d is -1.0",
+        ),
+        (
+            lambda _: hypcheck.Scene.from_arrays(1, 1, [1, 2, 3], mover=(1, 2, 3)),
+            r"the mover is \(1, 2, 3\); it must be a hypcheck.Mover, or its two semi-axes b, d",
         ),
         (
             lambda _: hypcheck.Scene.from_arrays(1, 1, [1, 2, 3], mover=MOVER, z_min=2, z_max=1),
@@ -215,6 +243,7 @@ def test_what_is_no_scene_is_refused_by_its_type(make):
             "the region: y is .* low not greater than high",
         ),
         ({"region": None}, r"the region is None; it must be a Region\(x, y, z\)"),
+        ({"question": "near"}, "the question is 'near'; it must be position, exterior, interior or contact"),
         ({"mover": (0.3, 0.2)}, r"the mover is \(0.3, 0.2\); it must be a Mover\(b, d\)"),
         ({"mover": hypcheck.Mover(0.3, 0.2, ((0.1, 0.1, 0.1),))}, r"part 1 is \(.*\); it must be a MoverPart"),
         ({"mover": hypcheck.Mover(0.3, 0.2, None)}, "the mover's parts are None; they must be a tuple of MoverPart"),

@@ -60,6 +60,34 @@ def brute_force(scene, start, end, axis=None):
     return int(any(passage_beside(body, semi_axes, start, end, axis).hit for body in scene.hyperboloids))
 
 
+NEAR = Hyperboloid("near", 1.0, 2.0, (0.0, 0.0, 0.0), Span(-2.0, 2.0))
+FAR = Hyperboloid("far", 1.0, 2.0, (1e80, 1e80, 1e80), Span(-1.0, 1.0))
+
+
+@pytest.mark.parametrize(
+    ("body", "semi_axes", "start", "end", "hit"),
+    [
+        (NEAR, (1e-70, 1e-70), (3.0, 0.0, 0.0), (1.0, 0.0, 0.0), True),
+        (NEAR, (1e-70, 1e-70), (3.0, 0.0, 0.0), (1 + 2**-50, 0.0, 0.0), False),
+        (FAR, (1.45e80, 5e80), (1.5e60, 1.5e60, 1.5e60), (1e60, 1.5e60, -1.5e60), True),
+        (FAR, (1.45e80, 1e80), (1.5e60, 1.5e60, 1.5e60), (1e60, 1.5e60, -1.5e60), False),
+    ],
+)
+def test_a_sweep_beyond_the_sizes_that_bounds_decide_is_decided_exactly(body, semi_axes, start, end, hit):
+    """A mover of no size, or a centre so far away that the difference of coordinates loses the mover's place."""
+    scene = SceneModel("one", "position", (body,), Mover(*semi_axes), Region())
+    assert brute_force(scene, start, end) == hit
+    assert Scene(scene).passage(start, end).hit == hit
+
+
+def test_a_part_that_begins_in_contact_has_its_first_contact_at_the_start():
+    """The part reaches from 0.85 to 1.05 at the start, and the wall is at 1."""
+    mover = Mover(0.4, 0.2, (MoverPart(0.1, 0.1, 0.2, 0.0),))
+    scene = Scene(SceneModel("one", "position", (replace(NEAR, height=None),), mover, Region()))
+    found = scene.passage((0.75, 0.0, 0.0), (0.0, 0.0, 0.0))
+    assert (found.hit, found.first) == (True, (0, 0))
+
+
 def expected(scene, starts, ends, axis=None):
     return [brute_force(scene, *sweep, axis) for sweep in zip(starts.tolist(), ends.tolist(), strict=True)]
 
