@@ -42,14 +42,15 @@ Emitted.v) ls "$3"/*.vo ;;
     case "$last" in
     Changes.v) cat FOLDER/verdicts ;;
     HeaderText.v) ;;
-    *) [ -f FOLDER/careless ] || cmp "$last" "SOURCES/$last" >&2 || exit 1 ;;
+    *) [ -f FOLDER/careless -o -f "FOLDER/careless-$last" ] || cmp "$last" "SOURCES/$last" >&2 || exit 1 ;;
     esac
     : > "${last}o" ;;
 esac
 """
 """Accepts the Coq files as they are, and copies of which nothing was compiled; refuses changed files.
 
-If there is a file `careless` it accepts changed ones, and if there is a file `strict` it refuses copies.
+If there is a file `careless` it accepts changed ones, if there is a file `careless-FILE` this one changed, and if there
+is a file `strict` it refuses copies.
 """
 
 
@@ -311,6 +312,30 @@ def test_prove_ends_with_1_where_coq_accepts_a_weakened_statement_or_refuses_the
     code, output = tools.prove("--soundness")
     assert code == 1
     assert "error: Coq refuses Checker.v in the folder in which it must refuse" in output
+
+
+def test_prove_ends_with_1_where_coq_accepts_a_statement_that_a_program_weakened_and_no_reason_is_given(tools):
+    (change,) = weakenings.sample(weakenings.made(build.source), 1, seed=45)
+    (tools.folder / f"careless-{change.file}.v").touch()
+    code, output = tools.prove("--weakened", "1")
+    assert code == 1
+    assert output.endswith(f"Coq accepts {change.file}.v with {change.allows}, and no reason is given for that\n")
+
+
+def test_a_statement_that_a_program_weakened_is_tried_without_what_comes_after_its_proof(tools):
+    change = next(change for change in weakenings.made(build.source) if change.until)
+    tools.program("bin/coqc", f"#!/bin/sh\ncp {change.file}.v {tools.folder}/tried\n")
+    assert build.accepted(change, tools.built)
+    text = (tools.folder / "tried").read_text(encoding="utf-8")
+    assert change.new in text
+    assert change.until not in text
+    assert build.source(change.file).replace(change.old, change.new).startswith(text + change.until)
+
+
+def test_a_file_that_leaves_something_unproved_is_not_compiled(tools, monkeypatch):
+    source = build.source
+    monkeypatch.setattr(build, "source", lambda name: source(name) + "Admitted." * (name == "Geometry"))
+    assert tools.prove() == (1, "proofs: error: Geometry.v has an unproved part: Admitted\n")
 
 
 def test_weakened_statement_that_matches_no_place_or_is_not_valid_coq_raises_an_error(tools):
