@@ -55,6 +55,15 @@ def test_invalid_name_of_a_family_for_fixed_sizes_is_refused(name, message):
         family_at(name)
 
 
+def test_a_family_for_fixed_sizes_whose_wall_leaves_float64_has_finite_rows():
+    """At the height 1 the wall is 1e310 from the axis: a centre there is inside at every float."""
+    setting = FixedSizes((1e300, 1e-10, 1.0, 1.0))
+    for family in families_for((setting,)):
+        rows = family.block(3, 0)[:64]
+        assert np.isfinite(rows).all()
+        assert setting.holds(rows, PAIRS).all()
+
+
 def test_families_for_fixed_sizes_refuse_sizes_that_leave_no_room_in_float64():
     with pytest.raises(InputError, match="leave no room in float64 for the centres about them"):
         list(families_for((FixedSizes((1e308, 1e308, 1e308, 1e308)),)))

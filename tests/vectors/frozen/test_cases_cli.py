@@ -176,6 +176,14 @@ def test_cases_generate_refuses_invalid_arguments(capsys, arguments, message):
     assert message in refused(capsys, "generate", *arguments)
 
 
+@pytest.mark.parametrize("name", ["invalid", "tilted-way-invalid"])
+def test_freezing_invalid_rows_again_changes_nothing(name, capsys, tmp_path):
+    text = vectors.path_of(name).read_text(encoding="utf-8")
+    (tmp_path / f"{name}.json").write_text(text, encoding="utf-8")
+    printed(capsys, "freeze", name, "--into", str(tmp_path))
+    assert (tmp_path / f"{name}.json").read_text(encoding="utf-8") == text
+
+
 def test_freeze_prints_the_names_of_the_files_that_it_wrote(capsys, tmp_path):
     lines = printed(capsys, "freeze", "invalid", "tower-body", "--into", str(tmp_path)).splitlines()
     assert lines == [str(tmp_path / "invalid.json"), str(tmp_path / "tower-body.json")]

@@ -286,6 +286,11 @@ def test_an_endless_pipe_is_refused_in_time(monkeypatch):
         read_document("-", largest=2 << 20)
 
 
+def test_counting_the_cases_of_an_unknown_name_is_refused_with_a_suggestion():
+    with pytest.raises(InputError, match="no frozen vectors 'rings'; did you mean ring"):
+        frozen.count_of("rings")
+
+
 def test_missing_frozen_file_is_an_error(tmp_path, capsys, monkeypatch):
     monkeypatch.setattr(frozen, "folder", lambda: tmp_path)
     assert main(["cases", "check"]) == 2

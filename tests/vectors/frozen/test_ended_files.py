@@ -112,6 +112,22 @@ def test_shown_cases_that_end_say_their_heights_and_what_proves_them(capsys):
     assert json.loads(capsys.readouterr().out)["certificate"]
 
 
+@pytest.mark.parametrize(
+    ("proved", "sentence"),
+    [
+        (lambda witness: witness.multiplier is not None, r"S \+ λH is positive definite at λ .*, with or without ends"),
+        (lambda witness: witness.pieces, r"S \+ λH \+ μZ is positive definite in each of \d+ pieces? of the heights"),
+        (lambda witness: witness.offsets, "two points of the spheroid on both sides of the border: .* = .* and "),
+        (lambda witness: witness == StoredCertificate(), "the exact rule in the height"),
+    ],
+)
+def test_a_shown_case_that_ends_has_a_sentence_for_each_kind_of_its_proof(proved, sentence, capsys):
+    cases = [case for name in frozen.ENDED_NAMES for case in frozen.load(name).cases]
+    case = next(case for case in cases if proved(case.witness))
+    assert main(["cases", "show", case.id]) == 0
+    assert re.search(sentence, " ".join(capsys.readouterr().out.split()))
+
+
 @pytest.mark.parametrize("name", frozen.ENDED_SWEEP_NAMES)
 def test_a_file_of_ways_beside_ends_fits_its_schema_is_fresh_and_has_every_label_checked(name):
     file = frozen.load(name)

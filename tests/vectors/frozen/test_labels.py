@@ -305,3 +305,17 @@ def test_freezing_has_a_count_for_every_family_and_a_search_for_every_stratum():
 
 def test_cancellation_search_that_finds_nothing_returns_none():
     assert worst_row(CancellationSearch("local-maximum", "float64", False, "uniform", 0)) is None
+
+
+@pytest.mark.parametrize("row", [(1.0, 1.0, 0.25, 1.0, 1.0, 0.0, 1.0), (1.0, 1.0, 0.25, 1.0, 0.6, 0.8, 1.0)])
+def test_a_crossing_through_the_tip_of_a_spheroid_is_shown_by_two_points_within_it(row):
+    """The lower tip lies on the waist, and the points that are 1/4 across at the height 1 inside the wall, √2 out."""
+    (case,) = labelled(content_with(), [("x-0000", row)])
+    assert (case.position, case.tangent) == (Position.CONTACT, False)
+    alpha, gamma, b, d, x, y, z = map(Fraction, row)
+    levels = []
+    for s, t, w in case.witness.offsets:
+        assert s * s + t * t + w * w <= 1
+        u, v, height = x + b * s, y + b * t, z + d * w
+        levels.append((u * u + v * v) / alpha**2 - (height / gamma) ** 2 - 1)
+    assert min(levels) < 0 < max(levels)

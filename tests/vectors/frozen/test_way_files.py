@@ -153,6 +153,10 @@ def test_cases_commands_accept_ways(tmp_path, capsys):
     shown = capsys.readouterr().out
     assert "contact on the sweep" in shown
     assert "by a double root" in shown
+    assert main(["cases", "show", next(case.id for case in frozen.load("way-uniform").cases if not case.hit)]) == 0
+    shown = capsys.readouterr().out
+    assert "clear all along" in shown
+    assert "first" not in shown
     assert main(["cases", "show", "way-uniform/1/1/0", "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["id"] == "way-uniform/1/1/0"
     assert main(["cases", "show", "tilted-way-invalid-0000"]) == 0
