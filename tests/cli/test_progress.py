@@ -12,6 +12,7 @@ import pytest
 from hypcheck.cli import running
 from hypcheck.cli.main import main
 from hypcheck.cli.running import watched
+from hypcheck.processes import Stage
 
 
 class Screen(io.StringIO):
@@ -67,6 +68,16 @@ def test_a_progress_bar_shows_the_share_the_rate_and_the_time_left(screen, clock
             clock[0] += seconds
             pace.advance(*advanced)
         assert screen.shown[-1].endswith(shown)
+
+
+def test_a_progress_bar_has_the_title_of_the_stage_that_runs(screen, clock):
+    def step(advance):
+        clock[0] += 1
+        advance(1)
+
+    running.run_stages([Stage("first part", 1, step), Stage("second part", 3, step)])
+    titles = [line.split("  ")[0] for line in screen.shown if "%" in line]
+    assert titles[-2:] == ["first part", "second part"]
 
 
 def test_classify_shows_a_progress_bar_on_a_terminal(screen, tmp_path):

@@ -90,6 +90,16 @@ def test_growing_file_shows_added_bytes_and_is_replaced_only_after_the_new_conte
     assert synced == [(len(b"first"), b"before")]
 
 
+def test_progress_begins_a_record_only_if_something_was_asked(tmp_path):
+    nothing = structs.replace(PROGRESS, state=structs.replace(BEGUN, total=structs.replace(RESULT, tallies={})))
+    with recording(tmp_path, {}) as running:
+        there = []
+        for progress in (nothing, PROGRESS):
+            running.recorder.keep(progress)
+            there.append((tmp_path / GROWING).exists())
+    assert there == [False, True]
+
+
 @pytest.mark.parametrize("how", ["keep", "add"])
 def test_a_run_on_a_full_disk_ends_with_a_sentence_about_its_record_and_keeps_what_it_has(tmp_path, small_files, how):
     def run():
