@@ -6,6 +6,7 @@ import shutil
 import numpy as np
 import pytest
 
+from hypcheck.cli.bench import bench as compare
 from hypcheck.cli.main import main
 from hypcheck.engines import engine as installing
 from hypcheck.engines import measure as measuring
@@ -86,6 +87,21 @@ def test_an_engine_counts_as_installed_until_its_adapter_changes(monkeypatch, tm
     (cache / engine.name / "ready").write_text("of another adapter")
     with pytest.raises(InputError, match="cannon-es is not installed"):
         installing.command(engine, cache, tmp_path)
+
+
+def test_engines_are_compared_under_their_paths_as_seen_from_the_working_directory(monkeypatch, tmp_path):
+    for name in ("node", "npm"):
+        program(tmp_path / "bin", name, "exit 0")
+    monkeypatch.setenv("PATH", f"{tmp_path / 'bin'}:/bin:/usr/bin")
+    monkeypatch.chdir(tmp_path)
+    assert main(["engines", "install", "cannon-es", "--cache", "cache"]) == 0
+    specs = []
+    monkeypatch.setattr(compare, "invoke", lambda context: specs.extend(context.params["specs"]))
+    assert main(["engines", "bench", "cannon-es", "--triangles", "500", "--cache", "cache"]) == 0
+    (spec,) = specs
+    paths = [word for word in json.loads(spec.removeprefix("command:")) if "cache" in word]
+    assert paths[-1] == "cache/scenes/body-500"
+    assert all((tmp_path / path).exists() and not path.startswith("/") for path in paths)
 
 
 def test_each_manager_installs_the_pinned_version_into_the_engines_own_folder(monkeypatch, tmp_path):

@@ -16,6 +16,7 @@ import numpy as np
 import pytest
 
 from hypcheck import InputError, Mover, Scene
+from hypcheck.cli.main import main
 from hypcheck.errors import UnavailableError
 from hypcheck.scene.model import FREE
 from tests.report import browser
@@ -112,6 +113,13 @@ def test_a_notebook_shows_the_page_in_a_frame_whose_text_is_the_page():
     frame = ElementTree.fromstring(page._repr_html_())  # noqa: S314 - our own
     assert frame.tag == "iframe"
     assert frame.get("srcdoc").split() == page.html.split()
+
+
+def test_show_without_a_flight_writes_the_page_of_the_scene(tmp_path, capsys):
+    page = tmp_path / "view.html"
+    assert main(["show", "tower", "--out", str(page)]) == 0
+    assert capsys.readouterr().out == f"wrote {page}\n"
+    assert page.read_text("utf-8") == Scene.from_toml("tower").show().html
 
 
 def test_a_body_whose_axis_points_down_is_drawn_as_the_one_turned_over():

@@ -32,6 +32,14 @@ def classify(source: object, target: object, *more: str) -> int:
     return main(["classify", "--input", str(source), "--output", str(target), *more])
 
 
+def test_a_path_that_the_system_cannot_have_is_refused_with_the_reason(source, capsys):
+    nul = f"{source}\0.csv"
+    for verb, words in (("read", (nul, f"{source}.npy")), ("write", (source, nul))):
+        assert classify(*words) == 2
+        assert f"cannot {verb} {source}" in (error := capsys.readouterr().err)
+        assert error.endswith(": embedded null byte\n")
+
+
 def test_a_packed_file_is_read_as_what_it_holds(tmp_path, capsys):
     plain, packed = tmp_path / "record.jsonl", tmp_path / "record.jsonl.xz"
     plain.write_text(record_samples.text_and_record()[0], encoding="utf-8")
