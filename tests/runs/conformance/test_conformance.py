@@ -145,6 +145,14 @@ def test_known_failures_are_updated_only_from_a_run_of_all_families(tmp_path, ca
     assert gate(tmp_path, "builtin:table-2-float64", *update, count="0")[0] == 1
     assert 'cause = "ring"' in path.read_text(encoding="utf-8")
     assert gate(tmp_path, "builtin:table-2-float64", "--known-failures", str(path), count="0")[0] == 0
+    right, wrong = "tower-body", "ring"
+    entries = [f'[[known_failure]]\nfamily = "{name}"\nreason = "mine"\n' for name in (right, wrong)]
+    path.write_text("".join(entries) + path.read_text(encoding="utf-8"), encoding="utf-8")
+    assert gate(tmp_path, "builtin:table-2-float64", *update, count="0")[0] == 1
+    text = path.read_text(encoding="utf-8")
+    assert 'family = "ring"\nreason = "mine"' in text
+    assert "tower-body" not in text
+    assert text.count('cause = "ring"') == 1
 
 
 def test_summary_json_of_verify_has_its_documented_counts_and_families(tmp_path):

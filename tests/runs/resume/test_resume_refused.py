@@ -17,7 +17,8 @@ from hypcheck.record import Recorder, read
 from hypcheck.record.fields import as_json
 from hypcheck.record.reader import FILE, GROWING
 from hypcheck.record.writer import FolderInUseError, folder_locked
-from hypcheck.runs.fingerprint import fingerprints, sha256
+from hypcheck.runs import started_files
+from hypcheck.runs.fingerprint import fingerprints, not_hashed, sha256
 from tests.report.record_samples import text_and_record
 from tests.runs.interruption import in_small_steps, paused_bytes, started, wait_for, words
 from tests.runs.resume.test_interrupted import needs_proc
@@ -112,6 +113,7 @@ STARTS = {
     "command:env MODE=1 ./prog": "prog",
     "command:./prog --weights=weights.bin": "weights.bin",
     "command:java -cp lib.jar:other.jar Main": "other.jar",
+    "command:sh -c 'echo it'\\''s; ./prog'": "prog",
 }
 """A file that each of these starts, and does not name as the target of the SPEC."""
 
@@ -154,6 +156,33 @@ def test_what_no_look_at_a_command_tells_is_in_its_first_line_and_in_the_record(
     expected = ["what sh loads besides", "what loads.py loads as it runs (import_module)"]
     assert f"; not hashed: {', '.join(expected)}" in capsys.readouterr().err
     assert read(Path("out")).header.not_hashed == expected
+
+
+def test_a_program_that_a_shell_finds_on_its_path_is_hashed(beside, monkeypatch):
+    monkeypatch.setenv("PATH", f"{beside}{os.pathsep}{os.environ['PATH']}")
+    assert str(beside / "prog") in fingerprints(["command:sh -c 'prog --fast'"])
+
+
+def test_what_a_file_imports_that_is_not_python_is_not_hashed_and_named(beside):
+    Path("subject.py").write_text("import beside\ndef f(rows) return 0\n")
+    assert not_hashed(["python:subject.py:f"]) == ["what subject.py imports, as it cannot be parsed"]
+    assert [Path(name).name for name in fingerprints(["python:subject.py:f"])] == ["subject.py"]
+
+
+def test_an_implementation_of_very_many_files_is_hashed_in_part(beside, monkeypatch):
+    monkeypatch.setattr(started_files, "MOST_FILES", 20)
+    for number in range(21):
+        Path(f"part{number}.py").touch()
+    Path("subject.py").write_text("".join(f"import part{number}\n" for number in range(21)))
+    assert not_hashed(["python:subject.py:f"]) == ["what is beyond 20 files"]
+    assert len(fingerprints(["python:subject.py:f"])) == 20
+
+
+@pytest.mark.parametrize("content", [b"", b"\x7fELF", b"\x7fELF\x02\x01\x01" + bytes(57), b"\x7fELF" + b"\xff" * 200])
+def test_a_file_that_only_begins_as_a_library_is_hashed_alone(content, beside):
+    Path("lib.so").write_bytes(content)
+    assert list(fingerprints(["library:lib.so"]).values()) == [sha256(Path("lib.so"))]
+    assert not_hashed(["library:lib.so"]) == []
 
 
 @pytest.mark.skipif(sys.platform != "linux" or shutil.which("cc") is None, reason="needs ELF and a C compiler")
