@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from hypcheck.cli.main import main
 from hypcheck.errors import InputError
 from hypcheck.runs import fingerprint
 from hypcheck.runs.fingerprint import MAX_FILES_NAMED, FileSnapshot, files_to_ship, sha256
@@ -61,6 +62,22 @@ def test_a_file_of_known_failures_with_other_values_is_refused(tmp_path, text, m
     path.write_text(text)
     with pytest.raises(InputError, match=message):
         read_known_failures(path)
+
+
+def test_a_file_of_known_failures_may_name_a_generated_case(tmp_path):
+    path = tmp_path / "known-failures.toml"
+    path.write_text('[[known_failure]]\ncase = "ring/1/42/7"\nreason = "it is so"\n')
+    assert [(entry.case, entry.family) for entry in read_known_failures(path)] == [("ring/1/42/7", None)]
+    path.write_text('[[known_failure]]\ncase = "ring/1/42"\nreason = "it is so"\n')
+    with pytest.raises(InputError, match="ring/1/42"):
+        read_known_failures(path)
+
+
+def test_families_of_hyperboloids_that_end_are_refused_together_where_the_implementation_takes_none(tmp_path, capsys):
+    options = ("--families", "ended-r*", "--count", "0", "--out", str(tmp_path / "out"))
+    assert main(["verify", "builtin:table-2-float64", *options]) == 2
+    refusal = "ended-r*: these are families of hyperboloids that end, and table-2-float64 does not take them; "
+    assert f'{refusal}its description must say "takes": ["heights"]' in capsys.readouterr().err
 
 
 def test_a_file_of_known_failures_that_is_missing_is_named(tmp_path):

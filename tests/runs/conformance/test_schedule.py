@@ -13,6 +13,7 @@ import pytest
 from msgspec import structs
 
 from hypcheck.implementations.session import Allowance, Limits, Outcome, StartError
+from hypcheck.isolation.launch import Isolation
 from hypcheck.record.fields import as_json, decoded
 from hypcheck.record.lines import Retest
 from hypcheck.record.progress import SavedResult, SavedState
@@ -78,6 +79,15 @@ def last(some):
 def read_back(state):
     """The state as it comes back from JSON."""
     return restored_state(decoded(json.loads(json.dumps(as_json(saved_state(state)), allow_nan=False)), SavedState))
+
+
+def test_an_implementation_that_describes_itself_otherwise_in_each_process_is_refused(tmp_path):
+    (tmp_path / "subject.py").write_text(
+        "import os\nhypcheck = {'name': 'x', 'version': str(os.getpid())}\ndef f(rows):\n    return [0] * len(rows)\n"
+    )
+    opening = ImplementationOpener(f"python:{tmp_path / 'subject.py'}:f", Limits(isolation=Isolation("off")))
+    with opening.open() as first, pytest.raises(StartError, match="declares another description in each process"):
+        replace(opening, declared=first.declared).open()
 
 
 def test_results_of_tasks_can_be_merged_in_any_order():

@@ -8,7 +8,7 @@ from hypcheck.cli.main import main
 from hypcheck.errors import Exit
 from hypcheck.vectors.cases import read_cases
 from hypcheck.vectors.checking import faults_of
-from tests.runs.faulty import contact_everywhere
+from tests.runs.faulty import cannot_say_above, contact_everywhere
 
 
 def told(capsys, *arguments):
@@ -55,6 +55,30 @@ def test_hunt_options_replace_what_the_implementation_declares(capsys):
     _, output, _ = told(capsys, *arguments, "--precision", "float32", "--tolerance", "1e6")
     assert "(exterior, float32)" in output
     assert "1e+06 u" in output
+
+
+def test_a_hunt_counts_answers_that_say_nothing(capsys, built_in):
+    code, output, _ = told(capsys, "hunt", built_in(cannot_say_above), "--queries", "300")
+    abstained = [line for line in output.splitlines() if line.endswith(' "cannot say"')]
+    assert code == Exit.HELD
+    assert len(abstained) == 1
+    assert abstained[0].split()[1] == "answers"
+    assert 0 < int(abstained[0].split()[0]) < 300
+
+
+def test_a_hunt_shows_the_row_at_which_an_implementation_ends_and_none_of_those_that_it_did_not_ask(capsys):
+    dies = "python:tests.runs.replay.faulty:dies"
+    code, output, _ = told(capsys, "hunt", dies, "--queries", "40", "--restarts", "0")
+    assert code == Exit.WRONG
+    assert "crash: 1 row; the first: it ended by itself with exit status 3\n   row " in output
+    last = "not-run: 39 rows; the first: not asked: no restart is allowed; the last process: it ended by itself"
+    assert output.splitlines()[-1].startswith(last)
+
+
+def test_minimising_a_row_that_is_not_valid_is_refused(capsys):
+    code, output, errors = told(capsys, "minimise", "builtin:fast", "invalid-0003")
+    assert (code, output) == (2, "")
+    assert errors == "hypcheck: error: invalid-0003: alpha is -0.0; a semi-axis must be greater than 0\n"
 
 
 def test_rows_that_a_hunt_found_are_added_to_a_vector_file(capsys, built_in, tmp_path):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 
+import numpy as np
 import pytest
 
 from hypcheck.cli.main import main
@@ -98,6 +99,25 @@ def test_replay_shows_values_in_a_format_for_every_precision(capsys, precision, 
     found = replayed(capsys, FREE, "builtin:fast", "--precision", precision)
     assert found["values"]["format"] == shown
     assert ("stands for it" in found["values"]["why"]) is (precision != "float16")
+
+
+@pytest.mark.skipif(np.finfo(np.longdouble).nmant != 63, reason="long double has another format than that of the x87")
+def test_replay_shows_values_in_the_format_of_the_x87_as_they_are(capsys):
+    found = replayed(capsys, FREE, "builtin:fast", "--precision", "x87")
+    assert (found["values"]["format"], "stands for it" in found["values"]["why"]) == ("longdouble", False)
+
+
+def test_replay_has_no_values_of_a_formula_that_finds_no_multiplier(capsys):
+    """In float16, whose greatest number is 65504, the sizes 1e5 are infinite."""
+    found = replayed(capsys, "1e5,1e5,1,1,1e5,1,1", "builtin:fast", "--formula", "dual", "--precision", "float16")
+    assert found["values"] == {"why": "the search of dual finds no finite λ in float16", "own": False}
+
+
+def test_range_of_a_format_that_has_enough_is_no_cause_of_a_wrong_answer(capsys, built_in):
+    """9999² is beyond float16."""
+    wrong = ("1,9999,1,1,5,0,0", built_in(faulty.contact), "--precision")
+    assert [found["cause"] for found in replayed(capsys, *wrong, "float16", code=1)["causes"]] == ["out-of-range"]
+    assert replayed(capsys, *wrong, "binary128", code=1)["causes"] == []
 
 
 def test_replay_finds_an_answer_that_depends_on_other_rows(capsys):

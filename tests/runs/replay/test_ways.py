@@ -31,6 +31,12 @@ def test_replay_in_json_names_the_mistake_and_its_size(capsys):
     assert told["truth"]["first"][0] <= 0.5 <= told["truth"]["first"][1]
 
 
+def test_replay_says_of_a_sweep_without_contact_that_it_is_clear_and_nothing_of_a_first_time(capsys):
+    code, said = replayed(capsys, "1,2,1,0.5,2.25,0,-1,2.25,0,1", "builtin:passage-sampled-4")
+    assert code == 0
+    assert "truth       clear on the sweep\nends        exterior at the start, exterior at the end\n\n" in said.out
+
+
 @pytest.mark.slow
 def test_replay_calls_an_answer_to_an_invalid_way_wrong_unless_it_is_refused(capsys, built_in):
     off = ("--isolate", "off")  # this implementation answers by hypcheck
