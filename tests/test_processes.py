@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import os
 import shutil
+import signal
 import subprocess
 import sys
+import threading
 from collections.abc import Iterable
 from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
 
+from hypcheck.processes import interrupts_deferred
 from tests.tools.miniatures import all_gone, needs_proc, token  # noqa: F401
 
 STARTS = """
@@ -40,6 +43,21 @@ except KeyboardInterrupt:
     sys.exit(130)
 sys.exit("not interrupted")
 """
+
+
+def test_signals_are_not_deferred_in_another_thread_whose_work_none_interrupts():
+    def work():
+        with interrupts_deferred():
+            seen.append(signal.getsignal(signal.SIGINT))
+
+    seen = [signal.getsignal(signal.SIGINT)]
+    with interrupts_deferred():
+        deferring = signal.getsignal(signal.SIGINT)
+    thread = threading.Thread(target=work)
+    thread.start()
+    thread.join()
+    assert seen[0] is seen[1]
+    assert deferring is not seen[0]
 
 
 @pytest.mark.parametrize("name", ["SIGINT", "SIGTERM"])

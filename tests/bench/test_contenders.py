@@ -11,12 +11,15 @@ from hypcheck.bench import accuracy, run
 from hypcheck.bench.contender import Contender, InEngine, InPython, InScalars
 from hypcheck.bench.contenders import contenders
 from hypcheck.bench.plan import QUICK, BenchPlan
+from hypcheck.bench.workloads import WORKLOADS
 from hypcheck.errors import Exit
 from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.implementations.domain import Domain
 from hypcheck.implementations.meshes import FCL, scene_mesh
+from hypcheck.record import Recorder
 from hypcheck.record.measurements import KernelLine
 from tests.support.fractions_truth import exact_position
+from tests.support.records import GrowingText
 from tests.support.tilted_fractions import exact_position as exact_tilted
 
 SIZES, OTHER = (2.0, 3.0, 0.25, 0.15), (1.0, 2.0, 0.25, 0.15)
@@ -91,6 +94,21 @@ def test_memory_line_reports_what_a_method_needs_beyond_its_rows():
     line = accuracy.memory_line(contender(load=partial(InPython, greedy)), TWO_SCENES)
     assert (line.method, line.rows) == ("mine", len(TWO_SCENES))
     assert 60e6 < line.peak_bytes < 90e6
+
+
+def test_what_is_missing_is_recorded_once():
+    recorder = Recorder(GrowingText(), {})
+    for what in ("FCL", "Coal", "FCL"):
+        run.note_absent(recorder, what, "it is not there")
+    assert [line.what for line in recorder.lines] == ["FCL", "Coal"]
+
+
+def test_a_method_of_one_scene_is_timed_on_rows_of_the_first_scene_alone():
+    several = WORKLOADS["near-contact"]
+    rows = accuracy.timed_rows(BenchPlan(amounts=QUICK), contender(scenes=1, timed=100), several)
+    assert len(rows) == 100
+    assert len(np.unique(rows[:, :4], axis=0)) == 1
+    assert len(np.unique(several.rows(1, 100)[:, :4], axis=0)) > 1
 
 
 def test_bench_kernel_ends_with_slower_if_a_kernel_misses_a_target():

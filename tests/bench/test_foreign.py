@@ -7,6 +7,7 @@ from dataclasses import replace
 import pytest
 from msgspec import structs
 
+import hypcheck
 from hypcheck.bench import foreign
 from hypcheck.bench.baseline import alike, speeds_of
 from hypcheck.bench.contenders import contenders
@@ -122,6 +123,13 @@ def test_time_of_a_command_without_a_clock_is_reduced_by_that_of_a_one_row_quest
     assert empty.ready.rows == 1
     assert way.single(ROWS) is None
     way.close()
+
+
+def test_a_built_in_method_that_is_a_spec_is_measured_in_this_process():
+    method = foreign.foreign_method("builtin:nearest-point", Limits(), [])
+    (found,) = foreign.foreign_contenders([method], Limits())
+    assert (found.name, found.tier) == ("nearest-point", "numpy")
+    assert found.load().answer(ROWS).tolist() == hypcheck.classify(ROWS).tolist()
 
 
 def test_two_specs_with_the_same_name_are_distinguished(tmp_path):

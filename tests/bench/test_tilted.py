@@ -144,6 +144,14 @@ def test_bench_scene_with_a_tilted_mover_asks_rows_in_its_region_and_near_contac
     assert all(not line.wrong for line in record.of(AccuracyLine) if line.method in ("fast-numpy", "exact-oracle"))
 
 
+def test_bench_refuses_a_scene_in_whose_region_no_hyperboloid_is(tmp_path):
+    name = scene(tmp_path, '"free"')
+    with open(name, "a", encoding="utf-8") as file:
+        file.write("[region]\nz = [90, 99]\n")
+    with pytest.raises(InputError, match="'pitching' is not measured: no hyperboloid's height meets its region"):
+        ended(tmp_path, "--scene", name)
+
+
 def test_bench_refuses_a_scene_with_a_tilted_hyperboloid(tmp_path):
     name = scene(tmp_path, '"free"', "axis = [0.1, 0.0, 1.0]")
     with pytest.raises(InputError, match="the hyperboloid 'tower' is tilted"):

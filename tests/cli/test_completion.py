@@ -111,6 +111,13 @@ print(json.dumps([name for name in {heavy!r} if name in sys.modules]), file=sys.
         assert json.loads(done.stderr) == [], line
 
 
+def test_a_place_in_the_line_that_is_no_number_is_refused(monkeypatch, capsys):
+    for name, value in (asked("bash", "hypcheck verify", {}) | {"COMP_CWORD": "second"}).items():
+        monkeypatch.setenv(name, value)
+    assert main([]) == 2
+    assert "but COMP_CWORD is not a number; the shell sets it" in capsys.readouterr().err
+
+
 @pytest.fixture
 def offers(monkeypatch, capsys):
     """The types and values that a shell is answered for the last word of a line."""

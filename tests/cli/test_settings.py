@@ -174,6 +174,12 @@ def test_the_assumed_default_of_max_slowdown_is_that_of_bench(project):
     assert _UNSET["max_slowdown"] == MAX_SLOWDOWN
 
 
+@pytest.mark.parametrize(("text", "memory"), [("536870912", "536870912"), ('"512M"', "512M")])
+def test_memory_is_a_number_of_bytes_or_a_size(project, text, memory):
+    project(f"memory = {text}\n")
+    assert read_settings(Path(FILE)).options["memory"] == memory
+
+
 def test_hunt_ignores_seed_and_out_of_the_settings_file(project):
     project(ALL)
     found = read_settings(Path(FILE)).default_map

@@ -80,6 +80,7 @@ def test_square_root_gives_a_fraction_for_squares_and_a_surd_otherwise():
 def test_equal_surds_are_one_element_of_a_set():
     first, second = (square_root(Fraction(2)) * factor for factor in (Fraction(3), Fraction(6, 2)))
     assert len({first, second, first + 1}) == 2
+    assert len({UNDEFINED, EXACT.operations["div"](first, Fraction(0)), first}) == 2
 
 
 def test_surds_of_two_different_roots_cannot_be_added():

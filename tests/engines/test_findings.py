@@ -62,6 +62,21 @@ def test_the_reproduction_program_of_each_engine_has_its_certificate_and_numbers
     assert read_findings(tmp_path) == [written]
 
 
+@pytest.mark.parametrize(
+    ("kind", "says"),
+    [
+        ("missed contact", ["shares 0.25, 0.25, 0.5 of the corners, has (x² + y²)/b² + z²/d² = 0.25 < 1."]),
+        (
+            "too far",
+            ["shares 0.25, 0.25, 0.5 of the corners, is so near to the spheroid's point", "n = (0.0, 0.0, 1.0)."],
+        ),
+    ],
+)
+def test_the_certificate_of_a_reproduction_names_the_triangles_point_if_a_point_proves_it(kind, says):
+    text = reproduction(finding(kind, reported=0.5, d=1.0))
+    assert all(words in text for words in ["Certificate: the point p = (0, 0, 0.5) of the triangle", *says])
+
+
 def test_the_drawing_of_a_missed_contact_magnifies_the_triangles_point_and_that_of_another_kind_the_spheroids():
     """The nearest point of the triangle is at z = 0.5, and the point of the unit ball that faces it at z = 1."""
     for kind, height in (("missed contact", 50), ("false contact", 100)):

@@ -201,6 +201,20 @@ def test_asker_reads_the_answer_of_an_adapter_or_gives_none_if_it_ends_early(mon
     assert asker(ABOVE[np.newaxis]) is None
 
 
+def test_a_triangle_through_the_middle_of_a_ball_is_deep_by_its_radius():
+    """The direction is drawn, for no nearest point gives one: that of the triangle's plane."""
+    corners = ABOVE - [0, 0, 0.5]
+    way = best_direction(corners, 0.5, 0.5)
+    assert lower_bounds(corners, 0.5, 0.5, way[np.newaxis])[0] == pytest.approx(-0.5, abs=1e-9)
+
+
+def test_the_nearest_point_of_a_triangle_without_an_inside_is_on_its_longest_side():
+    line = np.array([[-1.0, 1.0, 0.0], [3.0, 1.0, 0.0], [0.5, 1.0, 0.0]])
+    shares = nearest_shares(line)
+    assert shares @ line == pytest.approx([0, 1, 0])
+    assert (shares.sum(), shares.min() >= 0) == (1, True)
+
+
 def test_best_direction_proves_the_signed_distance_of_a_triangle_from_a_ball():
     rng = np.random.default_rng(5)
     for corners in rng.normal((0.0, 0.0, 2.0), size=(20, 3, 3)):

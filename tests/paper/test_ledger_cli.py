@@ -14,6 +14,7 @@ from hypcheck.derivation.chain_book import chains
 from hypcheck.errors import Exit
 from hypcheck.paper.derive import selection
 from hypcheck.paper.ledger.book import entries, entries_of
+from hypcheck.paper.ledger.entry import Evidence
 
 
 def told(capsys, *arguments):
@@ -103,6 +104,12 @@ def test_failing_step_of_a_proof_is_shown_and_derive_ends_with_6(capsys, monkeyp
         document = json.loads(output)
         assert document["agrees"] is False
         assert document["failing"] == ["Proposition 3, repaired"]
+
+
+def test_evidence_that_is_not_found_is_shown_as_failing():
+    (table,) = (entry for entry in entries() if entry.number == "Table 2")
+    without = replace(table, grounds=lambda: (Evidence("search", "nothing found among 7 hulls", holds=False),))
+    assert (selection.FAILS, "nothing found among 7 hulls") in list(selection.details(without))
 
 
 def test_a_verdict_without_its_evidence_is_among_what_derive_says_to_fail():

@@ -170,6 +170,12 @@ def test_derive_markdown_has_every_part():
     assert page.count("\n### ") > 40
 
 
+@pytest.mark.parametrize(("claim", "brief"), [("Table 2", False), ("13", True)])
+def test_derive_markdown_lists_formulas_that_hold_as_printed_only_if_there_are_any(claim, brief):
+    page = written(markdown, Selection((), claim))
+    assert ("Formulas that hold as printed, right − left = 0:" in page) == brief
+
+
 @pytest.mark.parametrize(
     ("form", "module"), list(zip(FORMATS, (text, latex, as_json, markdown, erratum), strict=True)), ids=FORMATS
 )

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from hypcheck.cli.main import main
 from hypcheck.report import code_hosts, markdown
 from tests.report import record_samples
+from tests.support.without_drawing import draw_nothing
 
 ANNOTATION = re.compile(r"::error title=([^,:\r\n]*)::([^\r\n]*)")
 
@@ -102,6 +103,15 @@ def run(monkeypatch, tmp_path, capsys, *words, on=True):
     monkeypatch.setenv("GITHUB_STEP_SUMMARY", str(tmp_path / "summary.md"))
     code = main(["verify", *words, "--families", "ring", "--count", "3", "--out", str(tmp_path / "out")])
     return code, capsys.readouterr().out.splitlines()
+
+
+def test_a_run_whose_step_summary_cannot_be_written_says_so_and_ends_as_without(monkeypatch, tmp_path, capsys):
+    (tmp_path / "summary.md").mkdir()
+    monkeypatch.setenv("GITHUB_ACTIONS", "true")
+    monkeypatch.setenv("GITHUB_STEP_SUMMARY", str(tmp_path / "summary.md"))
+    draw_nothing(monkeypatch)
+    assert main(["verify", "builtin:fast", "--families", "ring", "--count", "3", "--out", str(tmp_path / "out")]) == 0
+    assert capsys.readouterr().err.splitlines()[-1].startswith("hypcheck: no step summary")
 
 
 def test_a_failing_run_on_github_prints_annotations_and_writes_the_step_summary(monkeypatch, tmp_path, capsys):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import click
@@ -9,6 +10,9 @@ import pytest
 from hypothesis import given, settings
 
 from hypcheck.record import read
+from hypcheck.record.fields import as_json
+from hypcheck.record.lines import CauseLine
+from hypcheck.record.reader import line_of
 from hypcheck.report.formats import WrittenReport
 from hypcheck.report.terminal import MOST_LINES, WIDTH, summary_lines
 from tests.report import bench_lines, record_samples
@@ -90,6 +94,17 @@ def test_terminal_summary_escapes_control_characters_of_foreign_text(old, foreig
     changed = record_samples.rewritten([*record_samples.lines(), DISAGREEMENT, EXACT_WRONG], old, foreign)
     for line in summary_lines(record_samples.record(changed, 6), WRITTEN):
         assert line.isprintable()
+
+
+def test_the_terminal_shows_six_causes_and_counts_the_answers_of_the_others():
+    golden = read(Path(__file__).parent / "goldens" / "wrong" / "record.jsonl")
+    first = as_json(golden.of(CauseLine)[0])
+    causes = [{**first, "cases": 100 - number} for number in range(8)]
+    lines = summary_lines(replace(golden, lines=(*golden.lines[:1], *map(line_of, causes))), ())
+    assert sum(" wrong: " in line for line in lines) == 6
+    assert "  187 wrong for 2 other causes; report.md has them all" in lines
+    few = summary_lines(replace(golden, lines=(*golden.lines[:1], *map(line_of, causes[:6]))), ())
+    assert not any("other cause" in line for line in few)
 
 
 def test_a_bounding_volume_has_a_share_of_false_contacts_only_if_a_clear_row_was_asked():

@@ -105,6 +105,11 @@ def test_a_source_with_a_commit_is_pinned_without_asking_git(tmp_path):
     assert pinned(wanted) == wanted
 
 
+def test_a_short_commit_is_left_as_it_is_since_git_lists_none(repository, tmp_path):
+    wanted = requirement(f"file://{repository}@{git(repository, 'rev-parse', '--short=10', 'HEAD')}", tmp_path)
+    assert pinned(wanted) == wanted
+
+
 @pytest.mark.parametrize("end", ["", "@v1"])
 def test_a_remote_repository_that_cannot_be_asked_is_reported_as_not_pinned(end, tmp_path, monkeypatch):
     monkeypatch.setenv("PATH", str(tmp_path))  # no git, hence no network
@@ -136,6 +141,13 @@ def test_a_wheel_in_the_repository_is_named_from_its_root(tmp_path, monkeypatch)
     (tmp_path / "engine/vendor/h.whl").touch()
     monkeypatch.chdir(tmp_path)
     assert requirement("engine/vendor/h.whl", tmp_path / "engine").text == "./vendor/h.whl"
+
+
+def test_a_folder_in_the_repository_whose_name_pip_would_not_read_is_refused(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "our;fork").mkdir()
+    with pytest.raises(InputError, match=r"'our;fork'; its path must consist of letters, digits and \. _ - /"):
+        requirement("./our;fork", tmp_path)
 
 
 def test_source_that_is_a_file_but_neither_wheel_nor_sdist_is_refused(tmp_path):

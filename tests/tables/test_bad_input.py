@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import io
 import json
 import os
 import random
+import warnings
 from pathlib import Path
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from numpy.lib import format as npy
 
 from hypcheck.cli.main import main
 from hypcheck.geometry.pair import COLUMNS
@@ -65,6 +68,18 @@ def test_a_key_that_is_a_height_in_capitals_is_named_even_behind_many_others(tmp
     few, many = (changed(**dict.fromkeys((f"note_{n}" for n in range(count)), 1), Z_MAX=2) for count in (2, 300))
     assert message(tmp_path, capsys, "in.jsonl", few.encode()).endswith("'Z_MAX' must be written z_max")
     assert message(tmp_path, capsys, "in.jsonl", many.encode()).endswith("heights are written z_min, z_max, solid")
+
+
+def test_npy_of_a_later_version_or_of_a_shape_beyond_an_index_is_refused(tmp_path, capsys):
+    later, large = io.BytesIO(), io.BytesIO()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # that numpy 1.17 is needed to read it
+        npy.write_array(later, ROWS[:1], version=(3, 0))
+    sentence = message(tmp_path, capsys, "in.npy", later.getvalue())
+    assert sentence == " is a .npy file of version 3.0; it must be 1.0 or 2.0"
+    npy.write_array_header_1_0(large, {"descr": "<f8", "fortran_order": False, "shape": (2**63, 7)})
+    sentence = message(tmp_path, capsys, "in.npy", large.getvalue())
+    assert sentence.startswith(" has a number of 2^63 or more in its shape; ")
 
 
 class Touching:

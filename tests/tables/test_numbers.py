@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hypcheck.tables.numbers import CHARACTERS, is_number, number_of_json, number_of_text, shown
+from hypcheck.tables.numbers import CHARACTERS, Literal, is_number, is_shortest, number_of_json, number_of_text, shown
 
 
 @pytest.mark.parametrize("text", ["1", "-2.5", "+.5", "5.", "1e3", "1E-3", " 1.0 ", "\t7", "007", "-1e-400", "1" * 400])
@@ -86,6 +86,11 @@ def test_json_value_that_is_no_number_is_refused_and_quoted_as_json(value):
 def test_json_value_that_no_number_or_word_stands_for_is_refused(name, value, says):
     with pytest.raises(ValueError, match=says):
         number_of_json(name, value)
+
+
+def test_a_zero_with_an_exponent_of_too_many_digits_is_not_the_shortest():
+    assert is_shortest(Literal("0e9"))
+    assert not is_shortest(Literal(f"0e{'9' * 30}"))
 
 
 def test_message_shows_only_the_beginning_of_a_long_value():
