@@ -8,6 +8,7 @@ from itertools import combinations
 from pathlib import Path
 
 import pytest
+from matplotlib.text import Text
 
 from hypcheck.record import read
 from hypcheck.record.measurements import SpeedLine
@@ -18,6 +19,7 @@ from hypcheck.report.plots.pictures import PLOTS, draw_plots
 from hypcheck.report.plots.style import ROLES, curve_style, decades, new_figure, power_of_ten, styled, ticks
 from tests.report import record_samples
 from tests.report.bench_lines import bench_record
+from tests.report.test_advice import method
 from tests.report.test_worst_way import THROUGH, case, ways
 
 
@@ -171,6 +173,24 @@ def test_axes_of_every_plot_have_names(name):
     for axes in found:
         assert axes.get_xlabel()
         assert axes.get_ylabel() or len(axes.get_yticklabels()) > 1
+
+
+@pytest.mark.parametrize(
+    ("exact", "reliable", "asked", "explained"),
+    [
+        (False, 1e-6, 4000, set()),
+        (True, 0.0, 4000, {"none wrong", "ringed"}),
+        (False, 1e-6, 2900, {"hollow"}),
+    ],
+)
+def test_a_plot_of_errors_against_time_explains_only_the_marks_that_it_has(exact, reliable, asked, explained):
+    """A mark is hollow for few answers, has a ring for a promise, and a height of its own without errors."""
+    lines = [*method("plain", 1.0, {"uniform": 1e-9}), *method("other", 2.0, {"uniform": reliable}, exact=exact)]
+    lines = [line | {"asked": asked} if line["type"] == "accuracy" else line for line in lines]
+    (plot, *_) = draw_plots("pareto", bench_record(lines))
+    shown = [text.get_text() for text in plot.figure.findobj(Text)]
+    marks = ("none wrong", "ringed", "hollow")
+    assert {mark for mark in marks if any(text.startswith(mark) for text in shown)} == explained
 
 
 def test_sweeps_that_were_not_timed_have_no_plot_against_time():

@@ -56,6 +56,17 @@ def here(monkeypatch, capsys, text_reports):
     return run
 
 
+@pytest.mark.usefixtures("text_reports")
+def test_a_finished_run_of_another_folder_is_named_and_makes_no_reports(tmp_path, capsys):
+    run = ["verify", "builtin:fast", "--families", "tower-body", "--count", "0", "--out"]
+    assert main([*run, str(tmp_path / "out")]) == 0
+    capsys.readouterr()
+    assert main([*run, str(tmp_path / "other"), "--resume", str(tmp_path / "out")]) == 0
+    finished = f"{tmp_path / 'out' / FILE} is the record of a finished run, which ended with 0\n"
+    assert capsys.readouterr().out == finished
+    assert not (tmp_path / "other").exists()
+
+
 @pytest.fixture(scope="module")
 def whole(tmp_path_factory):
     """What a run comes to that is never interrupted, and how many seconds it takes to begin and then to end."""
