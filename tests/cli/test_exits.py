@@ -7,6 +7,7 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 import time
 from io import StringIO
 from itertools import permutations
@@ -142,6 +143,30 @@ def test_main_restores_the_handler_of_sigterm():
         assert signal.getsignal(signal.SIGTERM) is signal.SIG_IGN
     finally:
         signal.signal(signal.SIGTERM, before)
+
+
+def test_a_command_in_another_thread_is_answered_without_a_handler_of_signals(capsys):
+    codes = []
+    words = ["classify", "--alpha", "1", "--gamma", "2", "--b", "1", "--d", "1", "--center", "2.5", "0", "0"]
+    thread = threading.Thread(target=lambda: codes.append(main(words)))
+    thread.start()
+    thread.join()
+    assert codes == [0]
+    assert capsys.readouterr().out.startswith("exterior\n")
+
+
+def test_an_error_while_an_object_is_freed_is_left_to_python(monkeypatch):
+    lost = []
+
+    class Freed:
+        def __del__(self):
+            raise ValueError("lost")
+
+    monkeypatch.setattr(sys, "__unraisablehook__", lambda unraisable: lost.append(str(unraisable.exc_value)))
+    with cli_main._terminable():
+        freed = Freed()
+        del freed
+    assert lost == ["lost"]
 
 
 def test_a_closed_terminal_does_not_end_a_run_that_ignores_sighup():
