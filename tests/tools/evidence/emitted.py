@@ -124,9 +124,9 @@ def section(figures: Figures) -> str:
     return f"""\
 {len(figures["texts"])} texts are compiled: kernels of scenes and of whole scenes, in both precisions, for upright and
 tilted movers; every method; the adapters in C and C++ with each of their stubs. Kernels answer frozen and drawn rows,
-the families of their sizes, other sizes and axes, and rows at, beside and beyond the limits of each stage. The answers
-are judged like those of any implementation, at the limits one in seven of them. Adapters get questions, and also
-invalid lines and ends of input (`tests/tools/evidence/emitted*.py`).
+the families of their sizes, other sizes and axes, rows at, beside and beyond the limits of each stage, and centres
+about the ends of hyperboloids. The answers are judged like those of any implementation, at the limits one in seven of
+them. Adapters get questions, and also invalid lines and ends of input (`tests/tools/evidence/emitted*.py`).
 
 | | count | reached | share |
 | --- | --- | --- | --- |

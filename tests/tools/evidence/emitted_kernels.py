@@ -31,6 +31,7 @@ from tests.tools.attack.strike import truth_of
 from tests.tools.evidence.battery.constructed import BESIDE_TANGENCIES
 from tests.tools.evidence.battery.questions import frozen
 from tests.tools.evidence.emitted_rows import ask_limits
+from tests.tools.evidence.emitted_whole import ask_ends, ends_of
 from tests.tools.evidence.seeds import ROWS
 
 EVERY = 9
@@ -39,8 +40,8 @@ EVERY = 9
 COUNT = 24
 """Rows of each family for a kernel of a scene."""
 
-MOST_LIMITS = 6
-"""Settings of a whole scene that are asked at their limits: those after them share their functions."""
+MOST_LIMITS = 12
+"""Settings of a whole scene, the mover's before its parts', that are asked at their limits: others share functions."""
 
 Kernels = dict[str, tuple[str, Callable[[Path], None]]]
 """The text in C and what asks the library, by name."""
@@ -76,9 +77,17 @@ def _scenes() -> Iterator[tuple[str, SceneModel, str]]:
 
 
 def _whole_scenes() -> Iterator[tuple[str, SceneModel]]:
-    yield "whole, parts", forest(4)
-    yield "whole, contact", forest(12, "contact", ())
-    yield "whole, exterior, everywhere", forest(3, "exterior", (), Region())
+    yield "whole, parts", _with_odd_ends(forest(4))
+    yield "whole, contact", _with_odd_ends(forest(8, "contact"))
+    yield "whole, exterior, everywhere", _with_odd_ends(forest(4, "exterior", (), Region()))
+
+
+def _with_odd_ends(scene: SceneModel) -> SceneModel:
+    """The last hyperboloid longer, its heights downwards; and another, by itself, that ends before its waist."""
+    *others, last = scene.hyperboloids
+    longer = replace(last, axis=(0.0, 0.0, -2.0), height=Span(-4.5, 1.5))
+    lone = Hyperboloid("lone", 1.0, 1.0, (-4.5, -4.5, 0.25), Span(0.6, 1.5))
+    return replace(scene, hyperboloids=(*others, longer, lone))
 
 
 def _answered_alike(library: Path, rows: np.ndarray) -> np.ndarray:
@@ -171,14 +180,15 @@ def _asks_whole(scene: SceneModel) -> Callable[[Path], None]:
         loaded.hypcheck_whole(ctypes.c_size_t(len(still)), *map(pointer, kept[:3]), None, pointer(still))
         headed = told(library, "c", np.vstack([kept[:3], np.zeros((1, len(still)))]))
         assert (still == headed).all()  # no headings are headings of 0
+        ask_ends(scene, partial(told, library, "c"))
         plan = whole_plan(scene)
-
         pairs = partial(_answered_alike, library)
         assert worst_error(pairs, plan, COUNT)[0] <= plan.bound_u
         for stages in plan.settings:
             for rows in _wide(np.array(stages.setting.sizes), None, False):
                 pairs(rows)
-        for stages in plan.settings[:MOST_LIMITS]:
+        of_mover = (scene.mover.b, scene.mover.d)
+        for stages in sorted(plan.settings, key=lambda stages: stages.setting.sizes[2:] != of_mover)[:MOST_LIMITS]:
             ask_limits(plan, stages, pairs)
         for column in range(4):
             for value in (np.nan, np.inf, -np.inf, 1e308):
@@ -187,7 +197,9 @@ def _asks_whole(scene: SceneModel) -> Callable[[Path], None]:
                 said = told(library, "c", odd)
                 assert (said == CANNOT_SAY).all() or (value == 1e308 and column < 3)
         for body in scene.hyperboloids:
-            _ask_pair(library, np.array([body.alpha, body.gamma, scene.mover.b, scene.mover.d, 0, 0, 0]))
+            ends = ends_of(body) or [body.center[2]]
+            level = sum(ends) / len(ends) - body.center[2]
+            _ask_pair(library, np.array([body.alpha, body.gamma, scene.mover.b, scene.mover.d, 0, 0, level]))
 
     return ask
 
@@ -198,7 +210,7 @@ def _ask_pair(library: Path, row: np.ndarray) -> None:
     rows[0, 4] = 1e3
     for column in range(4):
         rows[2 + column, column] = np.nextafter(row[column], np.inf)
-    right = [1, -1 if row[0] > 2 * row[2] else int(truth_of(row[None])[0]), *[CANNOT_SAY] * 4]
+    right = [1, int(truth_of(row[None])[0]), *[CANNOT_SAY] * 4]
     assert answers(library, rows).tolist() == right
     for one, position in zip(rows, right, strict=True):
         assert answers_by_scene(library, one[None]).tolist() == [position]
@@ -212,7 +224,11 @@ def _asks_method(may_pass: bool) -> Callable[[Path], None]:
         ring = np.array(
             [[1.0, 2, 1, 1, 2.5, 0, 0], [7, 7, 1, 1, 10, 0, 0], [1, 2, 1, 1, 2, 0, 0], [2, 1, 2, 1, 4, 0, 0]]
         )
-        drawn += [np.array(BESIDE_TANGENCIES, float), ring]
+        subnormal = np.array(
+            [[1.0, 2, 1, 1, 2, 5e-324, 0], [1, 2, 1, 1, 2, 0, 5e-324], [1, 2, 1, 1, 0, 1e-320, 1e-310]]
+        )
+        next_to_it = np.array([[1.0, 2, 1, 1, 2, 0, 0], [4, 2, 2, 1, 6, 0, 0]]) * 2.0**-1023  # sizes on both sides
+        drawn += [np.array(BESIDE_TANGENCIES, float), ring, subnormal, next_to_it]
         asked += [(rows, truth_of(rows)) for rows in drawn]
         odd = np.tile(np.array([1.0, 2, 1, 1, 3, 0, 0]), (21, 1))
         odd[np.arange(21), np.repeat(np.arange(7), 3)] = np.tile([np.nan, np.inf, -np.inf], 7)

@@ -12,7 +12,8 @@ from fractions import Fraction
 import numpy as np
 
 import hypcheck
-from hypcheck.geometry.rows import CANNOT_SAY, Floats, Rows
+from hypcheck.geometry.pair import Position
+from hypcheck.geometry.rows import CANNOT_SAY, Floats, Mask, Positions, Rows
 from hypcheck.runs import judge
 from hypcheck.scene.model import FREE
 from tests.support.inside import AXIAL, RADIAL, ScenePlan, Stages, TiltedSearch
@@ -26,6 +27,13 @@ JUDGED = 7
 
 AXES = ((0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.3, 0.1, 1.0), (-1.0, 2.0, 0.5), (3.0, -4.0, 1e-9), (1e-9, 0.0, -1.0))
 """For a kernel of any axis: upright, level, tilted, and next to both."""
+
+ANSWERS = {
+    "position": {"clear": (1, -1), "touching": (0,)},
+    "exterior": {"clear": (1,), "touching": ()},
+    "contact": {"clear": (0,), "touching": (1,)},
+}
+"""What says of a spheroid that it is clear, or touches; 0 to the question exterior may rest on the centre's side."""
 
 _TURNS = np.array([(1.0, 0.0), (0.0, 1.0), (-0.6, 0.8)])
 
@@ -70,6 +78,8 @@ def _parts(stages: Stages, axis: tuple[float, ...], single: bool) -> Iterator[tu
     yield from _odd(_tangent(stages, axis, _TURNS[0], np.zeros(1), 1)[0], gamma)
     if isinstance(stages.last, TiltedSearch):
         yield from _planes(stages, axis, random)
+        if stages.setting.cut is None:
+            yield from _finest(stages, axis, _far_heights(stages.last))
 
 
 def _around(
@@ -103,7 +113,13 @@ def _heights(stages: Stages, random: np.random.Generator) -> Floats:
     gamma, span = stages.setting.sizes[1], stages.setting.box.z
     low, high = (-2 * gamma, 2 * gamma) if span is None else (span.low, span.high)
     ends = [end * factor for end in (low, high) for factor in (1 - 2.0**-52, 1, 1 + 2.0**-52, 1.5, 3.0, 20.0)]
-    return np.concatenate([random.uniform(low, high, 40), [0.0, -0.0], ends])
+    far = _far_heights(stages.last) if isinstance(stages.last, TiltedSearch) else []
+    return np.concatenate([random.uniform(low, high, 40), [0.0, -0.0], ends, far])
+
+
+def _far_heights(search: TiltedSearch) -> Floats:
+    """Heights up to the limit of the search, where its bounds of errors are about as large as what they bound."""
+    return search.highest**0.5 * np.array([1e-6, 1e-3, 0.01, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99, -0.3, -0.7, -0.9])
 
 
 def _tangent(stages: Stages, axis: tuple[float, ...], turn: Floats, z: Floats, side: int) -> Floats:
@@ -111,16 +127,40 @@ def _tangent(stages: Stages, axis: tuple[float, ...], turn: Floats, z: Floats, s
 
     For the inner side it is 0 where no centre is interior.
     """
-    sizes = np.tile(np.array(stages.setting.sizes), (len(z), 1))
     alpha, gamma, b, d = stages.setting.sizes
-    low, high = np.zeros(len(z)), alpha * np.hypot(1, z / gamma) + 3 * (b + d) * (1 + alpha / gamma)
+    high = alpha * np.hypot(1, z / gamma) + 3 * (b + d) * (1 + alpha / gamma)
+
+    def beyond(rho: Floats) -> Mask:
+        position = _exact(stages, axis, rho * turn[0], rho * turn[1], z)
+        return position == 1 if side > 0 else position != -1
+
+    return _halved(beyond, np.zeros(len(z)), high)
+
+
+def _exact(stages: Stages, axis: tuple[float, ...], *centre: Floats) -> Positions:
+    sizes, given = (np.tile(np.array(each), (len(centre[0]), 1)) for each in (stages.setting.sizes, axis))
+    return hypcheck.classify(np.ascontiguousarray(np.column_stack([sizes, *centre, given])))
+
+
+def _halved(beyond: Callable[[Floats], Mask], low: Floats, high: Floats) -> Floats:
+    """The least numbers, but for a rounding, at which `beyond` becomes true."""
     for _ in range(60):
         middle = (low + high) / 2
-        rows = [sizes, middle * turn[0], middle * turn[1], z, np.tile(np.array(axis), (len(z), 1))]
-        found = hypcheck.classify(np.ascontiguousarray(np.column_stack(rows)))
-        beyond = found == 1 if side > 0 else found != -1
-        low, high = np.where(beyond, low, middle), np.where(beyond, middle, high)
+        is_beyond = beyond(middle)
+        low, high = np.where(is_beyond, low, middle), np.where(is_beyond, middle, high)
     return high
+
+
+def _finest(stages: Stages, axis: tuple[float, ...], z: Floats) -> Iterator[tuple[Floats, ...]]:
+    """Centres far out whose clearance is a tiny share of u: y is within contact by a few roundings, x ends it.
+
+    The normal of the surface hardly has an x there, so that roundings of x are much smaller changes than those of y.
+    """
+    y = _tangent(stages, axis, _TURNS[1], z, 1) * (1 - 2.0**-50)
+    x = _halved(lambda x: _exact(stages, axis, x, y, z) == 1, np.zeros(len(z)), 1e-6 * y)
+    for power in range(-16, -5):
+        for change in np.linspace(-9, 9, 19) * 10.0**power:
+            yield x * (1 + change), y, z
 
 
 def _odd(x: float, gamma: float) -> Iterator[tuple[Floats, ...]]:
@@ -151,6 +191,21 @@ def _planes(stages: Stages, axis: tuple[float, ...], random: np.random.Generator
             for row in ("r2", "r3"):
                 z = -(exact[f"{row}x"] * Fraction(x) + exact[f"{row}y"] * Fraction(y)) / exact[f"{row}z"]
                 yield np.array([x]), np.array([y]), np.array([float(z)])
+        yield from _ring(exact, across)
+
+
+def _ring(exact: dict[str, Fraction], across: Floats) -> Iterator[tuple[Floats, ...]]:
+    """Centres next to where the dual function is flat at its pole B, as on the ring of an upright spheroid.
+
+    There the way from the maximum to the pole is as uncertain as it is long.
+    """
+    shares = [float(exact[f"{row}x"]) * across[0] + float(exact[f"{row}y"]) * across[1] for row in ("r1", "r2")]
+    poles, far = [float(exact[name]) for name in ("A1", "A2")], float(exact["B"])
+    rho = sum(pole * (share / (pole + far)) ** 2 for pole, share in zip(poles, shares, strict=True)) ** -0.5
+    for ulps in range(-40, 41):
+        z = 10.0 ** -np.arange(12.0, 32.0, 0.5)
+        at = rho * (1 + ulps * 2.0**-52)
+        yield np.full(len(z), at * across[0]), np.full(len(z), at * across[1]), z
 
 
 def _inverse(alpha: float, gamma: float, b: float, rho: float) -> Floats:
@@ -187,7 +242,18 @@ def _judge(plan: ScenePlan, stages: Stages, rows: Rows, found: np.ndarray) -> No
         kept &= near
     criterion = judge.Criterion(plan.question, plan.format.name, Fraction(8))
     asked, given = rows[kept], found[kept]
-    wrong = wrong_cases(asked, judge.exact_positions(asked), given, criterion)
-    for case in wrong:
+    truth = judge.exact_positions(asked)
+    if tilted:
+        _judge_proved(plan.question, asked, given, truth)
+    for case in wrong_cases(asked, truth, given, criterion):
         worst = judge.in_units(judge.measured(case, plan.question), criterion.unit)
         assert worst <= plan.bound_u, (worst, case)
+
+
+def _judge_proved(question: str, rows: Rows, given: Positions, truth: Positions) -> None:
+    """Answers that rest on a clear spheroid are right, and those that rest on contact if b and d grow by 1 u."""
+    clear, touching = (np.isin(given, ANSWERS[question][name]) for name in ("clear", "touching"))
+    assert (given == judge.expected(truth, question))[clear].all()
+    larger = rows[touching]
+    larger[:, 2:4] = np.nextafter(larger[:, 2:4], np.inf)
+    assert (judge.exact_positions(larger) == Position.CONTACT).all()
