@@ -5,6 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from functools import cache
 
+import numpy as np
 import pytest
 
 from hypcheck.geometry.pair import Position
@@ -14,7 +15,8 @@ from tests.tools.evidence.emitted_kernels import _scenes, _whole_scenes
 
 UPRIGHT = {name: (scene, precision) for name, scene, precision in _scenes()}
 WHOLE = dict(_whole_scenes())
-LINES_FIRST = [name for name in (*UPRIGHT, *WHOLE) if name.startswith(("forest", "tower")) or name == "whole, parts"]
+LINES_FIRST = [name for name in UPRIGHT if name.startswith(("forest", "tower"))]
+LINES_FIRST += ["whole, parts", "whole, exterior, everywhere"]
 
 
 @cache
@@ -73,6 +75,48 @@ def test_within_a_modelled_height_the_line_for_exterior_begins_before_the_box_of
         rounded_down = 1 + 2.0**-50
         highest = stages.discriminant.highest * rounded_down
         assert tallest <= highest or name == "a hill"  # whose zz is seen on both sides
+
+
+def enclosed(discriminant, R, zz):
+    """Enclosures of what float64 may compute for three times the discriminant: rounding to nearest keeps the order."""
+    values = {name: (value, value) for name, value in discriminant.constants.items()} | {"R": R, "zz": zz}
+    for step in discriminant.program.steps:
+        (low, high), (least, most) = (
+            values[name] if isinstance(name, str) else (name, name) for name in step.arguments
+        )
+        if step.operation == "mul":
+            products = np.broadcast_arrays(low * least, low * most, high * least, high * most)
+            values[step.name] = np.min(products, axis=0), np.max(products, axis=0)
+        else:
+            more = {"add": (least, most), "sub": (-most, -least)}[step.operation]
+            values[step.name] = low + more[0], high + more[1]
+    return values["delta_3"]
+
+
+def cells(marks):
+    """The intervals between these numbers, as their lower and their upper ends."""
+    return marks[:-1], marks[1:]
+
+
+def test_between_the_surface_and_the_line_the_discriminant_of_the_first_oak_is_not_above_its_bound():
+    stages = plan_named("forest float64").settings[0]
+    discriminant, (line,) = stages.discriminant, stages.lines
+    most = []
+    for low, high in zip(*cells(np.linspace(0, discriminant.highest, 33)), strict=True):
+        border = line.constants["intercept_1"] + line.constants["slope_1"] * high
+        assert border < discriminant.widest
+        marks = np.linspace(stages.centre["waist"], border * (1 + 2.0**-50), 20_000)
+        most.append(enclosed(discriminant, cells(marks), (low, high))[1].max())
+    assert 0 < max(most) <= discriminant.bound
+
+
+def test_the_discriminant_of_a_birch_is_nowhere_below_its_bound():
+    """Of this one the many at once are asked beyond the line too, up to the corner of the box."""
+    discriminant = plan_named("forest float64").settings[14].discriminant
+    marks = np.concatenate([np.linspace(0, 1, 20_000), np.geomspace(1, discriminant.widest, 200_000)[1:]])
+    heights = zip(*cells(np.linspace(0, discriminant.highest, 9)), strict=True)
+    least = min(enclosed(discriminant, cells(marks), height)[0].min() for height in heights)
+    assert -discriminant.bound <= least < 0
 
 
 def test_the_larger_term_of_a_frame_has_the_same_sign_at_every_axis_of_the_scenes_for_any_axis():
