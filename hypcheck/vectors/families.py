@@ -68,6 +68,7 @@ FAMILIES = _table(
     Family("whole-domain", extremes.whole_domain, 240),
     Family("coincidences", crossed.crossed("coincidences"), 300),
     Family("strata", border_lines.upright, 240, times=10),
+    Family("nearly-zero", together.nearly_zero),
     Family("extreme-float16", extremes.at_the_ends_of("float16"), 180, extreme=True),
     Family("extreme-float32", extremes.at_the_ends_of("float32"), 180, extreme=True),
     Family("extreme-float64", extremes.at_the_ends_of("float64"), 180, extreme=True),
@@ -96,6 +97,7 @@ TILTED_FAMILIES = _table(
     Family("tilted-coincidences", crossed.crossed("tilted-coincidences"), 370, tilted=True, times=2),
     Family("tilted-strata", border_lines.tilted, 200, tilted=True, times=10),
     Family("tilted-one-number-changed", tilted.one_number_changed, tilted=True),
+    Family("tilted-nearly-zero", together.tilted_nearly_zero, tilted=True),
     Family("tilted-whole-domain", together.tilted_domain, tilted=True),
     Family("extreme-tilted", tilted.whole_domain, 120, tilted=True, extreme=True),
 )
@@ -121,6 +123,7 @@ SWEEP_FAMILIES = _table(
     Family("way-stiff", sweeps.stiff, 108, layout=SWEEPS),
     Family("way-small-integers", sweeps.small_integers, 108, layout=SWEEPS),
     Family("way-one-number-changed", sweeps.one_number_changed(sweeps.at_an_end, 10), layout=SWEEPS),
+    Family("way-nearly-zero", together.sweep_nearly_zero, layout=SWEEPS),
     Family("way-whole-domain", together.sweep_domain, layout=SWEEPS),
     Family("way-coincidences", crossed.crossed("way-coincidences"), 353, layout=SWEEPS),
     Family("tilted-way-uniform", sweeps.tilted_uniform, 40, layout=SWEEPS, tilted=True),
@@ -142,8 +145,10 @@ SWEEP_FAMILIES = _table(
 
 ENDED_FAMILIES = _table(
     *(Family(name, make, frozen, ended=True) for name, (make, frozen) in ended.FAMILIES.items()),
+    Family("ended-nearly-zero", together.ended_nearly_zero, ended=True),
     Family("ended-whole-domain", together.ended_domain, ended=True),
     *(Family(name, make, frozen, tilted=True, ended=True) for name, (make, frozen) in ended.TILTED.items()),
+    Family("tilted-ended-nearly-zero", together.tilted_ended_nearly_zero, tilted=True, ended=True),
     Family("tilted-ended-traps", together.ended_tilts, tilted=True, ended=True, times=2),
     Family("tilted-ended-coincidences", together.ended_coincidences, tilted=True, ended=True),
 )

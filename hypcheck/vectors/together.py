@@ -1,4 +1,4 @@
-"""Traps of several groups of columns in one row: of the axis, of the heights, of the sweep, and the ends of the domain.
+"""Traps of several columns in one row: of axis, heights and sweep, coordinates nearly zero, the ends of the domain.
 
 The other modules have the traps of each group beside ordinary values of the others. A program may be right for all of
 these and wrong where two of them meet, such as an axis that is not normalised beside an end, or a sweep of length 0
@@ -13,7 +13,7 @@ from hypcheck.geometry.rows import Floats, Mask, Rows, within
 from hypcheck.vectors import crossed, ended, extremes, sweeps, tilted
 from hypcheck.vectors.double_roots import gathered
 from hypcheck.vectors.draw import Draw, Maker, in_turn, turns
-from hypcheck.vectors.random_pairs import Sizes, offsets
+from hypcheck.vectors.random_pairs import Sizes, all_regimes, beside_surface, heights, offsets, sizes, stack
 from hypcheck.vectors.tilted import Vectors, anywhere
 
 _START, _END = 6, 9
@@ -84,14 +84,46 @@ def _nearly_along(draw: Draw, n: int) -> Vectors:
     return across * cosine, across * sine, up
 
 
+def _little(draw: Draw, n: int) -> Floats:
+    """Shares from 2⁻¹⁰⁰⁰ to 2⁻²⁰ of either sign, half of them above 2⁻⁶⁰, as rounding errors of an angle are."""
+    deep = draw.signs(n) > 0
+    return draw.signs(n) * np.where(deep, draw.log_uniform(n, -1000, -60), draw.log_uniform(n, -60, -20))
+
+
+NEARLY_ZERO = ("x", "y", "z", "xz", "yz", "xy")
+
+
+def nearly_zero(draw: Draw, n: int) -> Rows:
+    """Pairs of which one or two coordinates, those of NEARLY_ZERO in turn, are nearly zero beside the sizes."""
+    x_is, y_is, z_is = (turns(n, *(axis in axes for axes in NEARLY_ZERO)) for axis in "xyz")
+    a, c = all_regimes(draw, n)
+    a = np.where(x_is & y_is, 1 + draw.signs(n) * draw.log_uniform(n, -20, -1), a)
+    size = sizes(draw, a, c)
+    hair = draw.signs(n) * (1 + draw.signs(n) * draw.log_uniform(n, -40, -3))
+    offset = np.where(draw.signs(n) > 0, offsets(draw, n), hair)
+    radius, height = beside_surface(size.a, size.c, np.where(z_is, 0.0, heights(draw, size.c)), offset)
+    cosine, sine = draw.circle(n)
+    x = np.where(x_is, _little(draw, n), radius * np.where(y_is, draw.signs(n), cosine))
+    y = np.where(y_is, _little(draw, n), radius * np.where(x_is, draw.signs(n), sine))
+    z = np.where(z_is, _little(draw, n), height * draw.signs(n))
+    return stack(size, size.b * x, size.b * y, size.d * z)
+
+
+def tilted_nearly_zero(draw: Draw, n: int) -> Rows:
+    """The same places, with axes in every direction."""
+    return np.concatenate([nearly_zero(draw, n), np.stack(anywhere(draw, n), axis=1)], axis=1) + 0.0
+
+
 TILTS = (tilted.slight, tilted.any_length, tilted.spheres, tilted.upright, tilted.stiff, tilted_domain)
 """Traps of the axis, and of sizes, as rows of ten numbers."""
 
 ended_domain = ended_pairs(extremes.whole_domain)
+ended_nearly_zero, tilted_ended_nearly_zero = ended_pairs(nearly_zero), ended_pairs(tilted_nearly_zero)
 ended_tilts = in_turn(*map(ended_pairs, TILTS), ended.rim(_nearly_along), ended.disc(_nearly_along))
 ended_coincidences = ended_pairs(crossed.crossed("tilted-coincidences"))
 
 sweep_domain = sweeps.beside_rows(extremes.whole_domain)
+sweep_nearly_zero = sweeps.beside_rows(nearly_zero)
 sweep_tilts = in_turn(*map(sweeps.beside_rows, TILTS))
 
 ended_lengths = in_turn(*map(ended_sweeps, (sweeps.still, sweeps.very_short, sweeps.very_long, sweep_domain)))

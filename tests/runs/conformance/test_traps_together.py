@@ -1,7 +1,7 @@
-"""`verify SPEC` rejects implementations that are wrong only where traps of two groups of columns meet, at its defaults.
+"""`verify SPEC` rejects implementations that are wrong only where traps of several columns meet, at its defaults.
 
 Each of them is right about tilted spheroids, about ends and about sweeps, and wrong where a special axis, a special
-place or an uncommon size comes together with another of these.
+place or an uncommon size comes together with another of these, or where a coordinate is nearly zero beside another.
 """
 
 from __future__ import annotations
@@ -106,9 +106,32 @@ def leaning_little_on_a_sweep(row):
     return leaning_little(row) if "z_min" in row else (lean(row)[0] > 0) & (lean(row)[0] < 1e-4)
 
 
+def nearly_on_the_plane_of_y(row):
+    return (row["x"] != 0) & (np.abs(row["x"]) < 1e-12 * np.abs(row["y"]))
+
+
+def hardly_above_the_waist(row):
+    return (row["z"] != 0) & (np.abs(row["z"]) < 1e-150)
+
+
+def hardly_off_the_axis(row):
+    across = np.hypot(row["x"], row["y"])
+    return (across > 0) & (across < 1e-6 * row["b"])
+
+
+def begun_hardly_off_the_plane_of_x(row):
+    return (row["y0"] != 0) & (np.abs(row["y0"]) < 1e-12 * np.abs(row["x0"]))
+
+
 @pytest.mark.parametrize(
     ("question", "takes", "wrong_where", "family"),
     [
+        ("position", UPRIGHT, nearly_on_the_plane_of_y, "nearly-zero"),
+        ("position", UPRIGHT, hardly_above_the_waist, "nearly-zero"),
+        ("position", TILT, hardly_off_the_axis, "tilted-nearly-zero"),
+        ("position", HEIGHTS, nearly_on_the_plane_of_y, "ended-nearly-zero"),
+        ("position", HEIGHTS, hardly_off_the_axis, "tilted-ended-nearly-zero"),
+        ("passage", UPRIGHT, begun_hardly_off_the_plane_of_x, "way-nearly-zero"),
         ("position", TILT, huge_tilted, "tilted-whole-domain"),
         ("position", HEIGHTS, on_the_axis, "tilted-ended-coincidences"),
         ("position", HEIGHTS, leaning_little, "tilted-ended-traps"),

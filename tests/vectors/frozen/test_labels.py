@@ -294,11 +294,12 @@ def test_freezing_keeps_ids_of_old_invalid_rows_and_appends_new_ones():
 def test_freezing_has_a_count_for_every_family_and_a_search_for_every_stratum():
     kinds = ("tilted", "way", "tilted-way", "ended", "ended-way")
     domains = {f"{kind}-whole-domain" for kind in ("tilted", "way", "ended")}
+    little = {f"{kind}nearly-zero" for kind in ("", "tilted-", "way-", "ended-", "tilted-ended-")}
     together = {"tilted-way-traps", "ended-way-lengths", "ended-way-coincidences"}
     together |= {f"tilted-ended-{kind}" for kind in ("traps", "coincidences", "way-traps", "way-coincidences")}
     assert {name for name, family in ALL.items() if not family.frozen} == {
         f"{kind}-one-number-changed" for kind in kinds
-    } | domains | together
+    } | domains | together | little
     assert set(STRATA) <= set(FAMILIES)
     assert len(searches()) == len(DEFEATED) * 2 * len(STRATA) * BEGINNINGS
 
