@@ -81,6 +81,12 @@ def test_sweeps_that_mean_nothing_are_refused(arguments, sentence):
         hypcheck.passage(*arguments)
 
 
+@pytest.mark.parametrize("sweep", [((3, 0, 0), (0, 0, 0)), (STARTS, ENDS)], ids=["one", "many"])
+def test_sweeps_beside_heights_that_leave_nothing_are_refused(sweep):
+    with pytest.raises(InputError, match="z_min must be less than z_max"):
+        hypcheck.passage(SIZES, *sweep, z_min=2.0, z_max=1.0)
+
+
 def test_many_sweeps_with_an_axis_of_the_hyperboloid_are_refused():
     with pytest.raises(InputError, match="upward is given, and the sweeps are many; a scene has tilted hyperboloids"):
         hypcheck.passage(SIZES, STARTS, ENDS, upward=(0, 1, 1))

@@ -12,6 +12,7 @@ import sympy
 
 from hypcheck.geometry.pair import Lengths, Pair, Position
 from hypcheck.truth.box_proofs import Form
+from hypcheck.vectors import frozen
 from tests.support.inside import Decision, bracket, decide, estimate, quick_bracket, tolerated
 from tests.support.inside import position as exact_position
 from tests.tools.oracle_agreement import rows
@@ -35,6 +36,9 @@ def decided(row):
         # x + b = α from within.
         ([1, 4, 0.125, 0.25, 0.875 - STEP, 0, 0, 0, 1, 0], CONTACT, STEP / (2 - STEP)),
         ([1, 4, 0.125, 0.25, 0.875 + STEP, 0, 0, 0, 1, 0], INTERIOR, STEP / (2 + STEP)),
+        # With its centre on the wall it is clear on a side where b and α, and x, change by b/2 together.
+        ([1, 4, 0.125, 0.25, 1, 0, 0, 0, 1, 0], EXTERIOR, 0.125 / 2.125),
+        ([1, 4, 0.125, 0.25, 1, 0, 0, 0, 1, 0], INTERIOR, 0.125 / 2.125),
         # The same needle along x: x − d = α.
         ([1, 4, 0.0625, 0.125, 1.125 + STEP, 0, 0, -7, 0, 0], CONTACT, STEP / (2.25 + STEP)),
         ([1, 4, 0.0625, 0.125, 0.875 - STEP, 0, 0, -7, 0, 0], CONTACT, STEP / (2 - STEP)),
@@ -61,6 +65,16 @@ def test_change_between_the_ends_of_a_bracket_is_neither_tolerated_nor_refused(r
     found = bracket(pair, truth, answer)
     for change, expected in ((found.lower, False), ((found.lower + found.upper) / 2, None), (found.upper, True)):
         assert tolerated(pair, truth, [answer], Fraction(change)) is expected
+
+
+@pytest.mark.parametrize(("name", "number", "answer"), [("symmetric", 8, INTERIOR), ("twins", 4, CONTACT)])
+def test_bracket_of_which_no_lower_end_is_proved_begins_at_0(name, number, answer):
+    """Neither float64 nor one certificate excludes a change: nearest points are two by symmetry, or all around."""
+    row = frozen.load(f"tilted-{name}").cases[number].row
+    found = quick_bracket(Pair.from_row(row), decided(row), answer)
+    assert found.lower == 0 < found.upper < 1
+    assert found == bracket(Pair.from_row(row), decided(row), answer)
+    assert tolerated(Pair.from_row(row), decided(row), [answer], Fraction(found.upper)) is True
 
 
 def test_bracket_with_a_vertical_axis_holds_the_exact_error_of_the_upright_pair():

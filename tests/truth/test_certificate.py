@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from fractions import Fraction
 
@@ -9,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 
 from hypcheck.geometry.pair import Pair, Position
-from tests.support.inside import Certificate, Piece, check_certificate, prove
+from tests.support.inside import Certificate, Piece, check_certificate, decide, prove
 from tests.support.inside import position as exact_position
 from tests.support.pairs import pairs
 
@@ -212,3 +213,32 @@ def test_pairs_a_hair_from_tangency_of_tall_spheroids_and_far_from_it_have_short
     if certificate.multiplier is not None:
         digits = abs(certificate.multiplier.numerator)
         assert (digits // (digits & -digits)).bit_length() <= (2 if row[4] in (4.0, 1.0) else 64)
+
+
+HAIR = 2.0**-30
+
+
+@pytest.mark.parametrize(
+    ("unit", "x"),
+    [(1.0, 0.0), (1.0, 1e-200), (1e150, 1e-200)],
+    ids=["on the axis", "beside it", "beside it by no float"],
+)
+def test_a_ball_that_reaches_the_wall_around_it_by_a_hair_has_a_certificate(unit, x):
+    """From the height 1 on the axis the wall of α = γ = 1 is √1.5 away, all around."""
+    radius = (math.sqrt(1.5) + HAIR) * unit
+    pair = Pair(unit, unit, radius, radius, x, 0.0, unit)
+    certificate = prove(pair, decide(pair.lengths))
+    assert certificate.position is Position.CONTACT
+    assert len(certificate.points) == 2
+    assert check_certificate(pair, certificate)
+
+
+def test_a_ball_above_a_flat_end_within_the_wall_is_proved_clear_in_pieces():
+    """In the last piece below the ball its sections are empty, within the wall."""
+    pair = Pair.from_row((8.0, 8.0, 1.0, 1.0, 0.0, 0.0, 2.0625, 0.0, 0.0, 1.0, -64.0, 1.0, 1.0))
+    certificate = prove(pair, decide(pair.lengths))
+    assert certificate.position is Position.EXTERIOR
+    assert certificate.multiplier is None
+    assert len(certificate.pieces) > 1
+    assert check_certificate(pair, certificate)
+    assert not check_certificate(pair, replace(certificate, pieces=certificate.pieces[:-1]))

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from hypcheck.geometry.pair import Pair, Position
-from hypcheck.truth.ended_error import EndedFlip
+from hypcheck.truth.ended_error import EndedFlip, clearance
+from tests.support.inside import decide
 from tests.support.inside import position as exact_position
 
 EXTERIOR, CONTACT, INTERIOR = Position.EXTERIOR, Position.CONTACT, Position.INTERIOR
@@ -114,3 +115,10 @@ def test_a_changed_spheroid_lies_in_the_one_that_is_grown_by_the_bound(axis, sem
         grown = (1 + 1.01 * change * K) * (1 + 1.02 * change * K) * (1 + change) / (1 - change) - 1
         proved = grown + 2 * change / (1 - change) * (np.abs(centre) * lengths).sum()
         assert 1 - 1e-9 < bound / proved < 1.0011, "η of the module's docstring, rounded up"
+
+
+def test_clearance_of_a_spheroid_too_small_for_float64_to_count_its_radii_is_infinite():
+    """1e20 away, it is 1e320 radii away; without its heights it is as far."""
+    pair = Pair.from_row((1.0, 1.0, 1e-300, 1e-300, 1e20, 0.0, 0.0, 0.0, 0.0, 1.0, -1.0, 1.0, 0.0))
+    decision = decide(pair.lengths)
+    assert (decision.position, clearance(pair, decision)) == (EXTERIOR, math.inf)

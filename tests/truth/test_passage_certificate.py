@@ -18,6 +18,8 @@ OUTSIDE = (2.0, 3.0, 1.0, 1.0, -6.0, 5.0, 1.0, 8.0, 3.25, 0.5)
 TUNNEL = (2.0, 3.0, 1.0, 0.5, -6.0, 0.5, 1.0, 8.0, 0.5, 0.5, 1.0, 0.0, 2.0)
 GRAZING = (2.0, 3.0, 1.0, 1.0, -4.0, 3.0, 0.0, 4.0, 3.0, 0.0)
 STILL = (2.0, 3.0, 1.0, 1.0, 2.5, 0.0, 0.0, 2.5, 0.0, 0.0)
+ON_WALL = (1.0, 2.0, 1.0, 1.0, 1.0, 0.0, 0.0, 3.0, 0.0, 0.0)
+"""Its centre begins on the wall: one point proves it."""
 INSIDE = (4.0, 3.0, 1.0, 1.0, 0.5, 0.0, -9.0, 0.5, 1.0, 9.0)
 
 
@@ -32,7 +34,7 @@ def random_ways(number):
         )
 
 
-@pytest.mark.parametrize("row", [THROUGH, OUTSIDE, TUNNEL, GRAZING, STILL, INSIDE, *random_ways(24)])
+@pytest.mark.parametrize("row", [THROUGH, OUTSIDE, TUNNEL, GRAZING, STILL, ON_WALL, INSIDE, *random_ways(24)])
 def test_proof_found_for_a_way_passes_its_check(row):
     found, first, certificate = prove_passage(row)
     assert check_passage(row, certificate, first)

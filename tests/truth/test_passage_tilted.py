@@ -271,3 +271,10 @@ def test_what_stands_for_a_discriminant_that_is_always_0_is_the_next_subresultan
         ratios.add(determinant / polynomials.value(sweep.root_changes(), Fraction(time)))
     assert len(ratios) == 1
     assert 0 not in ratios
+
+
+def test_a_coin_that_falls_past_the_narrowest_place_touches_it_for_an_instant():
+    """It stands across x, 2 in radius, its centre at y = 1: at the height 0 it reaches y = 3, where the throat ends."""
+    found = passage((3, 2, 2, 1), (0, 1, -3), (0, 1, 3), (1, 0, 0))
+    assert (found.hit, found.first, found.grazes) == (True, (Fraction(1, 2), Fraction(1, 2)), True)
+    assert not passage((3, 2, 2, 1), (0, Fraction(999, 1000), -3), (0, Fraction(999, 1000), 3), (1, 0, 0)).hit
