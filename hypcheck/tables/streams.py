@@ -100,7 +100,9 @@ class Reader:
         return data
 
     def size(self) -> int | None:
-        """The length of a regular file in bytes; None for a stream."""
+        """The length of a regular file, or of what was unpacked, in bytes; None for a stream."""
+        if isinstance(self._file, io.BytesIO):
+            return self._file.getbuffer().nbytes
         with _errors_name("read", self.name):
             status = os.fstat(self._file.fileno())
         return status.st_size if stat.S_ISREG(status.st_mode) else None

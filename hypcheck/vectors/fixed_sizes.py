@@ -294,7 +294,8 @@ def _tilted_razor(setting: FixedSizes, draw: Draw, n: int) -> Rows:
     spread = draw.signs(16) * max(setting.sizes[2:]) * 4.0
     edges = np.array([_tilted_edge(row, offset) for row, offset in zip(touching, spread.tolist(), strict=True)])
     rows = np.resize(edges, (n, 10))
-    rows[:, 4] = stepped(np.ascontiguousarray(rows[:, 4]), draw.integers(n, -6, 6))
+    x, steps = np.ascontiguousarray(rows[:, 4]), draw.integers(n, -6, 6)
+    rows[:, 4] = stepped(x, np.maximum(steps, -np.abs(x).view(np.int64)))  # not past 0
     return rows + 0.0
 
 

@@ -49,6 +49,13 @@ def test_a_packed_file_is_read_as_what_it_holds(tmp_path, capsys):
     assert first == second.replace(str(plain), str(packed))
 
 
+def test_a_packed_table_is_answered_as_what_it_holds(source, tmp_path):
+    packed, target = tmp_path / "in.csv.xz", tmp_path / "out.csv"
+    packed.write_bytes(lzma.compress(source.read_bytes()))
+    assert classify(packed, target, "--format", "csv") == 0
+    assert target.read_text(encoding="utf-8") == ANSWER
+
+
 @pytest.mark.parametrize(
     ("data", "says"),
     [

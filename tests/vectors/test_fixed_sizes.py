@@ -55,9 +55,10 @@ def test_invalid_name_of_a_family_for_fixed_sizes_is_refused(name, message):
         family_at(name)
 
 
-def test_a_family_for_fixed_sizes_whose_wall_leaves_float64_has_finite_rows():
+@pytest.mark.parametrize("axis", [None, (1.0, 0.0, 1.0)])
+def test_a_family_for_fixed_sizes_whose_wall_leaves_float64_has_finite_rows(axis):
     """At the height 1 the wall is 1e310 from the axis: a centre there is inside at every float."""
-    setting = FixedSizes((1e300, 1e-10, 1.0, 1.0))
+    setting = FixedSizes((1e300, 1e-10, 1.0, 1.0), axis=axis)
     for family in families_for((setting,)):
         rows = family.block(3, 0)[:64]
         assert np.isfinite(rows).all()
