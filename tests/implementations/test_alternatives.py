@@ -29,6 +29,7 @@ from hypcheck.implementations.alternatives import (
 from hypcheck.implementations.builtin import builtin, builtin_methods
 from hypcheck.implementations.method import on_rows, on_scene
 from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES, select
+from hypcheck.vectors.frozen import load
 from tests.support import inside
 from tests.support.inside import numpy_kernel_positions
 
@@ -185,3 +186,11 @@ def test_by_eigenvectors_with_few_bisections_has_more_errors():
     truth = hypcheck.classify(rows)
     few, many = (np.count_nonzero(by_eigenvectors(rows, turns) != truth) for turns in (5, alternatives.TURNS))
     assert 2 * many < few
+
+
+def test_two_roots_that_mpmath_finds_equal_are_contact():
+    """A tangency of the frozen vectors; of most, the two come out a little apart."""
+    row = [17.45037176355254, 2.4914282880490646, 7.94814582914114, 0.3576665623113513, -13.731668396969326]
+    row += [-10.298751297726994, -2.6182321517553646]
+    assert row in load("tangent").rows.tolist()
+    assert alternatives.mpmath_roots(np.array([row]), digits=20).tolist() == [0]

@@ -133,6 +133,26 @@ def test_a_library_answers_with_times_and_is_timed_in_one_call(tmp_path):
     assert total == 1
 
 
+def test_a_tilted_scene_of_a_library_is_asked_with_its_axis(tmp_path):
+    """It answers the sign of x and the axis's x together."""
+    library = libraries.Library(str(compiled("tilted", tmp_path / "tilted.so", *SHARED)))
+    some = np.ones((3, 10))
+    some[:, 4] = -3, -0.5, 2
+    assert library.classify(some, CALLS[1]).integers.tolist() == [-1, 1, 1]
+    some[:, 7] = -1.0
+    assert library.classify(some, CALLS[1]).integers.tolist() == [-1, -1, 1]
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere names of files are Unicode")
+def test_the_worker_finds_the_entries_of_a_library_whose_path_is_not_utf8(tmp_path):
+    path = compiled("faulty", tmp_path / os.fsdecode(b"\xff.so"), *SHARED)
+    library = libraries.Library(str(path))
+    assert (library.entries, library.description) == (("hypcheck_classify",), "")
+    path.with_name(os.fsdecode(b"\xfe.so")).write_bytes(b"nothing")
+    with pytest.raises(LoadError, match="cannot be loaded"):
+        libraries.Library(str(path.with_name(os.fsdecode(b"\xfe.so"))))
+
+
 def test_the_worker_refuses_a_file_that_is_no_library(tmp_path):
     (tmp_path / "short.so").write_bytes(b"nothing")
     silent = compiled("describes_nothing", tmp_path / "silent.so", *SHARED)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import shutil
 import signal
@@ -17,7 +18,7 @@ from hypcheck.errors import InputError
 from hypcheck.implementations import memory
 from hypcheck.implementations.implementation import open_implementation
 from hypcheck.implementations.process import ONE_THREAD, Process
-from hypcheck.implementations.session import FaultError, Limits, Outcome
+from hypcheck.implementations.session import FaultError, Limits, Outcome, StartError
 from tests.tools.miniatures import LIMITS, NOT_ISOLATED, all_gone, command, function, living, needs_proc, rows
 
 
@@ -314,6 +315,15 @@ def test_the_end_of_a_process_is_reported_with_its_cause(code, sentence, run):
     process.kill()
     process.kill()
     assert caught.value.outcome is Outcome.CRASH
+
+
+def test_a_program_that_ends_while_its_child_keeps_its_output_open_has_ended():
+    """The child, which would sleep for minutes, is killed."""
+    spec = "command:" + json.dumps(["sh", "-c", "sleep 300 & exit 3"])
+    began = time.monotonic()
+    with pytest.raises(StartError, match="it ended by itself with exit status 3 before it described itself"):
+        open_implementation(spec, NOT_ISOLATED)
+    assert time.monotonic() - began < 30
 
 
 def test_the_last_standard_error_of_a_process_is_read_after_its_end(run):

@@ -107,3 +107,14 @@ def test_ball_mesh_is_inscribed_and_closed():
     a, b, c = (vertices[triangles[:, corner]] for corner in range(3))
     volume = np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6
     assert abs(volume) == pytest.approx(4 * np.pi / 3, rel=0.05)
+
+
+def test_steps_by_distance_of_rows_with_a_vertical_axis_are_those_of_upright_rows():
+    some = ROWS[:, :10]
+    upright, leaning = (
+        sweeps.advanced(some),
+        sweeps.advanced(np.hstack([some, np.tile((0.0, 0.0, -2.0), (len(some), 1))])),
+    )
+    assert upright[0].tolist() == leaning[0].tolist()
+    assert {0, 1} <= {*upright[0].tolist()}
+    np.testing.assert_allclose(upright[1], leaning[1], rtol=1e-9)

@@ -278,3 +278,10 @@ def test_a_coin_that_falls_past_the_narrowest_place_touches_it_for_an_instant():
     found = passage((3, 2, 2, 1), (0, 1, -3), (0, 1, 3), (1, 0, 0))
     assert (found.hit, found.first, found.grazes) == (True, (Fraction(1, 2), Fraction(1, 2)), True)
     assert not passage((3, 2, 2, 1), (0, Fraction(999, 1000), -3), (0, Fraction(999, 1000), 3), (1, 0, 0)).hit
+
+
+def test_a_polynomial_whose_first_coefficient_the_prime_of_the_quick_test_divides_is_made_squarefree():
+    """Modulo that prime, 2⁶¹ − 1, it has another degree: whether it has a double root is found in integers."""
+    p = 2**61 - 1
+    assert polynomials.squarefree((p * p, -2 * p, 1)) == (p, -1)
+    assert polynomials.squarefree((p, 0, -1)) == (p, 0, -1)
