@@ -44,7 +44,13 @@ EATS = {16: (Outcome.CRASH, r"memory: its processes grew to 0\.\d+ GiB")}
 
 
 @pytest.mark.parametrize(
-    ("name", "faults", "limits"), [("goes_wrong", GOES_ON, LIMITS), ("ends", ENDS, QUICK), ("ends", EATS, LIMITS)]
+    ("name", "faults", "limits"),
+    [
+        ("goes_wrong", GOES_ON, LIMITS),
+        ("goes_wrong", GOES_ON, NOT_ISOLATED),
+        ("ends", ENDS, QUICK),
+        ("ends", EATS, LIMITS),
+    ],
 )
 def test_a_fault_of_a_function_fails_only_its_own_row_with_the_reason_and_costs_a_restart_if_it_ends(
     name, faults, limits
@@ -81,6 +87,13 @@ def test_a_function_that_does_not_return_one_integer_per_row_breaks_the_protocol
             assert answered.count(Outcome.PROTOCOL) == 40
             assert all(re.search(sentence, answered.reasons[index]) for index in range(40))
         assert restarts_of(it) == 0
+
+
+def test_a_function_that_does_not_return_integers_breaks_the_protocol_without_isolation_too():
+    with open_implementation(function("floats"), NOT_ISOLATED) as it:
+        answered = it.classify(rows(3, lucky=True))
+    assert answered.status.tolist() == [Outcome.PROTOCOL] * 3
+    assert answered.reasons[0] == "it returned an array of float64; it must be integers, such as int8"
 
 
 def test_a_function_that_has_never_answered_is_given_up_after_1024_rows():

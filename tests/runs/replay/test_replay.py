@@ -189,6 +189,14 @@ def test_error_of_another_formula_is_not_reported_about_the_implementation(capsy
     assert json.loads(capsys.readouterr().out)["values"]["own"] is own
 
 
+def test_replay_beside_a_hyperboloid_that_ends_is_refused_where_the_implementation_takes_no_heights(capsys):
+    assert main(["replay", "ended-rim-0000", "builtin:table-2-float64"]) == 2
+    refusal = (
+        "hypcheck: error: ended-rim-0000 has heights at which the hyperboloid ends, and table-2-float64 takes none; "
+    )
+    assert capsys.readouterr().err == f'{refusal}its description must have "takes": ["heights"]\n'
+
+
 def test_replay_prints_the_text_of_every_formula(capsys):
     for name in ("shared", "local-maximum", "dual", "procedure-2a-spheroid"):
         assert main(["replay", "tangent/1/1/5", "builtin:fast", "--formula", name, "--precision", "float32"]) == 0
