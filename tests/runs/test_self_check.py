@@ -28,12 +28,15 @@ PROVED = Proof("hessian", "delta", True, "as if it had been proved")
 EVERY = ("exact", "nearest", "roots", "heights", "mesh")
 
 
-def checked(oracles=("exact", "nearest", "roots"), proof=PROVED, **parts):
+def checked(oracles=("exact", "nearest", "roots"), proof=PROVED, first=400, **parts):
     """The exit code and the lines of a small run whose derivation is over at once, without the map and the timing.
 
-    Errors that have nothing to do with meshes are looked for without these, which would take most of its time.
+    Errors that have nothing to do with meshes are looked for without these, which would take most of its time. Methods
+    and formulas are asked about the `first` cases.
     """
-    plan = SelfCheckPlan(("ring", "tangent"), count=6, workers=1, oracles=oracles)
+    plan = SelfCheckPlan(
+        ("ring", "tangent"), count=6, judged=first, workers=1, oracles=oracles, exact_formulas=min(first, 60)
+    )
     outcome = RunOutcome()
     recorder = Recorder(GrowingText(), self_check.options(plan))
     first, *_ = self_check.stages(plan, recorder, outcome, derive=lambda: ((), (proof,)), **parts)
@@ -43,6 +46,18 @@ def checked(oracles=("exact", "nearest", "roots"), proof=PROVED, **parts):
 
 def test_undisturbed_small_run_ends_with_0():
     assert checked(EVERY)[0] == 0
+
+
+def test_oracles_decide_the_same_cases_in_one_step_and_in_three(monkeypatch):
+    def opinions(lines):
+        found = [line for line in lines if isinstance(line, OracleLine)]
+        return {(line.oracle, line.family): (line.asked, line.undecided, line.stages) for line in found}
+
+    whole = opinions(checked()[1])
+    monkeypatch.setattr(self_check, "CASES", 2)
+    code, lines = checked(first=2)
+    assert (code, opinions(lines)) == (0, whole)
+    assert {asked for asked, *_ in whole.values()} == {6}
 
 
 @pytest.mark.parametrize("name", EVERY)
