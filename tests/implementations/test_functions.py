@@ -96,6 +96,17 @@ def test_a_function_that_does_not_return_integers_breaks_the_protocol_without_is
     assert answered.reasons[0] == "it returned an array of float64; it must be integers, such as int8"
 
 
+def test_a_function_that_cannot_be_loaded_again_is_given_up_with_the_reason(tmp_path):
+    """Its file is gone when its process has ended."""
+    (tmp_path / "once.py").write_text("import os\nos.remove(__file__)\ndef f(rows):\n    os._exit(3)\n")
+    with open_implementation(f"python:{tmp_path / 'once.py'}:f", NOT_ISOLATED) as it:
+        answered = it.classify(rows(3, lucky=True), batch=1)
+        with pytest.raises(TimingError, match="could not be timed: not asked: it could not be started again"):
+            it.time(rows(3, lucky=True), 1)
+    assert answered.status.tolist() == [Outcome.CRASH, Outcome.NOT_RUN, Outcome.NOT_RUN]
+    assert re.search("not asked: it could not be started again: .*there is no file", answered.reasons[1])
+
+
 def test_a_function_that_has_never_answered_is_given_up_after_1024_rows():
     with open_implementation(function("floats"), LIMITS) as it:
         answered = it.classify(rows(1100), batch=150)

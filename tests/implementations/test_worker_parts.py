@@ -9,7 +9,9 @@ import sys
 import numpy as np
 import pytest
 
+from hypcheck.errors import InputError
 from hypcheck.implementations import worker
+from hypcheck.implementations.description import Description, described_by_json
 from hypcheck.implementations.foreign import ContractError, LoadError, PythonFunction, error_text
 from hypcheck.implementations.frames import CALLS
 from hypcheck.implementations.protocol import TextReply, TimeReply
@@ -179,3 +181,9 @@ def test_a_reply_with_a_missing_time_or_checksum_breaks_the_protocol():
     with pytest.raises(FaultError) as raised:
         TimeReply(7).length(bytearray(b"7 100\n"))
     assert raised.value.reason == "it wrote '7 100' where '7 NANOSECONDS CHECKSUM' had to come"
+
+
+def test_a_description_longer_than_any_that_is_meant_is_refused_unread():
+    with pytest.raises(InputError, match=r"longer than 65536 bytes$"):
+        described_by_json(" " * 65537, Description(name="x"))
+    assert described_by_json(" " * 65534 + "{}", Description(name="x")).name == "x"

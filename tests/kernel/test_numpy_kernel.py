@@ -10,7 +10,7 @@ import pytest
 import hypcheck
 from hypcheck.geometry.pair import Pair
 from tests.support import inside
-from tests.support.inside import Buffers, chunks, numpy_kernel, positions_of_scene, scene_lines
+from tests.support.inside import Buffers, choice, chunks, numpy_kernel, positions_of_scene, scene_lines
 
 
 @pytest.mark.thorough
@@ -153,3 +153,15 @@ def test_a_row_is_tilted_by_its_axis_and_unlike_semi_axes_wherever_its_centre_is
         [2.0, 3.0, b, size, x, 0.0, 0.0, *axis] for axis in ((1, 0, 1), (0, 0, 1)) for size in (d, b) for x in (b, d)
     ]
     assert numpy_kernel.is_tilted(np.array(rows)).tolist() == [True, True, False, False, False, False, False, False]
+
+
+def test_a_scene_of_many_centres_is_written_into_the_given_memory_without_the_compiled_kernel(monkeypatch):
+    """A unit ball before a wall at 1: it touches where its centre is at 2."""
+    out = np.full(4, 9, np.int8)
+    monkeypatch.setenv("HYPCHECK_KERNEL", "numpy")
+    choice.cache_clear()
+    x = np.array([2.5, 2.0, 1.0, 9.0])
+    found = hypcheck.classify_scene((1.0, 2.0, 1.0, 1.0), x, np.zeros(4), np.zeros(4), out=out)
+    choice.cache_clear()
+    assert np.shares_memory(found, out)
+    assert out.tolist() == [1, 0, 0, 1]

@@ -81,6 +81,13 @@ def test_minimising_a_row_that_is_not_valid_is_refused(capsys):
     assert errors == "hypcheck: error: invalid-0003: alpha is -0.0; a semi-axis must be greater than 0\n"
 
 
+def test_a_hunt_whose_rows_could_not_be_kept_is_refused_before_it_begins(capsys, tmp_path):
+    path = tmp_path / "nowhere" / "ours.json"
+    code, output, errors = told(capsys, "hunt", "builtin:fast", "--queries", "40", "--out", str(path))
+    assert (code, output) == (2, "")
+    assert errors.endswith(f"hypcheck: error: cannot write {path}: there is no folder {path.parent}\n")
+
+
 def test_rows_that_a_hunt_found_are_added_to_a_vector_file(capsys, built_in, tmp_path):
     path = str(tmp_path / "ours.json")
     hunt = ("hunt", built_in(contact_everywhere), "--queries")

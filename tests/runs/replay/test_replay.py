@@ -111,6 +111,8 @@ def test_replay_has_no_values_of_a_formula_that_finds_no_multiplier(capsys):
     """In float16, whose greatest number is 65504, the sizes 1e5 are infinite."""
     found = replayed(capsys, "1e5,1e5,1,1,1e5,1,1", "builtin:fast", "--formula", "dual", "--precision", "float16")
     assert found["values"] == {"why": "the search of dual finds no finite λ in float16", "own": False}
+    assert main(["replay", "1e5,1e5,1,1,1e5,1,1", "builtin:fast", "--formula", "dual", "--precision", "float16"]) == 0
+    assert "none: the search of dual finds no finite λ in float16\n" in capsys.readouterr().out
 
 
 def test_range_of_a_format_that_has_enough_is_no_cause_of_a_wrong_answer(capsys, built_in):
@@ -139,6 +141,15 @@ def test_replay_judges_answers_to_invalid_rows(capsys):
     assert (found["status"], found["truth"], found["values"]) == ("wrong", None, None)
     assert main(["replay", "invalid-0003", "builtin:fast"]) == 2
     assert "does not declare" in capsys.readouterr().err
+
+
+def test_replay_of_an_invalid_row_shows_the_fault_of_what_promised_to_refuse_it(capsys, tmp_path):
+    (tmp_path / "dies.py").write_text(
+        "hypcheck = {'refuses': True}\ndef f(rows):\n    raise ValueError('no such row')\n"
+    )
+    found = replayed(capsys, "invalid-0003", f"python:{tmp_path / 'dies.py'}:f", code=1)
+    assert (found["status"], found["answer"]) == ("error", None)
+    assert found["reason"].startswith("it raised ValueError: no such row")
 
 
 def test_case_ids_name_the_same_rows_in_replay_as_elsewhere():

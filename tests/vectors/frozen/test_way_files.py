@@ -165,3 +165,31 @@ def test_cases_commands_accept_ways(tmp_path, capsys):
     assert main(["cases", "generate", "tilted-way-ring", "--count", "3", "--output", str(target)]) == 0
     assert main(["cases", "check", str(target)]) == 0
     assert "3 cases checked, none with a wrong label" in capsys.readouterr().out
+
+
+POINT = ["0", "0", "0"]
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (lambda case: case.update(hit=False, first=None), "first_hex is .*; it must be null, as first is"),
+        (
+            lambda case: case.update(first=[0.5, 0.25], first_hex=["0x1p-1", "0x1p-2"]),
+            r"first is \[0.5, 0.25\]; it must be two times from 0 to 1, the lower first",
+        ),
+        (lambda case: case["certificate"].update(points=[POINT] * 3), "points has 3 points; it may have two at most"),
+        (lambda case: case["certificate"].update(points=[POINT]), "a certificate has a time with points or with a"),
+        (lambda case: case["certificate"].update(time=None), "a certificate has a time with points or with a"),
+    ],
+)
+def test_a_malformed_case_of_a_way_is_refused(tmp_path, change, message):
+    """It is of a way that grazes, whose certificate has a time and a double root."""
+    document = json.loads(text_of("way-grazing"))
+    document["cases"], document["count"] = document["cases"][:1], 1
+    assert document["cases"][0]["certificate"]["double_root"]
+    change(document["cases"][0])
+    path = tmp_path / "ways.json"
+    path.write_text(json.dumps(document), encoding="utf-8")
+    with pytest.raises(InputError, match=message):
+        read_cases(str(path))
