@@ -13,6 +13,8 @@
 #include "guards.h"
 #include "exact_guards.h"
 #include "limits.h"
+#include "ended_guards.h"
+#include "ended_sweep_guards.h"
 
 enum { ROWS, LEANING, SCENE, LEANING_SCENE, WAYS, CLEARANCES = 6, ENDED };
 enum { MODES = 4 };
@@ -268,6 +270,8 @@ int main(int argc, char **argv) {
     check_guards();
     check_exact_guards();
     check_limits();
+    check_ended();
+    check_ended_sweeps();
     while (fread(&b, 4, 4, file) == 4) {
         const size_t n = (size_t)b.n, width = (size_t)b.width;
         b.rows = malloc(8 * n * width);

@@ -13,9 +13,46 @@ from hypcheck.geometry.pair import Pair
 from tests.support.ended_sweeps import near_a_rim, past_a_tower
 from tests.support.inside import position
 from tests.tools.ended_agreement import hairs, random_rows
+from tests.tools.evidence.battery.constructed import rows_of
 
 MOST_ROWS, MOST_SWEEPS = 900, 24
 """Of one sort, where every row is asked: an exact decision takes a millisecond, an exact time 30 or more."""
+
+FAR_FROM_THE_MULTIPLIER = """
+    0x1.8p-13 0x1.2p-31 1 3200 2008 -0x1.48p+17 -0x1.cp-1 1 0 0 -1 0 1;
+    0x1p-14 0x1.4p-36 1 16384 12288 0x1.acp+17 0 1 0 0 -1 0 0;
+    0x1p-36 0x1.4p-46 0x1.04p-14 0x1p-32 0x1.3ap-13 -0x1.ap-15 0 1 0 0 -1 0 0;
+    0x1.4p-39 0x1.4p-46 0x1p-14 0x1p-32 -0x1.3ap-13 0x1.ap-15 0 1 0 0 -1 0 1;
+    2 1 2 1 0 0 0 1 1 -1 0 1 0;
+    0x1.4p+26 0x1.ep-92 0x1p+86 1 1 1 0 1 0 1 -inf 0 1;
+    0x1.ap-84 0x1.6p-91 1 0x1.2p-87 0 0 -0x1.6p-11 1 0 1 0 1 1
+"""
+"""Flat cones: steps do not come to the multiplier, and a point on each of the four axes shows contact. A value far
+below 0; more pieces than are made; a step beyond its bounds. Found by search; `;` ends a row."""
+
+SWEEPS_BEYOND_BOUNDS = """
+    1 1 1 6 0 0 0x1.baep+0 0 0 0x1.88p+1 0 0 -1 0x1.ef6p+2 22 1;
+    1 0x1.ep-35 0x1.8p-21 0x1.d6p+18 -0x1.2p+23 0 0x1.4p+19 -0x1.2p+23 0 0 0 0 -1 0 0x1.4p+17 1;
+    0x1.57ap+36 0x1.b2p-40 18432 0x1.ep+29 0 0 -0x1p+30 0x1.eap+35 0x1.e9cp+35 0 1 1 -1 -0x1.cp-43 1 0;
+    0x1.ap-9 1 1 1 1 1 -4608 0 0 0 1 1 -1 0 1 0;
+    1 1 0x1.4p+73 0x1.4p+71 0x1.2cp+73 0 -0x1.ep+69 0 0 0x1.cp+70 0 0 -1 0 inf 0;
+    1 0x1.6p+32 1 1 0 0 0x1.6p+34 0 0x1.2p+20 -0x1.4p+31 0 1 1 -0x1.cp+31 0 1;
+    8 1 1 4 0 0 0x1.71434a18ca81cp+0 0 0 0 0 1 0 0x1.38a1a50c6540ep+1 15 1;
+    3 4 1 2 1 0 4 1 0 9 1 0 0 -1 3 1; 3 4 1 2 1 0 9 1 0 4 1 0 0 -1 3 1
+"""
+"""More halvings of a time than are made, and more that tell nothing; a time at which no contact is seen; a point on an
+axis that is met; a simple time after the last; more rectangles than are made; a start of which nothing is told, or an
+end, that touches. Found by search, but for the last two."""
+
+PLAIN_SWEEPS_BEYOND_BOUNDS = """
+    1 1 0x1.2p-38 0x1.ep+67 0 0 0x1p+68 1 0 0 0 0 -1; 1 1 0x1.2p-38 0x1.ep+67 0 0 0 1 0 0 0 0 -1
+"""
+"""Without ends: more steps to a time than are made, and more to a multiplier. Found by search."""
+
+
+def constructed_sweeps() -> Iterator[np.ndarray]:
+    """Sweeps at the limits of bounds."""
+    yield from map(rows_of, (SWEEPS_BEYOND_BOUNDS, PLAIN_SWEEPS_BEYOND_BOUNDS))
 
 
 def positions_of(rows: np.ndarray) -> np.ndarray:

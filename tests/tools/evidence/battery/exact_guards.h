@@ -336,6 +336,7 @@ static void check_wrappers(void) {
     hypcheck_scene scene;
     hypcheck_near near;
     int8_t answers[2];
+    CHECK(strcmp(hypcheck_version(), HYPCHECK_VERSION) == 0);
     hypcheck_prepare(&scene, flat, level, 0, NULL, NULL, NULL);
     CHECK(hypcheck_ask_prepared(0, &scene, 1, x, none, none, answers) == 0 && answers[0] == 1);
     CHECK(hypcheck_clearance(1, odd, answers, &near) == 1 && answers[0] == 127 && near.lower != near.lower);

@@ -16,7 +16,7 @@ import numpy as np
 from tests.tools.attack import places, tilted_places
 from tests.tools.attack.strike import truth_of
 from tests.tools.evidence.battery import ended, timed
-from tests.tools.evidence.battery.constructed import constructed
+from tests.tools.evidence.battery.constructed import constructed, rows_of
 from tests.tools.evidence.parts import ROOT
 from tests.tools.evidence.seeds import CLEARANCES, LEANING, LEANING_SCENE, ROWS, SCENE, SWEEPS, numbers
 
@@ -106,6 +106,14 @@ def drawn(seed: int = 5) -> Iterator[Questions]:
         yield Questions(kind, scene.rows, truth_of(scene.rows), NEAREST | 2 << number % 3)
 
 
+def constructed_about_ends() -> Iterator[Questions]:
+    """Rows and sweeps for one branch each, under two rounding modes."""
+    rows = rows_of(ended.FAR_FROM_THE_MULTIPLIER)
+    yield Questions(ENDED, rows, ended.positions_of(rows), NEAREST | 4)
+    for rows in ended.constructed_sweeps():
+        yield Questions(SWEEPS, *timed.timed(rows), NEAREST | 4)
+
+
 def drawn_about_ends(seed: int, every: int) -> Iterator[Questions]:
     """Rows and sweeps beside hyperboloids that end, under two rounding modes each."""
     for number, rows in enumerate(ended.drawn_rows(seed, every)):
@@ -118,7 +126,7 @@ def write(path: Path, every: int = 6, seeds: tuple[int, ...] = (5,)) -> Path:
     """Writes the file of questions that driver.c reads; what takes longest, scenes, comes last."""
     made = [Questions(kind, rows, right, NEAREST | 4) for kind, rows, right in constructed()]
     of_seeds = (each for seed in seeds for each in (*drawn(seed), *drawn_about_ends(seed, every)))
-    asked = [*frozen(every), *made, *frozen_scenes(), *of_seeds]
+    asked = [*frozen(every), *made, *constructed_about_ends(), *frozen_scenes(), *of_seeds]
     with path.open("wb") as file:
         for questions in sorted(asked, key=lambda each: each.kind in (SCENE, LEANING_SCENE)):
             file.write(questions.data)
