@@ -33,8 +33,23 @@ REASONS: dict[tuple[str, str], str] = {
     ("hc_scale_axis", "!HC_FLOATS_DECIDE"): _CONSTANT,
     ("hc_make_sweep", "HC_FLOATS_DECIDE && sweep->slack < HC_GREATEST_SLACK"): _CONSTANT,
     ("hc_position_with", "HC_FLOATS_DECIDE && found.decided"): _CONSTANT,
+    ("hc_ended_position", "!HC_FLOATS_DECIDE"): _CONSTANT,
     ("hc_best_level", "__get_cpuid_max(0, NULL) < 7"): _MACHINE,
     ("hc_best_level", "!(leaf_1 & system_saves)"): _MACHINE,
+    ("hc_tilted", "count - at < HC_WIDTH"): (
+        "unreachable where HC_WIDTH is 1, which it is in the plain level: the loop goes on while count - at > 0. The "
+        "levels with wider vectors reach it"
+    ),
+    ("hc_wall_misses", "phi.safe"): (
+        "unreachable: hc_ended_multiplier ends with some n >= 2^-40 (1 - 10^-9) of the smaller mu, and lambda is n "
+        "less that mu. So mu + lambda, of either mu, is at least (2^-40 (1 - 10^-9) - 2^-52) mu, which is above "
+        "HC_ENDED_NEAREST mu. If mu is no number, phi is none, and the line before is false. The condition stays, for "
+        "with it any multiplier is safe"
+    ),
+    ("hc_fine_pole", "made->side < 0 && other.high < root.high"): (
+        "seen by no measurement: clang records no test vectors of a decision that chooses between two structs. Both of "
+        "its conditions have been true and false, and the branches show it"
+    ),
     ("hc_tilted_sweep_reach", "position * l.v > 0"): (
         "unreachable: l is position · pole · v/(1 + v). The loop before has returned unless every pole - or + "
         "l is proved > 0, which NaN is not; then the poles, quotients and squares of positive numbers, are > "
