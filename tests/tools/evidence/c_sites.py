@@ -19,14 +19,19 @@ OTHER = {"<": "<=", ">": ">=", "<=": "<", ">=": ">", "==": "!=", "!=": "==", "&&
 PRINTED = {"GT": "GE", "LT": "LE", "GE": "GT", "LE": "LT", "AND": "OR", "OR": "AND"}
 _MACRO = re.compile(r"HC_(GT|LT|GE|LE|AND|OR)(?=\()")
 GUESSES = {
+    "hc_aim",
+    "hc_aim_at_least",
     "hc_best_multiplier",
+    "hc_direction_of",
     "hc_edge",
+    "hc_ended_multiplier",
     "hc_fine_root",
     "hc_gaps",
     "hc_tilted_sweep_multiplier",
     "hc_rough_root",
     "hc_sample_Q",
     "hc_sample_heights",
+    "hc_share_of_pole",
     "hc_tilted_multiplier",
     "hc_touches",
     "hc_sweep_multiplier",
