@@ -224,9 +224,9 @@ HAIR = 2.0**-30
     ids=["on the axis", "beside it", "beside it by no float"],
 )
 def test_a_ball_that_reaches_the_wall_around_it_by_a_hair_has_a_certificate(unit, x):
-    """From the height 1 on the axis the wall of α = γ = 1 is √1.5 away, all around."""
-    radius = (math.sqrt(1.5) + HAIR) * unit
-    pair = Pair(unit, unit, radius, radius, x, 0.0, unit)
+    """From the height 1 on the axis the wall of α = 1 and γ = 2 is √1.2 away, all around, at the height 0.8."""
+    radius = (math.sqrt(1.2) + HAIR) * unit
+    pair = Pair(unit, 2 * unit, radius, radius, x, 0.0, unit)
     certificate = prove(pair, decide(pair.lengths))
     assert certificate.position is Position.CONTACT
     assert len(certificate.points) == 2
