@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 
@@ -10,7 +11,7 @@ import pytest
 
 import hypcheck
 from hypcheck.errors import InputError
-from tests.support.inside import exact_position
+from tests.support.inside import EXTENSION, exact_position
 
 FUNCTIONS = pytest.mark.parametrize("function", [hypcheck.position, exact_position], ids=["public", "plain-python"])
 
@@ -57,13 +58,15 @@ def test_position_of_one_pair_refuses_heights_that_leave_nothing(function):
         function(*TOUCHING, z_min=1.0, z_max=1.0)
 
 
-def test_position_takes_numbers_of_numpy_in_a_process_that_has_not_loaded_it_for_hypcheck():
+@pytest.mark.parametrize("kernel", ["compiled", "numpy"])
+def test_position_takes_numbers_of_numpy_in_a_process_that_has_not_loaded_it_for_hypcheck(kernel):
     """Its compiled function knows them only after the first of them came."""
     code = (
         "import hypcheck, numpy; row = numpy.int32([4, 4, 1, 1, 0, 0, 0]);"
         "print([hypcheck.position(*row), hypcheck.position(*row)])"
     )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    environment = {**os.environ, "HYPCHECK_KERNEL": kernel if EXTENSION in sys.modules else "numpy"}
+    done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True)
     assert done.stdout == "[-1, -1]\n"
 
 

@@ -314,12 +314,18 @@ def test_prove_ends_with_1_where_coq_accepts_a_weakened_statement_or_refuses_the
     assert "error: Coq refuses Checker.v in the folder in which it must refuse" in output
 
 
-def test_prove_ends_with_1_where_coq_accepts_a_statement_that_a_program_weakened_and_no_reason_is_given(tools):
+def test_prove_ends_with_1_where_coq_accepts_a_statement_that_a_program_weakened_and_no_reason_is_given(
+    tools, monkeypatch
+):
     (change,) = weakenings.sample(weakenings.made(build.source), 1, seed=45)
     (tools.folder / f"careless-{change.file}.v").touch()
     code, output = tools.prove("--weakened", "1")
     assert code == 1
     assert output.endswith(f"Coq accepts {change.file}.v with {change.allows}, and no reason is given for that\n")
+    monkeypatch.setattr(weakenings, "reasons", lambda: {(change.file, change.allows): "it follows from the others"})
+    code, output = tools.prove("--weakened", "1")
+    assert code == 0
+    assert output.endswith("1 are tried: 0 are refused, 1 hold too, for a reason that is given\n")
 
 
 def test_a_statement_that_a_program_weakened_is_tried_without_what_comes_after_its_proof(tools):
