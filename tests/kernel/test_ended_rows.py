@@ -10,12 +10,11 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-import hypcheck
 from hypcheck import clearance
 from hypcheck.geometry.pair import Lengths, Pair
 from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.vectors.frozen import ENDED_NAMES, load
-from tests.support.inside import choice, decide, ended_enclosure, position
+from tests.support.inside import choice, classify, decide, ended_enclosure, position
 from tests.tools import ended_agreement
 from tests.tools.attack.rounding import DIRECTED, TO_NEAREST, rounded
 
@@ -45,7 +44,7 @@ def test_rows_that_numpy_leaves_open_are_answered_as_their_frozen_labels(monkeyp
     cases = load("ended-rim")
     monkeypatch.setenv("HYPCHECK_KERNEL", "numpy")
     choice.cache_clear()
-    found = hypcheck.classify(cases.rows[::9])
+    found = classify(cases.rows[::9])
     choice.cache_clear()
     assert found.tolist() == cases.positions[::9].tolist()
 
