@@ -169,6 +169,23 @@ static void check_exact_ends(void) {
     CHECK(exact_end(3, two(-201)) == 0 && exact_end(3, two(-202)) == 2 && exact_end(6, two(-300)) == 2 && exact_end(3, two(203)) == 0);
 }
 
+/* The same end with all lengths along the axis in another unit, which is their own. */
+static void check_units_of_ends(void) {
+    double row[13];
+    int k;
+    put_row(row, 1, 1, 4.75 + two(-50), 0, 3, NULL);
+    for (k = -300; k <= 300; k += 300) {
+        const double along[4] = {row[1] * two(k), row[3] * two(k), row[6] * two(k), 3 * two(k)};
+        double other[13];
+        hc_end end;
+        memcpy(other, row, sizeof other);
+        other[1] = along[0], other[3] = along[1], other[6] = along[2];
+        end = hc_exact_end(other, along[3]);
+        CHECK(end.known && end.misses && end.reached == 1 && end.off == 1);
+        CHECK(!hc_exact_end(other, two(k - 300)).known); /* the height of the end is a length, too */
+    }
+}
+
 static int upright_met(double scale, double b, double x, double z) {
     double row[13];
     int k;
@@ -198,6 +215,10 @@ static int leaves_end(double scale, double x, double z, double far, int side) {
 static void check_growth(void) {
     const double steep[13] = {1, two(-100), 1, 1, two(100), 0, 0, 0, 0, 1, -1, 3, 0};
     CHECK(leaves_end(1, 3.75, 4, two(-14), 1) && !leaves_end(1, 3.75, 4, two(-14), -1) && !leaves_end(1, 3.75, 4, 8, 1));
+    /* the slope is 0 at these heights, as 2 Q Q' = 4 R (r²)' there; and it outweighs the bend so far, by the sizes of all terms */
+    CHECK(leaves_end(1, 3.75, 2.96, 0, 1) && !leaves_end(1, 3.75, 2.92, 0, 1) && leaves_end(1, 1, 4.5, 0, 1) && !leaves_end(1, 1, 4.46, 0, 1));
+    CHECK(leaves_end(1, 6, 2.26, 0, 1) && !leaves_end(1, 6, 2.22, 0, 1) && leaves_end(1, 3.75, 4, 0.323, 1) && !leaves_end(1, 3.75, 4, 0.329, 1));
+    CHECK(leaves_end(1, 3.75, 8, 0.87, 1) && !leaves_end(1, 3.75, 8, 0.887, 1) && leaves_end(1, 1, 12, 1.31, 1) && !leaves_end(1, 1, 12, 1.34, 1));
     CHECK(leaves_end(two(60), 3.75, 4, two(-14), 1) && !leaves_end(two(140), 3.75, 4, two(-14), 1));
     CHECK(leaves_end(two(-60), 3.75, 4, two(-14), 1) && !leaves_end(two(-90), 3.75, 4, two(-14), 1));
     CHECK(!hc_grows_from_end(steep, two(-11), two(-11), -1) && !hc_grows_from_end(steep, two(-11), two(-11), 1));
@@ -289,6 +310,20 @@ static void check_centres_beside_the_wall(void) {
         }
 }
 
+/* Lying in the body, so near to its flat end that it would touch it if it stood; and so in the open one, which has none. */
+static void check_lying_within(void) {
+    double row[13];
+    put_row(row, 0.5, 1, 0, 0, 2.25, NULL);
+    row[7] = 1, row[9] = 0;
+    CHECK(ended_at(row) == -1);
+    row[12] = 1;
+    CHECK(ended_at(row) == -1);
+    row[6] = 3.75;
+    CHECK(ended_at(row) == 1);
+    row[12] = 0;
+    CHECK(ended_at(row) == 1);
+}
+
 static void check_many_rows(void) {
     enum { MANY = 2 * 2048 + 3 }; /* more than are asked together */
     static double rows[MANY * 13], narrow[MANY * 10];
@@ -332,6 +367,7 @@ static void check_ended(void) {
     check_directions();
     check_discs();
     check_exact_ends();
+    check_units_of_ends();
     check_upright_contacts();
     check_growth();
     check_upright_walls();
@@ -339,6 +375,7 @@ static void check_ended(void) {
     check_touches_between_ends();
     check_centres();
     check_centres_beside_the_wall();
+    check_lying_within();
     check_many_rows();
     check_refusals();
 }

@@ -56,6 +56,11 @@ static void check_fine_reaches(void) {
     CHECK(hc_fine_reach(&made, hc_twin_of(3.9), 0) >= 0 && hc_fine_reach(&made, hc_twin_of(4), 0) == 0 && hc_fine_reach(&made, hc_twin_of(5), 0) == 0);
     CHECK(hc_fine_reach(&made, hc_twin_of(-9), 0) == 0 && hc_fine_reach(&made, hc_twin_of(-10), 0) == 0 && hc_fine_reach(&made, hc_twin_of(0), 0) == 0);
     CHECK(hc_fine_reach(&made, hc_twin_of(1), two(250)) == 0); /* a square beyond the cap */
+    {
+        const double swift[10] = {3, 4, 1, 2, 9, 0, 0, 0x1p250, 0, 0};
+        hc_make_fine_sweep(&made, swift, NULL, 1);
+        CHECK(hc_fine_reach(&made, hc_twin_of(1), 0) == 0); /* the bend is beyond the cap, the place is not */
+    }
     fine_sweep(&made, 1, 2, NULL, -1);
     CHECK(fabs(made.pole.high - 9) < 1e-14);
     for (side = -1; side < 2; side += 2) { /* wider than high: -9/4 is the nearest pole within; higher than wide: the other one */
@@ -70,9 +75,14 @@ static void check_fine_reaches(void) {
 /* Along x from 9 to 0 of 3, 4: contact begins 5/9 of the way, with radius 1. */
 static void check_nearest_times(void) {
     const double row[10] = {3, 4, 1, 1, 9, 0, 0, 0, 0, 0};
+    double rounded_up;
     hc_sweep sweep;
     CHECK(hc_make_sweep(&sweep, row, NULL));
     CHECK(fabs(hc_nearest_time(&sweep, row, 1, 0, 1) - 5.0 / 9) < 1e-15 && hc_nearest_time(&sweep, row, 1, 0, 0.25) == 0);
+    fesetround(FE_UPWARD);
+    rounded_up = hc_nearest_time(&sweep, row, 1, 0, 1);
+    fesetround(FE_TONEAREST);
+    CHECK(rounded_up <= 0x1.1c71c71c71c71p-1 && rounded_up > 0x1.1c71c71c71c6p-1); /* 5/9 = 0x1.1c71c71c71c71c...p-1 */
     CHECK(hc_nearest_time(&sweep, row, 1, 0.5, 1) <= 5.0 / 9 && hc_nearest_time(&sweep, row, 1, 0.75, 1) == 0.75);
 }
 
@@ -127,11 +137,15 @@ static void check_form_errors(void) {
     CHECK(hc_form_error(&made, &made.larger, -mu * (1 - 1.0625 * near), 3, 1, 1) < DBL_MAX);
 }
 
-static double least_of_form(double by_height, double by_time, double xx, double xy, double yy, int surely) {
+static double least_about(double time, double by_height, double by_time, double xx, double xy, double yy, int surely) {
     const hc_form form = {1, by_height, by_time, xx, xy, yy};
     const hc_rectangle in = {-1, 2, 0, 1};
     const double no_pulls[2] = {0, 0};
-    return surely ? 1 + hc_form_least_surely(&form, &in, 0, 0.5, no_pulls) : hc_form_least(&form, &in, 0, 0.5);
+    return surely ? 1 + hc_form_least_surely(&form, &in, 0, time, no_pulls) : hc_form_least(&form, &in, 0, time);
+}
+
+static double least_of_form(double by_height, double by_time, double xx, double xy, double yy, int surely) {
+    return least_about(0.5, by_height, by_time, xx, xy, yy, surely);
 }
 
 /* On heights from -1 to 2 and times within 0.5: below what each term is at least, and not far below the least value. */
@@ -140,6 +154,7 @@ static void check_form_least(void) {
     for (surely = 0; surely < 2; surely++) {
         CHECK(least_of_form(0, 0, 1, 0, 1, surely) == 1 && least_of_form(1, 0, 0, 0, 0, surely) == 0 && least_of_form(-1, 0, 0, 0, 0, surely) == -1);
         CHECK(least_of_form(0, 1, 0, 0, 0, surely) == 0.5 && least_of_form(0, 0, -1, 0, 0, surely) == -3 && least_of_form(0, 0, 0, 0, -4, surely) == 0);
+        CHECK(least_about(0.75, 0, 0, 0, 1, 0, surely) == -2 && least_about(0.25, 0, 0, 0, 1, 0, surely) == -2);
         CHECK(least_of_form(0, 0, 0, 1, 0, surely) == -1 && least_of_form(0, 0, 1, 1, -1, surely) <= 0.5 && least_of_form(0, 0, 4, 1, 4, surely) == 1);
         CHECK(least_of_form(0, 0, 1, 2, 1, surely) <= 0.25 && least_of_form(0, 0, 1, 2, 1, surely) >= 0);
     }
@@ -195,6 +210,9 @@ static void check_touches(void) {
     CHECK(touched_at(row, 0.5) && touched_at(row, 1) && !touched_at(row, 0.25));
     row[5] = 0, row[8] = two(-240); /* a part of it may lose bits */
     CHECK(touched_at(row, 0) && !touched_at(row, two(-20)));
+    put_sweep(row, 1, 1, 4, 0, 0);
+    row[5] = 0, row[8] = two(-1074); /* beside the waist: half of that is 0, and no place of the sweep after its start touches */
+    CHECK(touched_at(row, 0) && !touched_at(row, 0.5) && !touched_at(row, two(-20)));
     put_sweep(row, 1, 2, 1, 2, 4);
     row[6] = row[9] = 3.75, row[15] = 1, row[10] = 1, row[12] = 0;
     CHECK(touched_at(row, 0.5) && touched_at(row, 0.125));
@@ -316,6 +334,25 @@ static void check_widths_of_sweeps(void) {
     }
 }
 
+/* An end at the greatest double is one: the spheroid, which stays where it is, meets the cone beyond it alone. */
+static void check_greatest_ends(void) {
+    const double most = DBL_MAX, nowhere = INFINITY;
+    int up;
+    for (up = -1; up < 2; up += 2) {
+        double row[16] = {0}, time;
+        int8_t hit;
+        row[0] = two(999), row[1] = two(1000), row[2] = 1, row[3] = 0.9 * most;
+        row[4] = row[7] = 0.6 * most, row[6] = row[9] = up * 0.5 * most, row[12] = 1;
+        row[13] = -nowhere, row[14] = nowhere;
+        hypcheck_passage_columns(1, 16, row, &hit, &time);
+        CHECK(hit == 1 && time == 0);
+        if (up > 0) row[14] = most;
+        else row[13] = -most;
+        hypcheck_passage_columns(1, 16, row, &hit, &time);
+        CHECK(hit == 2 && time != time);
+    }
+}
+
 static void check_ended_sweeps(void) {
     check_twins();
     check_fine_balls();
@@ -332,4 +369,5 @@ static void check_ended_sweeps(void) {
     check_beyond_planes();
     check_ended_hits();
     check_widths_of_sweeps();
+    check_greatest_ends();
 }
