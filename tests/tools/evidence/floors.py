@@ -11,7 +11,7 @@ AT_LEAST: dict[str, dict[str, float]] = {
     "python-coverage": {"percent": 98},
     "python-mutants": {"mutants": 2000, "percent killed": 81},
     "coverage": {"functions.share": 100, "branches.share": 99.5, "mcdc.share": 98.8},
-    "emitted": {"functions.share": 100, "branches.share": 88, "mcdc.share": 94},
+    "emitted": {"functions.share": 100, "branches.share": 88.5, "mcdc.share": 96.5},
 }
 """By part and figure."""
 
@@ -19,7 +19,7 @@ AT_MOST: dict[str, dict[str, float]] = {
     "fuzz": {"short.findings": 0},
     "faults": {"wrong": 0},
     "coverage": {"count": 0},
-    "emitted": {"count": 54},
+    "emitted": {"count": 0},
     "kernel-mutants": {"count": 5},
     "constants": {"lives": 0},
     "python-mutants": {"left": 7},
