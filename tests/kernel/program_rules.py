@@ -84,7 +84,10 @@ def wrong_signs(program: Program) -> Wrong:
 
 
 def wrong_signs_of_tilted_rows(program: Program) -> Wrong:
-    """The same for tilted rows: φ > 0 between the poles proves its side, φ < 0 contact where a tangent allows."""
+    """The same for tilted rows: φ > 0 between the poles proves its side, φ < 0 contact where a tangent allows.
+
+    Of a centre that is too far, nothing is decided.
+    """
     bounds = {"k": "e_k", "p_l": "e_pl", "F": "e_F"}
     inputs = {**tilted.CONSTANTS, **dict.fromkeys(("alpha", "gamma", "b", "d", "p", "s", "t", "w", "distance"), 1)}
     inputs |= {"s_along": 1, "e_psi": 0, "d_l": 3, "e_d": 2, **dict.fromkeys(bounds.values(), 2)}
@@ -96,7 +99,8 @@ def wrong_signs_of_tilted_rows(program: Program) -> Wrong:
         found = None
         if k == p_l == 3:
             found = Position(l_) if F == 3 and l_ else Position.CONTACT if F == -3 and steep < 0 else None
-        asked.append(({"k": k, "p_l": p_l, "F": F, "l": l_, "psi": limit * (1 + Fraction(steep, 2))}, found))
+        told = {"k": k, "p_l": p_l, "F": F, "l": l_, "psi": limit * (1 + Fraction(steep, 2))}
+        asked += [(told, found), (told | {"distance": Fraction(tilted.CONSTANTS["farthest_square"])}, None)]
     known = (*inputs, "k", "p_l", "F", "l", "psi")
     return _wrong(program, tuple(name for name in known if name not in tilted.CONSTANTS), inputs, asked)
 

@@ -19,7 +19,9 @@ TITLE = "Mutants of the kernel's constants"
 CERTIFIED, LINES, INTEGERS, LEANING = (
     f"hypcheck/kernel/programs/{name}.py" for name in ("certified", "lines", "integers", "tilted")
 )
-PROGRAMS, GUARDS, CONSTANTS = (f"tests/kernel/test_{name}.py" for name in ("programs", "guards", "constants"))
+PROGRAMS, GUARDS, CONSTANTS, PRINTED = (
+    f"tests/kernel/test_{name}.py" for name in ("programs", "guards", "constants", "header")
+)
 RULE = "decides_by_the_exact_rule"
 
 
@@ -36,14 +38,24 @@ class Change:
 
 CHANGES = (
     Change(
-        CERTIFIED, '{"u_8": 8 * U * SLACK, "u_12": 12 *', '{"u_8": 8 * U * SLACK, "u_12": 6 *', PROGRAMS, "coefficients"
+        CERTIFIED,
+        '{"u_8": 8 * U * SLACK, "u_12": 12 *',
+        '{"u_8": 8 * U * SLACK, "u_12": 6 *',
+        PRINTED,
+        "printed_module",
     ),
-    Change(CERTIFIED, '{"u_8": 8 * U * SLACK, "u_12"', '{"u_8": 7 * U * SLACK, "u_12"', PROGRAMS, "coefficients"),
-    Change(CERTIFIED, '"u_1536": 48 * 32', '"u_1536": 42 * 32', PROGRAMS, "for_one_pair"),
-    Change(CERTIFIED, '    "u_12": 12 *', '    "u_12": 10 *', PROGRAMS, "coefficients"),
-    Change(CERTIFIED, '    "u_8": 8 *', '    "u_8": 7 *', PROGRAMS, "coefficients"),
-    Change(CERTIFIED, '    "u_16": 16 *', '    "u_16": 8 *', PROGRAMS, "slopes"),
-    Change(CERTIFIED, '    "u_4": 4 *', '    "u_4": 2 *', PROGRAMS, "parts_of_the_discriminant"),
+    Change(
+        CERTIFIED,
+        '{"u_8": 8 * U * SLACK, "u_12"',
+        '{"u_8": 7 * U * SLACK, "u_12"',
+        PRINTED,
+        "printed_module",
+    ),
+    Change(CERTIFIED, '"u_1536": 48 * 32', '"u_1536": 42 * 32', CONSTANTS, "derivation"),
+    Change(CERTIFIED, '    "u_12": 12 *', '    "u_12": 10 *', CONSTANTS, "derivation"),
+    Change(CERTIFIED, '    "u_8": 8 *', '    "u_8": 7 *', CONSTANTS, "derivation"),
+    Change(CERTIFIED, '    "u_16": 16 *', '    "u_16": 8 *', CONSTANTS, "derivation"),
+    Change(CERTIFIED, '    "u_4": 4 *', '    "u_4": 2 *', CONSTANTS, "derivation"),
     Change(CERTIFIED, "SLACK = 1 + 2.0**-20", "SLACK = 1 + 2.0**-50", PROGRAMS, "slack"),
     Change(CERTIFIED, '"farthest": 2.0**200', '"farthest": 2.0**230', GUARDS, "overflows"),
     Change(CERTIFIED, '"least": 2.0**-100', '"least": 2.0**-300', GUARDS, "underflow_in"),
@@ -93,7 +105,7 @@ CHANGES = (
 """The constants and rules of the programs, those that no row shows among them."""
 
 _RUN = """
-import hypothesis.strategies, importlib.machinery, json, os, pytest, sys, sympy
+import hypothesis.strategies, importlib.machinery, json, os, pathlib, pytest, sys, sympy, tempfile
 import hypcheck.derivation.formulas, hypcheck.derivation.proofs, hypcheck.derivation.rounding
 assert not any(name.startswith("hypcheck.kernel") for name in sys.modules)
 
@@ -102,12 +114,22 @@ def run(path, before, after, tests, words):
     def changed(self, name):
         if not self.path.endswith(path):
             return get(self, name)
-        text = open(self.path, encoding="utf-8").read()
+        with open(self.path, encoding="utf-8") as file:
+            text = file.read()
         if text.count(before) != 1:
             os._exit(9)
         return compile(text.replace(before, after), self.path, "exec")
     importlib.machinery.SourceFileLoader.get_code = changed
+    if tests.endswith("test_constants.py"):
+        with_header_of_its_own()
     return pytest.main(["-q", "-x", "-p", "no:cacheprovider", "--assert=plain", tests, "-k", words])
+
+def with_header_of_its_own():
+    "The header is printed from the changed programs; the derivations are asked about its constants."
+    from tests.kernel import compiling
+    from tests.support.inside import header
+    compiling.HEADER = pathlib.Path(tempfile.mkdtemp()) / "hypcheck.h"
+    compiling.HEADER.write_text(header(), encoding="utf-8")
 
 for change in json.load(sys.stdin):
     child = os.fork()
