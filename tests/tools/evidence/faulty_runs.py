@@ -24,7 +24,7 @@ from tests.runs.interruption import came_to, in_small_steps
 from tests.support.without_drawing import draw_nothing
 
 SPECS = ("builtin:hessian-float32", "builtin:fast")
-WORDS = ("--families", "axis", "--count", "10", "--precision", "float32")
+WORDS = ("--families", "axis", "--count", "10", "--precision", "float32", "--fresh", "0")
 CODE = 1
 """How an unbroken run ends: the first implementation is wrong beyond the tolerance."""
 
