@@ -19,6 +19,8 @@ OTHER = {"<": "<=", ">": ">=", "<=": "<", ">=": ">", "==": "!=", "!=": "==", "&&
 PRINTED = {"GT": "GE", "LT": "LE", "GE": "GT", "LE": "LT", "AND": "OR", "OR": "AND"}
 _MACRO = re.compile(r"HC_(GT|LT|GE|LE|AND|OR)(?=\()")
 GUESSES = {
+    "hc_about_inverse_avx512",
+    "hc_about_root_avx512",
     "hc_aim",
     "hc_aim_at_least",
     "hc_best_multiplier",
