@@ -9,7 +9,7 @@ import stat
 import numpy as np
 import pytest
 
-from hypcheck.bench import c_library, run
+from hypcheck.bench import c_library
 from hypcheck.bench.c_library import FLAGS, compiled
 from hypcheck.bench.contenders import contenders
 from hypcheck.bench.plan import BenchPlan
@@ -17,7 +17,6 @@ from hypcheck.bench.run import plan_with_needs
 from hypcheck.bench.workloads import WORKLOADS
 from hypcheck.errors import UnavailableError
 from hypcheck.record import Recorder
-from hypcheck.record.measurements import CompilerLine
 from hypcheck.vectors.families import FAMILIES, select
 from tests.support.records import GrowingText
 
@@ -97,16 +96,6 @@ def test_an_error_of_the_compiler_is_quoted_in_the_message(tmp_path, monkeypatch
     monkeypatch.setenv("PATH", os.pathsep.join([str(tmp_path), os.environ["PATH"]]))
     with pytest.raises(UnavailableError, match="no space left for code"):
         compiled(tmp_path)
-
-
-def test_bench_with_a_c_compiler_compiles_its_methods_and_records_the_compiler(tmp_path, monkeypatch):
-    line = CompilerLine(program="cc", version="cc 1", flags=["-O3"])
-    monkeypatch.setattr(run, "compiled", lambda folder: (folder / "methods.so", line))
-    plan, recorder = BenchPlan(methods=("table-2-float64*",), folder=tmp_path), Recorder(GrowingText(), {})
-    found = plan_with_needs(plan, recorder)
-    assert list(contenders(found)) == ["table-2-float64", "table-2-float64-c"]
-    assert (found.compiled, found.missing) == (tmp_path / "methods.so", ())
-    assert recorder.lines == (line,)
 
 
 def test_bench_without_a_c_compiler_keeps_the_other_methods_and_records_what_is_missing(tmp_path, monkeypatch):

@@ -9,17 +9,14 @@ from importlib import resources
 import pytest
 from click.testing import CliRunner
 
-from hypcheck.bench import plan, run, targets
+from hypcheck.bench import plan, run
 from hypcheck.bench.plan import REFERENCE
 from hypcheck.cli.bench import bench
-from hypcheck.cli.main import main
 from hypcheck.errors import Exit, InputError, RunOutcome
 from hypcheck.implementations.meshes import FCL
-from hypcheck.processes import Stage
 from hypcheck.record import SCHEMA, read
 from hypcheck.record.fields import as_json
-from hypcheck.record.lines import DriftLine
-from hypcheck.record.measurements import AccuracyLine, KernelLine, MethodLine, NoiseLine, SpeedLine, WorkloadLine
+from hypcheck.record.measurements import AccuracyLine, MethodLine, NoiseLine, SpeedLine, WorkloadLine
 from tests.bench.test_contenders import contender
 from tests.support.records import violations
 from tests.support.without_drawing import draw_nothing
@@ -98,40 +95,6 @@ def test_bench_refuses_an_unknown_method_or_workload_and_writes_nothing(tmp_path
     with pytest.raises(InputError, match=message):
         ended(tmp_path, *options)
     assert not list(tmp_path.glob("record*"))
-
-
-@pytest.mark.parametrize(("met", "code"), [(True, Exit.HELD), (False, Exit.SLOWER)])
-def test_bench_of_the_kernels_records_their_targets_alone_and_ends_with_3_if_one_is_missed(
-    tmp_path, monkeypatch, met, code
-):
-    line = KernelLine(name="it", target="", wanted=2.0, measured=1.0, ci95=None, met=met, says="")
-    monkeypatch.setattr(targets, "run", lambda recorder, advance, quick: recorder.add(line))
-    ended_with, record = ended(tmp_path, "--kernel")
-    assert (ended_with, record.lines) == (code, (line,))
-
-
-def test_a_bench_that_is_too_noisy_to_decide_says_how_to_take_more_samples(tmp_path, monkeypatch, capsys):
-    def noisy(plan, recorder, outcome):
-        return (Stage("speed", 1, lambda advance: outcome.codes.add(Exit.INCONCLUSIVE)),)
-
-    draw_nothing(monkeypatch)
-    monkeypatch.setattr(run, "stages", noisy)
-    assert main(["bench", "--out", str(tmp_path), "--processes", "7"]) == Exit.INCONCLUSIVE
-    assert "or take more samples with --processes 14" in capsys.readouterr().err
-
-
-def test_a_bench_whose_implementation_changes_while_it_is_measured_ends_with_1(tmp_path, monkeypatch):
-    subject = tmp_path / "subject.py"
-    subject.write_text("def classify(rows):\n    return [0] * len(rows)\n", encoding="utf-8")
-
-    def changing(plan, recorder, outcome):
-        return (Stage("answers", 1, lambda advance: subject.write_text("classify = None\n", encoding="utf-8")),)
-
-    monkeypatch.setattr(run, "stages", changing)
-    code, record = ended(tmp_path, f"python:{subject}:classify")
-    assert code == Exit.WRONG
-    (drift,) = record.of(DriftLine)
-    assert drift.sentence.endswith("subject.py, which is under test, was changed while it was asked")
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from hypcheck.cli import hunt, running
+from hypcheck.cli import running
 from hypcheck.cli.main import main
 from hypcheck.cli.running import watched
 from hypcheck.processes import Stage
@@ -78,14 +78,6 @@ def test_a_progress_bar_has_the_title_of_the_stage_that_runs(screen, clock):
     running.run_stages([Stage("first part", 1, step), Stage("second part", 3, step)])
     titles = [line.split("  ")[0] for line in screen.shown if "%" in line]
     assert titles[-2:] == ["first part", "second part"]
-
-
-def test_hunt_shows_rows_and_kinds_of_wrong_answers_on_a_terminal(monkeypatch, capsys):
-    seen = Screen()
-    monkeypatch.setattr(hunt, "sys", SimpleNamespace(stderr=seen))
-    assert main(["hunt", "builtin:table-2-float64", "--queries", "1500", "--tolerance", "0", "--isolate", "off"]) == 1
-    capsys.readouterr()
-    assert re.fullmatch(r"1,500 rows, +[1-9]\d* kinds of wrong answers .*100%", seen.shown[-1])
 
 
 def test_classify_shows_a_progress_bar_on_a_terminal(screen, tmp_path):

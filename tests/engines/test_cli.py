@@ -6,20 +6,16 @@ import shutil
 import numpy as np
 import pytest
 
-from hypcheck.cli.bench import bench as compare
 from hypcheck.cli.main import main
 from hypcheck.engines import engine as installing
 from hypcheck.engines import measure as measuring
-from hypcheck.engines import reduce
 from hypcheck.engines.engine import ENGINES
-from hypcheck.engines.findings import read_findings
 from hypcheck.engines.measure import read_records, record_of, write_record
 from hypcheck.engines.placing import FAMILIES, placed
 from hypcheck.engines.report import write_page
 from hypcheck.errors import InputError, UnavailableError
 from hypcheck.implementations.session import TimingError
 from tests.engines.test_adapters import CACHE
-from tests.engines.test_findings import REPORTS
 
 
 def test_engines_install_names_a_missing_program_and_writes_nothing(monkeypatch, tmp_path):
@@ -90,44 +86,6 @@ def test_an_engine_counts_as_installed_until_its_adapter_changes(monkeypatch, tm
     (cache / engine.name / "ready").write_text("of another adapter")
     with pytest.raises(InputError, match="cannon-es is not installed"):
         installing.command(engine, cache, tmp_path)
-
-
-def test_engines_are_compared_under_their_paths_as_seen_from_the_working_directory(monkeypatch, tmp_path):
-    for name in ("node", "npm"):
-        program(tmp_path / "bin", name, "exit 0")
-    monkeypatch.setenv("PATH", f"{tmp_path / 'bin'}:/bin:/usr/bin")
-    monkeypatch.chdir(tmp_path)
-    assert main(["engines", "install", "cannon-es", "--cache", "cache"]) == 0
-    specs = []
-    monkeypatch.setattr(compare, "invoke", lambda context: specs.extend(context.params["specs"]))
-    assert main(["engines", "bench", "cannon-es", "--triangles", "500", "--cache", "cache"]) == 0
-    (spec,) = specs
-    paths = [word for word in json.loads(spec.removeprefix("command:")) if "cache" in word]
-    assert paths[-1] == "cache/scenes/body-500"
-    assert all((tmp_path / path).exists() and not path.startswith("/") for path in paths)
-
-
-def test_an_engine_that_is_measured_anew_replaces_its_own_findings_alone(monkeypatch, tmp_path, capsys):
-    for name in ("node", "npm"):
-        program(tmp_path / "bin", name, "exit 0")
-    monkeypatch.setenv("PATH", f"{tmp_path / 'bin'}:/bin:/usr/bin")
-    engine, cache, out = "ammo.js", tmp_path / "cache", tmp_path / "engines"
-    assert main(["engines", "install", engine, "--cache", str(cache)]) == 0
-    shutil.copytree(REPORTS, out)
-    before = read_findings(out)
-    record = next(record for record in read_records(out) if record.name == engine)
-    (out / f"{engine}.json").unlink()
-    monkeypatch.setattr(measuring, "record_of", lambda _engine, _cache, _say: record)
-    monkeypatch.setattr(reduce, "findings_of", lambda _record, _cache: iter(()))
-    capsys.readouterr()
-    assert main(["engines", "verify", engine, "--cache", str(cache), "--out", str(out)]) == 0
-    assert capsys.readouterr().out == f"measured {engine} {ENGINES[engine].version}: 0 findings\n"
-    assert read_findings(out) == [one for one in before if one.engine != engine] != before
-    assert (out / f"{engine}.json").read_bytes() == (REPORTS / f"{engine}.json").read_bytes()
-    assert (
-        f"{engine} {ENGINES[engine].version} |"
-        not in (out / "README.md").read_text().split("## Findings")[1].split("##")[0]
-    )
 
 
 def test_each_manager_installs_the_pinned_version_into_the_engines_own_folder(monkeypatch, tmp_path):

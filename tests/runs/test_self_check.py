@@ -48,18 +48,6 @@ def test_undisturbed_small_run_ends_with_0():
     assert checked(EVERY)[0] == 0
 
 
-def test_oracles_decide_the_same_cases_in_one_step_and_in_three(monkeypatch):
-    def opinions(lines):
-        found = [line for line in lines if isinstance(line, OracleLine)]
-        return {(line.oracle, line.family): (line.asked, line.undecided, line.stages) for line in found}
-
-    whole = opinions(checked()[1])
-    monkeypatch.setattr(self_check, "CASES", 2)
-    code, lines = checked(first=2)
-    assert (code, opinions(lines)) == (0, whole)
-    assert {asked for asked, *_ in whole.values()} == {6}
-
-
 @pytest.mark.parametrize("name", EVERY)
 def test_wrong_oracle_ends_the_run_with_6_and_its_case_is_recorded(monkeypatch, name):
     """The oracle says contact for exterior cases."""

@@ -17,8 +17,8 @@ from hypcheck.record import Recorder, read
 from hypcheck.record.fields import as_json
 from hypcheck.record.reader import FILE, GROWING
 from hypcheck.record.writer import FolderInUseError, folder_locked
-from hypcheck.runs import started_files
 from hypcheck.runs.fingerprint import fingerprints, not_hashed, sha256
+from hypcheck.runs.started_files import MOST_FILES
 from tests.report.record_samples import text_and_record
 from tests.runs.interruption import in_small_steps, paused_bytes, started, wait_for, words
 from tests.runs.resume.test_interrupted import needs_proc
@@ -169,13 +169,12 @@ def test_what_a_file_imports_that_is_not_python_is_not_hashed_and_named(beside):
     assert [Path(name).name for name in fingerprints(["python:subject.py:f"])] == ["subject.py"]
 
 
-def test_an_implementation_of_very_many_files_is_hashed_in_part(beside, monkeypatch):
-    monkeypatch.setattr(started_files, "MOST_FILES", 20)
-    for number in range(21):
+def test_an_implementation_of_very_many_files_is_hashed_in_part(beside):
+    for number in range(MOST_FILES + 1):
         Path(f"part{number}.py").touch()
-    Path("subject.py").write_text("".join(f"import part{number}\n" for number in range(21)))
-    assert not_hashed(["python:subject.py:f"]) == ["what is beyond 20 files"]
-    assert len(fingerprints(["python:subject.py:f"])) == 20
+    Path("subject.py").write_text("".join(f"import part{number}\n" for number in range(MOST_FILES + 1)))
+    assert not_hashed(["python:subject.py:f"]) == [f"what is beyond {MOST_FILES:,} files"]
+    assert len(fingerprints(["python:subject.py:f"])) == MOST_FILES
 
 
 @pytest.mark.parametrize("content", [b"", b"\x7fELF", b"\x7fELF\x02\x01\x01" + bytes(57), b"\x7fELF" + b"\xff" * 200])

@@ -13,7 +13,6 @@ import pytest
 from hypcheck.cli.main import main
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Position
-from hypcheck.proofs import build
 from hypcheck.tables.strict_json import read_document
 from hypcheck.truth.backward_error import Bracket
 from hypcheck.vectors import frozen
@@ -250,15 +249,6 @@ def test_cases_check_continues_after_a_wrong_label_and_stops_at_a_malformed_file
     found = capsys.readouterr()
     assert "case tangent-0000" in found.out
     assert found.err.startswith(f"hypcheck: error: {bad}, line 1: ")
-
-
-@pytest.mark.parametrize("code", [0, 1])
-def test_cases_check_by_the_proved_checker_ends_as_it_does(monkeypatch, code):
-    given = []
-    monkeypatch.setattr(build, "run_checker", lambda files: given.append(files) or code)
-    assert main(["cases", "check", "--checker", "coq", "a.json", "b.json"]) == code
-    assert main(["cases", "check", "--checker", "coq"]) == code
-    assert given == [["a.json", "b.json"], build.frozen_files()]
 
 
 @pytest.mark.parametrize("name", ["tangent", "invalid"])
