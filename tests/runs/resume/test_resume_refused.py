@@ -169,6 +169,7 @@ def test_what_a_file_imports_that_is_not_python_is_not_hashed_and_named(beside):
     assert [Path(name).name for name in fingerprints(["python:subject.py:f"])] == ["subject.py"]
 
 
+@pytest.mark.slow
 def test_an_implementation_of_very_many_files_is_hashed_in_part(beside):
     for number in range(MOST_FILES + 1):
         Path(f"part{number}.py").touch()
