@@ -21,7 +21,7 @@ def _delta(rows):
         return -4 * c2**3 * c0 + (c2 * c1) ** 2 + 18 * c2 * c1 * c0 - 4 * c1**3 - 27 * c0**2
 
 
-@wrong(asked=EXTREME)
+@wrong()
 def squares_in_float64(rows):
     """Contact where a length's square is infinite or 0 in float64."""
     with np.errstate(all="ignore"):
@@ -36,7 +36,7 @@ def discriminant_in_float64(rows):
     return np.where(np.isfinite(_delta(rows)), position(rows), 0).astype(np.int8)
 
 
-@wrong(asked=EXTREME)
+@wrong()
 def range_of_float32(rows):
     """Contact where a length is beyond the range of float32, though its 53 bits are kept."""
     beyond = (np.abs(rows) > 3.4e38) | ((np.abs(rows) < 1.2e-38) & (rows != 0))
