@@ -13,7 +13,7 @@ from tests.support import inside
 from tests.support.inside import flip_exponents
 
 
-@pytest.mark.parametrize("name", FAMILIES)
+@pytest.mark.parametrize("name", [name for name, family in FAMILIES.items() if family.frozen])
 def test_generated_rows_of_a_family_begin_after_its_frozen_rows(name):
     family = FAMILIES[name]
     frozen = {row.tobytes() for row in vectors.load(name).rows}
