@@ -17,6 +17,7 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.geometry.rows import invalid
 from hypcheck.truth.dual import Dual
+from hypcheck.vectors import frozen
 from tests.support.examples import examples
 from tests.support.inside import NearestStage, clearances, nearest
 from tests.support.inside import nearest_rows_positions as positions
@@ -172,6 +173,13 @@ def test_tangency_is_not_claimed_for_a_multiplier_beside_the_maximum():
     pair = Pair(3, 1, 2, 2, 0, 0, 0)
     assert not Dual.of(pair.lengths).touches(Fraction(-1))
     assert nearest(pair).clearance == 0.5
+
+
+def test_an_optimum_that_is_a_binary_fraction_is_enclosed():
+    """The slope is exactly 0 there, and no wider enclosure has it of one sign."""
+    (case,) = (case for case in frozen.load("tangent").cases if case.id == "tangent-0060")
+    found = nearest(Pair.from_row(case.row))
+    assert (found.position, found.clearance) == (case.position, 0)
 
 
 TRIPLES = ((3, 4, 5), (4, 3, 5), (5, 12, 13), (12, 5, 13), (8, 15, 17))

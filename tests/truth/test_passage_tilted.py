@@ -15,6 +15,7 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Lengths, Pair, Position
 from hypcheck.truth import polynomials
 from hypcheck.truth.sweep import _ring_between
+from hypcheck.vectors import frozen
 from hypcheck.vectors.tilted import RINGS, TWO_POINTS
 from tests.support.examples import examples
 from tests.support.inside import (
@@ -61,6 +62,15 @@ def test_answer_about_a_tilted_way_agrees_with_exact_positions_on_it(sizes, star
             assert found.first[0] <= time
         elif there != found.start:
             assert found.first[1] < time
+
+
+@pytest.mark.parametrize("number", ["0018", "0032", "0036"])
+def test_a_tilted_sweep_through_the_ring_is_clear_by_its_roots(number):
+    """Its double root is at a pole, between clear times; the height of an upright one would tell whether it touches."""
+    (case,) = (case for case in frozen.load("tilted-way-ring").cases if case.id.endswith(number))
+    row = case.row
+    assert case.hit == 0
+    assert by_roots(sweep_of(row[:4], row[4:7], row[7:10], row[10:])).clear
 
 
 @settings(max_examples=8, deadline=None)

@@ -67,6 +67,12 @@ def test_two_roots_are_enclosed_apart_however_near_or_far_they_are(gap, sign):
     assert all(low < root < high for root, (low, high) in zip(roots, found, strict=True))
 
 
+def test_two_roots_between_two_powers_of_two_are_enclosed_apart():
+    """There a power of two in the middle of the exponents would be an end."""
+    below, above = isolate(polynomial_product((1, -9), (1, -15)))
+    assert below[0] < 9 < below[1] <= above[0] < 15 < above[1]
+
+
 @pytest.mark.parametrize(("w", "rational"), [(2, False), (16, True), (Fraction(9, 4), True), (Fraction(4, 3), False)])
 def test_a_root_squares_to_its_radicand_and_is_rational_where_that_is_a_square(w, rational):
     root = Surd.root(Fraction(1), Fraction(w)) - 1
