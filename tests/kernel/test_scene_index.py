@@ -232,3 +232,8 @@ def test_positions_beside_a_tilted_hyperboloid_know_that_it_is_narrower_next_to_
         columns = (np.array([part]) for part in (sizes, centre, origin, upright, along))
         assert tilted_positions(*columns).tolist() == [expected]
         assert tilted_position(sizes, centre, origin, upright, along) == expected
+
+
+def test_two_floats_and_a_column_of_heights_are_answered_as_by_classify():
+    scene, heights = Scene(forest(3, seed=1)), [0.0, 0.5]
+    assert scene.position(1.0, 2.0, heights).tolist() == scene.classify(1.0, 2.0, heights).tolist()
