@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from fractions import Fraction
 from functools import cache
 
 import numpy as np
 import pytest
 
+import hypcheck
 from hypcheck.geometry.pair import Lengths, Pair
 from hypcheck.kernel import clearance_points
 from tests.support import inside
@@ -281,3 +283,17 @@ def test_a_tilted_touch_is_that_of_the_axis_direction_alone(length):
     one, other = (clearance_points.tilted_touches(some) for some in (TILTED[:4], rows))
     assert np.array_equal(one.factor, other.factor)
     assert np.array_equal(one.point, other.point)
+
+
+def test_a_tilted_spheroid_centred_on_the_axis_touches_where_its_clearance_says():
+    """There the multiplier lies at a pole, and the point is found otherwise."""
+    turns = np.arange(16) * (math.pi / 8) + 0.1
+    axes = [(lean * math.cos(turn), lean * math.sin(turn), 1.0) for turn in turns for lean in (0.3, 1.0, 3.0)]
+    rows = np.array([(2, 5, b, 0.75 - b, 0, 0, z, *axis) for axis in axes for b in (0.5, 0.25) for z in (0, 0.5, -1)])
+    found = hypcheck.clearance(rows)
+    offset, axis = found.touch - rows[:, 4:7], rows[:, 7:] / np.linalg.norm(rows[:, 7:], axis=1)[:, None]
+    along = (offset * axis).sum(axis=1)
+    across = np.linalg.norm(offset - along[:, None] * axis, axis=1)
+    factor = np.hypot(across / rows[:, 2], along / rows[:, 3])
+    assert (np.abs(factor - 1 - (found.lower + found.upper) / 2) <= 1e-8).all()
+    assert np.allclose((found.touch**2 / (4, 4, -25)).sum(axis=1), 1, rtol=0, atol=1e-9)
