@@ -12,7 +12,7 @@ from hypcheck.answer import answer, answer_as_json, answer_as_text
 from hypcheck.cli.main import main
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.tables.numbers import exact_text, readable_text
-from tests.support.inside import Certificate, Decision
+from tests.support.inside import Certificate, Decision, kernel_classify, least
 from tests.support.inside import exact as oracle
 from tests.support.pairs import pairs
 
@@ -170,16 +170,16 @@ def test_classify_ends_with_6_and_prints_no_proof_if_the_proof_does_not_hold(mon
 
 
 @pytest.mark.parametrize(
-    ("place", "more", "other"),
+    ("module", "name", "more", "other"),
     [
-        ("hypcheck.truth.least.position", ["--z-max", "9"], "by the least value interior"),
-        ("hypcheck.kernel.classify.classify", ["--margin", "0.1"], "with a margin interior"),
+        (least, "position", ["--z-max", "9"], "by the least value interior"),
+        (kernel_classify, "classify", ["--margin", "0.1"], "with a margin interior"),
     ],
 )
 def test_classify_ends_with_6_if_the_least_value_or_the_position_with_a_margin_disagrees(
-    place, more, other, monkeypatch, capsys
+    module, name, more, other, monkeypatch, capsys
 ):
-    monkeypatch.setattr(place, lambda *_, **__: Position.INTERIOR)
+    monkeypatch.setattr(module, name, lambda *_, **__: Position.INTERIOR)
     assert main([*options(1, 2, 1, 1, 2.5, 0, 0), *more]) == 6
     output, errors = capsys.readouterr()
     assert output == ""

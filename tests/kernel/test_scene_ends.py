@@ -11,10 +11,9 @@ import pytest
 
 from hypcheck.geometry.pair import Position
 from hypcheck.kernel.scene_ends import limits_of, meets_for_sure
-from hypcheck.kernel.scene_index import bodies_of
 from hypcheck.kernel.scene_sweeps import bounded_hits
 from hypcheck.scene.model import FREE, UPRIGHT, Hyperboloid, Mover, MoverPart, Region, SceneModel, Span
-from tests.support.inside import Scene, kernel_choice, passage
+from tests.support.inside import Scene, kernel_choice, passage, scene_index
 from tests.support.scenes import truth_beside, truth_in
 
 STUMP = Hyperboloid("stump", 0.2, 1.0, (0.0, 0.0, 0.0), Span(-1.0, 2.0))
@@ -379,7 +378,7 @@ def test_bounds_show_no_contact_with_a_flat_wall_that_a_mover_misses_by_a_hair()
 def test_a_disc_lies_beyond_an_end_by_its_own_height_if_it_is_upright_and_by_its_longer_semi_axis_if_not(axis, reach):
     trunk = Hyperboloid("trunk", 5.0, 4.0, (0.0, 0.0, 10.0), Span(-3.0, 1.0))
     disc = Mover(2.0, 0.5, axis=axis)
-    (limits,) = limits_of(bodies_of([trunk]), disc)
+    (limits,) = limits_of(scene_index.bodies_of([trunk]), disc)
     assert limits == pytest.approx([7 - reach, 11 + reach, 7 + reach, 11 - reach], abs=1e-9)
     assert limits[0] < 7 - reach < 11 + reach < limits[1]
 
@@ -387,7 +386,7 @@ def test_a_disc_lies_beyond_an_end_by_its_own_height_if_it_is_upright_and_by_its
 @pytest.mark.parametrize("start", [4.0, 3.0, 0.0])
 def test_bounds_show_that_a_sweep_meets_a_wall_that_ends_where_its_end_does(start, by_numpy):
     """The numpy kernel leaves contact beside ends to bounds at five times of the sweep."""
-    bodies = bodies_of([Hyperboloid("tower", 2.0, 4.0, height=Span(0.0, 3.0))])
+    bodies = scene_index.bodies_of([Hyperboloid("tower", 2.0, 4.0, height=Span(0.0, 3.0))])
     by_numpy()
     starts, ends = np.array([(start, 0.0, 0.125)]), np.array([(2.125, 0.0, 0.125)])
     hits, undecided = bounded_hits(bodies, np.zeros(1, np.intp), np.array([(0.25, 0.25)]), starts, ends, None)

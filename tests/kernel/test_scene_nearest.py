@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 from hypcheck import Scene, clearance, passage
 from hypcheck.errors import InputError
 from hypcheck.kernel import scene_gaps, scene_nearest
-from hypcheck.kernel.scene_index import bodies_of
 from hypcheck.scene.model import Hyperboloid, Mover, SceneModel, Span
+from tests.support.inside import scene_index
 
 MOVER = Mover(0.3, 0.2)
 
@@ -175,7 +175,7 @@ def test_the_cylinder_about_a_tree_bounds_the_distance_from_below():
 
     A bound that is too low asks about more trees, and shows in no answer.
     """
-    bodies = bodies_of([Hyperboloid("a", 0.5, 1.0, (0, 0, 0), Span(-1, 1)), Hyperboloid("b", 0.5, 1.0)])
+    bodies = scene_index.bodies_of([Hyperboloid("a", 0.5, 1.0, (0, 0, 0), Span(-1, 1)), Hyperboloid("b", 0.5, 1.0)])
     centres = np.array([[3.0, 4.0, 0.0], [1.2, 0.0, 0.5], [0.1, 0.0, 4.0], [0.1, 0.0, 0.5], [0.5**0.5 + 3, 0.0, 5.0]])
     expected = [5 - 0.5**0.5 - 0.3, 1.2 - 0.5**0.5 - 0.3, 3 - 0.3, 0, 5 - 0.3]
     found = scene_nearest.cylinders(bodies, MOVER, centres)

@@ -12,9 +12,8 @@ import pytest
 from hypcheck import passage
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import WITHOUT_ENDS, Position
-from hypcheck.kernel import scene_index
 from hypcheck.scene.model import FREE, UPRIGHT, Hyperboloid, Mover, MoverPart, Region, SceneModel, Span
-from tests.support.inside import Scene
+from tests.support.inside import Scene, scene_index
 
 
 def forest(count, seed, height=None, **changes):

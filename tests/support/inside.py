@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from hypcheck.kernel import choice as kernel_choice
 from hypcheck.kernel import classify as kernel_classify
-from hypcheck.kernel import compiled_kernel, core, numpy_kernel, scene_lines
+from hypcheck.kernel import compiled_kernel, core, numpy_kernel, scene_index, scene_lines
 from hypcheck.kernel.choice import (
     EXTENSION,
     LEVELS,
@@ -83,6 +83,7 @@ from hypcheck.truth import (
     exact,
     float_filter,
     heights,
+    least,
     nearest_rows,
     passage_error,
     polynomial_roots,
@@ -265,6 +266,7 @@ __all__ = [
     "kernel_classify",
     "kind_of",
     "last_stages",
+    "least",
     "least_position",
     "line_at",
     "linear_factor",
@@ -305,6 +307,7 @@ __all__ = [
     "scalar_position",
     "scaled",
     "scaled_passage",
+    "scene_index",
     "scene_lines",
     "search",
     "search_begin",

@@ -13,7 +13,6 @@ from sympy.polys.rings import ring
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Lengths, Pair, Position
-from hypcheck.truth.exact import quartic_discriminant
 from tests.support.inside import Decision, Surd, decide, exact, quartic, sign_with_root
 from tests.support.inside import position as exact_position
 from tests.truth.tilted_cases import SYMMETRIC, TANGENT, TOUCHING_AND_CROSSING, WITNESSES, grown, random_rows
@@ -164,4 +163,4 @@ def test_the_signs_of_derivatives_at_the_end_of_the_interval_are_those_of_many_d
 )
 def test_discriminants_of_quartics_with_known_roots(coefficients, expected):
     """1, −1, i, −i; 1 to 4; 1, 1, −1, −1; and 256 a³e³ where only these are not 0."""
-    assert quartic_discriminant(*coefficients) == 27 * expected
+    assert exact.quartic_discriminant(*coefficients) == 27 * expected

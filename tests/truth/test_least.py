@@ -12,9 +12,7 @@ import pytest
 from mpmath import mp, mpf
 
 from hypcheck.geometry.pair import Pair, Position
-from hypcheck.truth import exact, least
-from hypcheck.truth.least import NOTHING, to_border
-from tests.support.inside import position
+from tests.support.inside import exact, least, position
 from tests.tools import ended_agreement
 
 INF = math.inf
@@ -65,7 +63,7 @@ def border(pair, point):
 @pytest.mark.parametrize("scale", [1.0, 2.0**-150, 2.0**150])
 def test_bounds_of_the_least_value_hold_that_of_every_point_and_are_as_near_as_told(scale):
     for pair in drawn(10, seed=int(math.log2(scale)), scale=scale):
-        found = to_border(pair)
+        found = least.to_border(pair)
         assert found.lower <= found.upper <= found.lower * (1 + 2.0**-39) + 1e-9
         on_border = np.array(found.point)[:, None]
         assert n_of(pair, on_border)[0] == pytest.approx(found.upper, rel=1e-9, abs=1e-9)
@@ -79,7 +77,7 @@ def test_bounds_of_the_least_value_hold_that_of_every_point_and_are_as_near_as_t
 
 def test_a_search_for_the_side_alone_ends_when_it_is_known():
     for pair in drawn(16, seed=3):
-        side, whole = to_border(pair, side_alone=True), to_border(pair)
+        side, whole = least.to_border(pair, side_alone=True), least.to_border(pair)
         assert side.meets is whole.meets
         assert side.lower <= whole.upper
         assert whole.lower <= side.upper
@@ -238,13 +236,13 @@ TREE = (3.0, 4.0)
 )
 def test_least_values_are_those_found_by_hand(row, ends, solid, value):
     axis = row[7:] or (0, 0, 1)
-    found = to_border(Pair.from_row((*row[:7], *axis, *ends, solid)))
+    found = least.to_border(Pair.from_row((*row[:7], *axis, *ends, solid)))
     assert found.lower <= value <= found.upper <= found.lower * (1 + 1e-6)  # a whole ring is nearest: many cells
 
 
 def test_bounds_tell_nothing_of_lengths_beyond_their_range():
-    assert to_border(Pair.from_row((1, 1, 1, 1e-70, 3, 0, 0, 0, 0, 1, -1, 1, 0))) is NOTHING
-    assert to_border(Pair.from_row((1e70, 1, 1, 1, 3, 0, 0, 0, 0, 1, -1, 1, 0))) is NOTHING
+    assert least.to_border(Pair.from_row((1, 1, 1, 1e-70, 3, 0, 0, 0, 0, 1, -1, 1, 0))) is least.NOTHING
+    assert least.to_border(Pair.from_row((1e70, 1, 1, 1, 3, 0, 0, 0, 0, 1, -1, 1, 0))) is least.NOTHING
 
 
 @pytest.mark.parametrize(
