@@ -8,8 +8,8 @@ AT_LEAST: dict[str, dict[str, float]] = {
     "kernel-mutants": {"mutants": 1290},
     "constants": {"mutants": 40},
     "fuzz": {"short.executions": 100},
-    "python-coverage": {"percent": 98},
-    "python-mutants": {"mutants": 2000, "percent killed": 81},
+    "python-coverage": {"percent": 98.5},
+    "python-mutants": {"mutants": 2000, "percent killed": 86},
     "coverage": {"functions.share": 100, "branches.share": 99.5, "mcdc.share": 98.8},
     "emitted": {"functions.share": 100, "branches.share": 88.5, "mcdc.share": 96.5},
 }
@@ -22,7 +22,7 @@ AT_MOST: dict[str, dict[str, float]] = {
     "emitted": {"count": 0},
     "kernel-mutants": {"count": 5},
     "constants": {"lives": 0},
-    "python-mutants": {"left": 7},
+    "python-mutants": {"left": 0},
 }
 """By part and figure: survivors, findings."""
 
