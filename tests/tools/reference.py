@@ -30,7 +30,10 @@ STAMPS = "reports/made.json"
 
 @dataclass(frozen=True)
 class Part:
-    """What one make target makes: the page, and the files that the page describes, as git names them."""
+    """What one make target makes: the page, and the files that the page describes, as git names them.
+
+    A star of git crosses folders.
+    """
 
     target: str
     page: str
@@ -41,6 +44,7 @@ ANSWERS = tuple(f"hypcheck/{name}" for name in ("derivation", "geometry", "kerne
 VECTORS = ("cases", "hypcheck/vectors")
 GATE = (*ANSWERS, *VECTORS, "hypcheck/implementations", "hypcheck/runs")
 HEADER = "hypcheck/kernel/core"
+MUTATED = tuple(f"hypcheck/{name}/*.py" for name in ("truth", "kernel", "record", "geometry", "runs"))
 COMMANDS = tuple(f"hypcheck/{name}" for name in ("cli", "implementations", "isolation", "record", "report", "runs"))
 
 
@@ -59,8 +63,8 @@ PARTS = (
     Part("engines", "reports/engines/README.md", (*GATE, "hypcheck/engines")),
     _evidence("fuzz", HEADER, "tests/tools/evidence/fuzzing/*.[ch]"),
     _evidence("faults", *COMMANDS, "tests/tools/evidence/faulty_*"),
-    _evidence("python-coverage", "hypcheck"),
-    _evidence("python-mutants", "hypcheck", "tests/tools/evidence/mutations.py"),
+    _evidence("python-coverage", "hypcheck/*.py"),
+    _evidence("python-mutants", *MUTATED, "tests/tools/evidence/mutations.py"),
     _evidence("coverage", HEADER, "tests/tools/evidence/battery"),
     _evidence("emitted", "hypcheck/kernel", "tests/tools/evidence/emitted_*.py"),
     _evidence("kernel-mutants", HEADER, "tests/tools/evidence/battery", "tests/tools/evidence/c_sites.py"),

@@ -182,7 +182,7 @@ def _volumes(share: float) -> float:
 BENCH = {
     "operations": "does not hold in numpy, and does not hold in C",
     "roots": "holds in numpy, and holds in C",
-    "hull_first": "is inconclusive in numpy, 8,192 positions at a time, and holds in C, one position a call",
+    "hull_first": "holds in numpy, 8,192 positions at a time, and holds in C, one position a call",
     "spheres": "22 % of a sphere's answers are false contacts uniformly around the tower, 26 % along flights",
     "cylinders": "1 % of a cylinder's are, and 2 % along flights",
 }
