@@ -1775,7 +1775,7 @@ static int hc_exact_tilted_position(const double row[10]) {
 #include HYPCHECK_SELF
 #endif
 #undef HC_LEVEL
-#ifndef HC_EDITION_dd8ee4413b07106f
+#ifndef HC_EDITION_f18846c138270e11
 #error "hypcheck: HYPCHECK_SELF does not name this file: where it is not called hypcheck.h, define it as the file's name, in quotation marks"
 #else
 #if HC_X86
@@ -4719,7 +4719,7 @@ size_t hypcheck_clearance(size_t n, const double *rows, int8_t *positions, hypch
 #endif
 #endif
 #elif defined(HC_LEVEL)
-#define HC_EDITION_dd8ee4413b07106f
+#define HC_EDITION_f18846c138270e11
 
 /* ---- one instruction set: vectors of HC_WIDTH doubles; included once for each ---- */
 
