@@ -24,10 +24,6 @@ Proof. vm_compute; reflexivity. Qed.
 Lemma floats_known : forallb (fun n => match look n known with Some _ => true | None => false end) floats = true.
 Proof. vm_compute; reflexivity. Qed.
 
-Lemma look_in {A} n (l : list (string * A)) a : look n l = Some a -> In (n, a) l.
-Proof.
-  induction l as [| [m c] l IH]; cbn; [discriminate |]; destruct (String.eqb_spec m n) as [<- |]; [intros E; injection E as <-; auto | auto].
-Qed.
 Lemma known_high n r : look n known = Some r -> (high r <= 1023)%Z.
 Proof. intros E; apply look_in in E; pose proof known_below as H; rewrite forallb_forall in H; apply Z.leb_le, (H (n, r) E). Qed.
 

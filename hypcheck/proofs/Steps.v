@@ -116,6 +116,10 @@ Definition calls := [("HC_GT", "gt"); ("HC_LT", "lt"); ("HC_GE", "ge"); ("HC_LE"
 
 Fixpoint look {A} (key : string) (table : list (string * A)) : option A := match table with
   | [] => None | (k, v) :: rest => if String.eqb k key then Some v else look key rest end.
+Lemma look_in {A} n (l : list (string * A)) a : look n l = Some a -> In (n, a) l.
+Proof.
+  induction l as [| [m c] l IH]; cbn; [discriminate |]; destruct (String.eqb_spec m n) as [<- |]; [intros E; injection E as <-; auto | auto].
+Qed.
 
 Definition made (n : string) (operation : option string) (given : option (list argument)) : option step :=
   match operation, given with Some o, Some l => Some (Step n o l) | _, _ => None end.

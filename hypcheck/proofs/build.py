@@ -56,12 +56,12 @@ PRINTED = ("Steps", "Programs", HEADER_TEXT, "Printed", "Fixed", "FixedRuns", "R
 COMPOSED = (
     *("Stages", "StageTwoAnswers", "Underflow", "StageOne", "StageTwoRuns"),
     *("StageThree", "StageFive", "Long", "StageFour", "Limbs", "LimbsRuns", "ShiftRuns"),
-    *("Trees", "Computed", "StageThreeRuns", "StageThreeAnswers"),
+    *("Trees", "Computed", "StageThreeRuns", "StageThreeAnswers", "StageThreeNumbers", "StageThreePosition"),
 )
 """All stages in one theorem, Stages.whatever_stage_answers; from a stage's numbers to the position; the C of words; the
 functions of the C that decide."""
 
-OF_STAGES = ("Stages", "StageTwoAnswers", "StageThree", "StageFive", "StageFour")
+OF_STAGES = ("Stages", "StageTwoAnswers", "StageThree", "StageThreePosition", "StageFive", "StageFour")
 """The files whose theorems say that what a stage answers is the position."""
 
 OF_RUNS = ("StageOne", "StageTwoRuns")
