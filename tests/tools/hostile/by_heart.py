@@ -34,10 +34,10 @@ def classify(rows):
 def write(folder: Path, count: int) -> None:
     """Write the program; it knows as many generated rows of each family that is asked as a run of that count asks."""
     known: dict[str, int] = {}
-    for name in frozen.NAMES:
+    for name in dict.fromkeys([*frozen.NAMES, *FAMILIES]):
         if name in FAMILIES and name not in ALL:
             continue
-        family, rows = FAMILIES.get(name), [frozen.load(name).rows]
+        family, rows = FAMILIES.get(name), [frozen.load(name).rows] if name in frozen.NAMES else []
         if family is not None:
             rows.append(family.rows(SEED, first_unfrozen(family, SEED) + count * family.times))
         every = np.vstack(rows)

@@ -51,7 +51,9 @@ def test_attack_by_a_hostile_implementation_is_contained_and_reported(attack, me
 EXCUSES = {
     "nothing": tuple,
     "each family": lambda: [f'family = "{family.name}"' for family in select()],
-    "a case of each family": lambda: [f'case = "{frozen.load(family.name).ids[0]}"' for family in select()],
+    "a case of each family": lambda: [
+        f'case = "{frozen.load(family.name).ids[0]}"' for family in select() if family.name in frozen.NAMES
+    ],
     "every cause": lambda: [f'cause = "{name}"\nmax_u = inf' for name in excusable_causes()],
 }
 """What a list of known failures may say in favour of a program that knows rows by heart."""
