@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import click
 
 NUMBER = r"(?:0|[1-9]\d*)\.(?:0|[1-9]\d*)\.(?:0|[1-9]\d*)"
+PRINTED = "hypcheck/kernel/core/hypcheck.h"
+"""The generator prints it: a checksum of its own text, the version in it, names a macro."""
+
 PLACES = {
     "hypcheck/version.py": rf'(VERSION = ")({NUMBER})"',
     "CITATION.cff": rf"(\nversion: )({NUMBER})\n",
-    "hypcheck/kernel/core/hypcheck.h": rf'(#define HYPCHECK_VERSION ")({NUMBER})"',
+    PRINTED: rf'(#define HYPCHECK_VERSION ")({NUMBER})"',
 }
 """The files that say it. Manifests of Rust and JavaScript say 0.0.0; their archives get it from hypcheck/version.py."""
 
@@ -40,9 +45,10 @@ def raise_to(root: Path, version: str) -> None:
     today = versions(root)["hypcheck/version.py"]
     if _numbers(version) <= _numbers(today):
         raise click.ClickException(f"{version} is not above {today}; a version that was used is not used again")
-    for name in PLACES:
+    for name in PLACES.keys() - {PRINTED}:
         found, text = _found(root, name), (root / name).read_text(encoding="utf-8")
         (root / name).write_text(text[: found.start(2)] + version + text[found.end(2) :], encoding="utf-8")
+    subprocess.run([sys.executable, "-m", "hypcheck.kernel.core.generate"], cwd=root, check=True)
     table = (root / SYMBOLS).read_text(encoding="utf-8")
     node = f"HYPCHECK_{version.partition('.')[0]} {{"
     (root / SYMBOLS).write_text(re.sub(r"^HYPCHECK_\d+ {", node, table, flags=re.MULTILINE), encoding="utf-8")

@@ -124,7 +124,8 @@ def test_all_files_say_one_version():
 
 @pytest.fixture
 def copied(tmp_path):
-    for name in (*version.PLACES, version.SYMBOLS):
+    shutil.copytree(ROOT / "hypcheck", tmp_path / "hypcheck", ignore=shutil.ignore_patterns("__pycache__", "*.so"))
+    for name in ("CITATION.cff", version.SYMBOLS):
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(ROOT / name, tmp_path / name)
     return tmp_path
@@ -133,9 +134,12 @@ def copied(tmp_path):
 def test_a_version_is_raised_in_all_files_at_once(copied):
     version.raise_to(copied, "12.3.40")
     assert version.versions(copied) == dict.fromkeys(version.PLACES, "12.3.40") | {version.SYMBOLS: "12"}
-    for name in version.PLACES:
-        lines = [(ROOT / name).read_text(encoding="utf-8"), (copied / name).read_text(encoding="utf-8")]
-        assert lines[0].replace(VERSION, "12.3.40") == lines[1]
+    texts = {name: [(root / name).read_text(encoding="utf-8") for root in (ROOT, copied)] for name in version.PLACES}
+    editions = [re.findall(r"HC_EDITION_(\w{16})", text) for text in texts[version.PRINTED]]
+    assert [len(set(each)) for each in editions] == [1, 1]
+    assert editions[0] != editions[1]  # a checksum of the text, by which a file that includes itself knows itself
+    for before, after in texts.values():
+        assert before.replace(VERSION, "12.3.40").replace(editions[0][0], editions[1][0]) == after
 
 
 @pytest.mark.parametrize(
