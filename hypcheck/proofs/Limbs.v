@@ -25,7 +25,8 @@ Inductive statement := Declare (k : kind) (n : string) (value : option expressio
   | Return (e : expression).
 Record function := Function { returns : kind; parameters : list (kind * string); body : list statement }.
 
-Definition type_of w := look w [("int", Int); ("uint64_t", U64); ("hc_wide", Wide)].
+(** A limb, in LongIntegers.v of any width, takes the place of U32, the type of masks here. *)
+Definition type_of w := look w [("int", Int); ("uint64_t", U64); ("hc_wide", Wide); ("hc_limb", U32)].
 Definition kind_of w := match type_of w with Some t => Some (Plain t) | None => look w [("hc_fixed", Struct 2); ("hc_long", Struct 4)] end.
 Definition precedence o := look o [("*", 10%nat); ("/", 10); ("+", 9); ("-", 9); ("<<", 8); (">>", 8); ("<", 7); (">", 7); ("<=", 7); (">=", 7);
   ("==", 6); ("!=", 6); ("&", 5); ("^", 4); ("|", 3); ("&&", 2); ("||", 1)]%nat.

@@ -15,7 +15,7 @@ from hypcheck.proofs import build, weakenings
 from hypcheck.proofs.build import CONTROL, Weakened, accepted, changed_decisions, changed_functions, weakened
 
 OF_DECISIONS = 20
-"""So many changes of functions that decide are tried by --every: each takes Coq up to a minute."""
+"""So many changes of functions that decide, and of long integers, are tried by --every: each takes Coq long."""
 
 
 @click.command(help=__doc__)
@@ -42,11 +42,14 @@ def main(kernels: tuple[Path, ...], soundness: bool, count: int, every: bool, bu
             changes = list(changed_functions())
             tried = _tried(changes, len(changes) if every else count, built)
             click.echo(f"{len(changes)} changes of the header's functions of words; {tried} are tried: all are refused")
-            changes = list(changed_decisions())
-            tried = _tried(changes, OF_DECISIONS if every else min(1, count), built)
-            click.echo(
-                f"{len(changes)} changes of the header's functions that decide; {tried} are tried: all are refused"
-            )
+            for changes, which in (
+                (changed_decisions(), "that decide"),
+                (build.changed_integers(), "of long integers"),
+            ):
+                tried = _tried(list(changes), OF_DECISIONS if every else min(1, count), built)
+                click.echo(
+                    f"{len(changes)} changes of the header's functions {which}; {tried} are tried: all are refused"
+                )
             _refuse_made(count, every=every, built=built)
         build.build_checker(built)
         sys.exit(build.run_checker(build.frozen_files(), built))

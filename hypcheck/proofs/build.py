@@ -57,9 +57,10 @@ COMPOSED = (
     *("Stages", "StageTwoAnswers", "Underflow", "StageOne", "StageTwoRuns"),
     *("StageThree", "StageFive", "Long", "StageFour", "Limbs", "LimbsRuns", "ShiftRuns"),
     *("Trees", "Computed", "StageThreeRuns", "StageThreeAnswers", "StageThreeNumbers", "StageThreePosition"),
+    *("LongIntegers", "LongRuns", "LongSums", "LongProducts", "LongUnits"),
 )
 """All stages in one theorem, Stages.whatever_stage_answers; from a stage's numbers to the position; the C of words; the
-functions of the C that decide."""
+functions of the C that decide; the C of long integers."""
 
 OF_STAGES = ("Stages", "StageTwoAnswers", "StageThree", "StageThreePosition", "StageFive", "StageFour")
 """The files whose theorems say that what a stage answers is the position."""
@@ -322,6 +323,13 @@ def changed_decisions() -> tuple[Weakened, ...]:
     """StageThreeRuns.v or StageThreeAnswers.v with one change of a function that decides; each must be refused."""
     changes = printed_c.deciding_changes()
     return tuple(Weakened(printed_c.PROVED_IN[name], "HeaderText.deciding", new, what) for name, new, what in changes)
+
+
+@cache
+def changed_integers() -> tuple[Weakened, ...]:
+    """LongSums.v, LongProducts.v or LongUnits.v with one change of a function of theirs; each must be refused."""
+    changes = printed_c.integer_changes()
+    return tuple(Weakened(printed_c.PROVED_IN[name], "HeaderText.integers", new, what) for name, new, what in changes)
 
 
 CONTROL = Weakened("Checker", "Definition less", "Definition less", "nothing")

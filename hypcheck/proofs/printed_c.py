@@ -44,6 +44,11 @@ DECIDING = (
 )
 """The functions of the header that decide: with branches, shift counts and calls."""
 
+_SIZES = ("hc_compare_sizes", "hc_add_sizes", "hc_subtract_sizes", "hc_combine", "hc_add", "hc_subtract")
+_PRODUCTS = ("hc_add_row", "hc_multiply", "hc_scale")
+INTEGERS = (*_SIZES, *_PRODUCTS, "hc_in_units")
+"""The functions of the header that compute with long integers."""
+
 MACROS = ("HC_MAX_OF", "HC_MIN_OF")
 """The macros of two ints that they use, read as functions."""
 
@@ -52,6 +57,9 @@ PROVED_IN = {
     **dict.fromkeys(_SHIFTS_AND_SIGNS, "ShiftRuns"),
     **dict.fromkeys((*MACROS, "hc_fixed_whole", "hc_fixed_terms_of"), "StageThreeRuns"),
     **dict.fromkeys(DECIDING[2:], "StageThreeAnswers"),
+    **dict.fromkeys(_SIZES, "LongSums"),
+    **dict.fromkeys(_PRODUCTS, "LongProducts"),
+    "hc_in_units": "LongUnits",
 }
 """The Coq file that says what each of them computes."""
 
@@ -89,8 +97,12 @@ _WORD = {
 _CHANGED = re.compile(
     r"(?<= )(?:[-+*&^|<>]|<<|>>|[-+]=|[=!]=|&&|\|\|)(?= )|(?<![\w.])(?<![^{]\{)\d+\b(?!}}|, 0}})|\.(?:low|high)\b"
 )
-_MEANS_THE_SAME = ("by < 128 ?", "mask << 0 <<", "*about = delta ? 1")
-"""Changes of hc_fixed_down that change no value, 127 bits and the sign in a bit that already has it; and a guess."""
+_MEANS_THE_SAME = (
+    *("by < 128 ?", "mask << 0 <<", "*about = delta ? 1"),
+    *("right_sign >= 1", "order < 1 ? right : left", "order < 1 ? left : right"),
+)
+"""Changes of hc_fixed_down that change no value, 127 bits and the sign in a bit that already has it; a guess; in
+hc_combine a number without limbs subtracted, not added, and one of two equal sizes for the other."""
 
 _DEFINED = re.compile(r"^(?:const \w+ |HC_INTEGER\()(\w+)", re.MULTILINE)
 _STATEMENT = re.compile(r"const \w+ \w+ = |HC_INTEGER\(\w+, \d+\); ")
@@ -130,14 +142,16 @@ def header_text() -> str:
     text = HEADER.read_text(encoding="utf-8")
     rows = ";\n".join(f"  ({_quoted(name)}, {_quoted(part)}%text)" for name, part in parts(text))
     bounds = "; ".join(f'("{name.lower()}", {value})' for name, value in _BOUND.findall(text))
-    words, trees = (
-        ";\n".join(f"  {_quoted(function)}%text" for function in found) for found in (functions(text), deciding(text))
+    words, trees, long = (
+        ";\n".join(f"  {_quoted(function)}%text" for function in found)
+        for found in (functions(text), deciding(text), _texts(INTEGERS, text))
     )
     return (
         f"From Hypcheck Require Import Steps.\n{_HEAD}Definition fixed_bounds : list (string * Z) := [{bounds}]%Z.\n"
         f"Definition texts : list (string * text) := [\n{rows}].\n"
         f"Definition functions : list text := [\n{words}].\n"
         f"Definition deciding : list text := [\n{trees}].\n"
+        f"Definition integers : list text := [\n{long}].\n"
         "Definition parts := map (fun part => (fst part, string_of (snd part))) texts.\n"
     )
 
@@ -172,6 +186,11 @@ def function_changes() -> Iterator[tuple[str, str, str]]:
 def deciding_changes() -> Iterator[tuple[str, str, str]]:
     """The same of the functions that decide, and of the macros that they use."""
     yield from _changes_of((*MACROS, *DECIDING), deciding(HEADER.read_text(encoding="utf-8")))
+
+
+def integer_changes() -> Iterator[tuple[str, str, str]]:
+    """The same of the functions that compute with long integers."""
+    yield from _changes_of(INTEGERS, _texts(INTEGERS, HEADER.read_text(encoding="utf-8")))
 
 
 def _changes_of(names: tuple[str, ...], texts: list[str]) -> Iterator[tuple[str, str, str]]:
