@@ -2,7 +2,8 @@
 
     As in Limbs.v, but a number of words is one value, whatever its words are, structs have fields by name, and arguments that are
     addresses of variables get what the function called puts there. A function that is called computes what is said of it. What is
-    read declares constants and variables, puts values into them, calls functions, branches and returns; loops are not read. *)
+    read declares constants and variables, puts values into them, calls functions, branches and returns; loops are not read. An
+    integer of any length has room for so many bits, and is a whole number with a sign as soon as a function has filled it. *)
 
 Require Import List String Ascii ZArith Bool.
 From Hypcheck Require Import Steps Fixed Long Limbs.
@@ -39,6 +40,13 @@ Fixpoint names_of (fuel : nat) (t : string) (ws : list string) : option (list tr
     | _, _ => None end
   | _, _ => None end.
 
+(** "HC_INTEGER(p, 42);" declares an integer, and "hc_add(&p, &a, &b);" fills it, by what room there is. *)
+Definition fillings := ["hc_add"; "hc_subtract"; "hc_multiply"; "hc_scale"; "hc_in_units"].
+Definition calling f given := match given with
+  | Named n :: rest => if is "HC_INTEGER" f then Set_ "hc_integer" n (Called f rest)
+    else if is_in f fillings then Set_ "" n (Called f given) else Calling f given
+  | _ => Calling f given end.
+
 Fixpoint statement_of (fuel : nat) (ws : list string) : option (list tree * list string) := match fuel, ws with
   | S f, w :: rest =>
     if is "{" w then trees_of f rest
@@ -51,7 +59,7 @@ Fixpoint statement_of (fuel : nat) (ws : list string) : option (list tree * list
     else if is "const" w then match rest with t :: names => if is_in t types then names_of enough t names else None | [] => None end
     else if is_in w types then names_of enough w rest
     else match behind ["("] rest with
-    | Some (_, inner) => try (l, more) <- listed_to enough ")" inner; try (_, last) <- behind [";"] more; Some ([Calling w l], last)
+    | Some (_, inner) => try (l, more) <- listed_to enough ")" inner; try (_, last) <- behind [";"] more; Some ([calling w l], last)
     | None => names_of enough "" ws end
   | _, _ => None end
 with trees_of (fuel : nat) (ws : list string) : option (list tree * list string) := match fuel, ws with
@@ -76,7 +84,8 @@ Definition deciding_of (text : string) : option (string * deciding) := match wit
 (** ** Its meaning. *)
 
 (** A double is a whole number times 2^(power - 1075). *)
-Inductive datum := Of (t : type) (z : Z) | Fix (n : number) | Lng (n : long) | Double (whole power : Z) | Rec (l : list (string * datum)).
+Inductive datum := Of (t : type) (z : Z) | Fix (n : number) | Lng (n : long) | Double (whole power : Z) | Rec (l : list (string * datum))
+  | Room (bits : Z) | Whole (z : Z).
 Definition environment := list (string * datum).
 
 Fixpoint prefixed (p s : string) : option string := match p, s with
@@ -85,7 +94,8 @@ Fixpoint prefixed (p s : string) : option string := match p, s with
   | _, _ => None end.
 Definition fields n (now : environment) := flat_map (fun v => match prefixed (n ++ ".") (fst v) with Some f => [(f, snd v)] | None => [] end) now.
 Definition bound n v (now : environment) : environment := match v with
-  | Rec l => app (map (fun f => (n ++ "." ++ fst f, snd f)) l) now | _ => (n, v) :: now end.
+  | Rec l => app (map (fun f => (n ++ "." ++ fst f, snd f)) l) now
+  | Whole z => (n ++ ".sign", Of Int (Z.sgn z)) :: (n, v) :: now | _ => (n, v) :: now end.
 
 Definition places := [(0, "0"); (1, "1"); (2, "2"); (3, "3"); (4, "4"); (5, "5"); (6, "6")].
 Definition place k := match find (fun p => fst p =? k) places with Some p => Some (snd p) | None => None end.
@@ -131,7 +141,7 @@ Definition held t v := match t, v with
   | "int", Of u z => try x <- converted u Int z; Some (Of Int x)
   | "uint64_t", Of u z => try x <- converted u U64 z; Some (Of U64 x)
   | "double", Double _ _ | "hc_fixed", Fix _ | "hc_long", Lng _ => Some v
-  | "hc_parts", Rec _ | "hc_fixed_terms", Rec _ | "hc_fixed_cubic", Rec _ => Some v
+  | "hc_integer", Room _ | "hc_parts", Rec _ | "hc_fixed_terms", Rec _ | "hc_fixed_cubic", Rec _ => Some v
   | _, _ => None end.
 Definition is_new t n (now : environment) := is "" t || match look n now with Some _ => false | None => true end.
 

@@ -58,11 +58,15 @@ COMPOSED = (
     *("StageThree", "StageFive", "Long", "StageFour", "Limbs", "LimbsRuns", "ShiftRuns"),
     *("Trees", "Computed", "StageThreeRuns", "StageThreeAnswers", "StageThreeNumbers", "StageThreePosition"),
     *("LongIntegers", "LongRuns", "LongSums", "LongProducts", "LongUnits"),
+    "StageFiveAnswers",
 )
 """All stages in one theorem, Stages.whatever_stage_answers; from a stage's numbers to the position; the C of words; the
 functions of the C that decide; the C of long integers."""
 
-OF_STAGES = ("Stages", "StageTwoAnswers", "StageThree", "StageThreePosition", "StageFive", "StageFour")
+OF_STAGES = (
+    *("Stages", "StageTwoAnswers", "StageThree", "StageThreePosition"),
+    *("StageFive", "StageFiveAnswers", "StageFour"),
+)
 """The files whose theorems say that what a stage answers is the position."""
 
 OF_RUNS = ("StageOne", "StageTwoRuns")
@@ -320,7 +324,7 @@ def changed_functions() -> tuple[Weakened, ...]:
 
 @cache
 def changed_decisions() -> tuple[Weakened, ...]:
-    """StageThreeRuns.v or StageThreeAnswers.v with one change of a function that decides; each must be refused."""
+    """The file that runs a function that decides, with one change of that function; each must be refused."""
     changes = printed_c.deciding_changes()
     return tuple(Weakened(printed_c.PROVED_IN[name], "HeaderText.deciding", new, what) for name, new, what in changes)
 

@@ -32,16 +32,10 @@ _SHIFTS_AND_SIGNS = (
 FUNCTIONS = (*_SUMS_AND_PRODUCTS, *_SHIFTS_AND_SIGNS)
 """The functions of the header that compute with numbers of 128 and 256 bits."""
 
-DECIDING = (
-    *(
-        "hc_fixed_whole",
-        "hc_fixed_terms_of",
-        "hc_fixed_cubic_of",
-        "hc_fixed_at_B",
-        "hc_fixed_at_A",
-        "hc_fixed_position",
-    ),
-)
+_FIXED_TERMS = ("hc_fixed_whole", "hc_fixed_terms_of")
+_FIXED_ANSWERS = ("hc_fixed_cubic_of", "hc_fixed_at_B", "hc_fixed_at_A", "hc_fixed_position")
+_BY_INTEGERS = ("hc_least", "hc_position_by_integers")
+DECIDING = (*_FIXED_TERMS, *_FIXED_ANSWERS, *_BY_INTEGERS)
 """The functions of the header that decide: with branches, shift counts and calls."""
 
 _SIZES = ("hc_compare_sizes", "hc_add_sizes", "hc_subtract_sizes", "hc_combine", "hc_add", "hc_subtract")
@@ -55,8 +49,9 @@ MACROS = ("HC_MAX_OF", "HC_MIN_OF")
 PROVED_IN = {
     **dict.fromkeys(_SUMS_AND_PRODUCTS, "LimbsRuns"),
     **dict.fromkeys(_SHIFTS_AND_SIGNS, "ShiftRuns"),
-    **dict.fromkeys((*MACROS, "hc_fixed_whole", "hc_fixed_terms_of"), "StageThreeRuns"),
-    **dict.fromkeys(DECIDING[2:], "StageThreeAnswers"),
+    **dict.fromkeys((*MACROS, *_FIXED_TERMS), "StageThreeRuns"),
+    **dict.fromkeys(_FIXED_ANSWERS, "StageThreeAnswers"),
+    **dict.fromkeys(_BY_INTEGERS, "StageFiveAnswers"),
     **dict.fromkeys(_SIZES, "LongSums"),
     **dict.fromkeys(_PRODUCTS, "LongProducts"),
     "hc_in_units": "LongUnits",
