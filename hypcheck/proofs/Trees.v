@@ -26,13 +26,18 @@ Fixpoint tidy (ws : list string) : list string := match ws with
   | w :: rest => w :: tidy rest
   | [] => [] end.
 
-Definition types := ["int"; "uint64_t"; "double"; "hc_fixed"; "hc_long"; "hc_parts"; "hc_fixed_terms"; "hc_fixed_cubic"].
+Definition types := ["int"; "uint64_t"; "double"; "hc_fixed"; "hc_long"; "hc_parts"; "hc_fixed_terms"; "hc_fixed_cubic"; "hc_bits"].
+
+(** A function that returns a value and puts others: the value is the first that it puts. *)
+Definition answering := ["hc_fixed_position"].
+Definition setting t n e := match e with
+  | Called f (given :: rest) => if is_in f answering then Calling f (given :: Named n :: rest) else Set_ t n e | _ => Set_ t n e end.
 
 (** Names behind a type, those with values; and assignments. *)
 Fixpoint names_of (fuel : nat) (t : string) (ws : list string) : option (list tree * list string) := match fuel, ws with
   | S f, n :: rest =>
     try (l, more) <- match behind ["="] rest with
-      | Some (_, value) => try (e, more) <- expression_of enough 0 value; Some ([Set_ t n e], more)
+      | Some (_, value) => try (e, more) <- expression_of enough 0 value; Some ([setting t n e], more)
       | None => if is "" t then None else Some ([], rest) end;
     match behind [";"] more, behind [","] more with
     | Some (_, last), _ => Some (l, last)

@@ -58,14 +58,14 @@ COMPOSED = (
     *("StageThree", "StageFive", "Long", "StageFour", "Limbs", "LimbsRuns", "ShiftRuns"),
     *("Trees", "Computed", "StageThreeRuns", "StageThreeAnswers", "StageThreeNumbers", "StageThreePosition"),
     *("LongIntegers", "LongRuns", "LongSums", "LongProducts", "LongUnits"),
-    "StageFiveAnswers",
+    *("StageFiveAnswers", "StagesRuns"),
 )
 """All stages in one theorem, Stages.whatever_stage_answers; from a stage's numbers to the position; the C of words; the
 functions of the C that decide; the C of long integers."""
 
 OF_STAGES = (
     *("Stages", "StageTwoAnswers", "StageThree", "StageThreePosition"),
-    *("StageFive", "StageFiveAnswers", "StageFour"),
+    *("StageFive", "StageFiveAnswers", "StageFour", "StagesRuns"),
 )
 """The files whose theorems say that what a stage answers is the position."""
 

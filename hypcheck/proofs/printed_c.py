@@ -35,7 +35,8 @@ FUNCTIONS = (*_SUMS_AND_PRODUCTS, *_SHIFTS_AND_SIGNS)
 _FIXED_TERMS = ("hc_fixed_whole", "hc_fixed_terms_of")
 _FIXED_ANSWERS = ("hc_fixed_cubic_of", "hc_fixed_at_B", "hc_fixed_at_A", "hc_fixed_position")
 _BY_INTEGERS = ("hc_least", "hc_position_by_integers")
-DECIDING = (*_FIXED_TERMS, *_FIXED_ANSWERS, *_BY_INTEGERS)
+_STAGE_BY_STAGE = ("hc_exact_position", "hc_position_of")
+DECIDING = (*_FIXED_TERMS, *_FIXED_ANSWERS, *_BY_INTEGERS, *_STAGE_BY_STAGE)
 """The functions of the header that decide: with branches, shift counts and calls."""
 
 _SIZES = ("hc_compare_sizes", "hc_add_sizes", "hc_subtract_sizes", "hc_combine", "hc_add", "hc_subtract")
@@ -52,6 +53,7 @@ PROVED_IN = {
     **dict.fromkeys((*MACROS, *_FIXED_TERMS), "StageThreeRuns"),
     **dict.fromkeys(_FIXED_ANSWERS, "StageThreeAnswers"),
     **dict.fromkeys(_BY_INTEGERS, "StageFiveAnswers"),
+    **dict.fromkeys(_STAGE_BY_STAGE, "StagesRuns"),
     **dict.fromkeys(_SIZES, "LongSums"),
     **dict.fromkeys(_PRODUCTS, "LongProducts"),
     "hc_in_units": "LongUnits",
