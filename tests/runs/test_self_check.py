@@ -16,7 +16,7 @@ from hypcheck.geometry.pair import Position
 from hypcheck.implementations import builtin
 from hypcheck.record import Recorder, read
 from hypcheck.record.fields import as_json
-from hypcheck.record.lines import DriftLine, OracleLine, TimingLine
+from hypcheck.record.lines import DriftLine, GroupLine, OracleLine, TimingLine
 from hypcheck.runs import oracles, self_check
 from hypcheck.runs.findings import SelfCheckPlan
 from tests.report.test_schemas import GrowingText
@@ -121,3 +121,24 @@ def test_same_seed_gives_the_same_record_except_for_times(tmp_path, text_reports
         ]
 
     assert lines("1") == lines("2")
+
+
+def test_cases_beyond_the_first_400_of_a_family_are_asked_of_the_oracles_alone(tmp_path, text_reports):
+    options = [
+        "--families",
+        "ring",
+        "--judged",
+        "5",
+        "--roots",
+        "3",
+        "--oracles",
+        "exact,roots",
+        "--out",
+        str(tmp_path),
+    ]
+    assert CliRunner().invoke(verify, ["--self", "--count", "403", *options]).exit_code == 0
+    record = read(tmp_path)
+    assert {line.oracle: line.asked for line in record.of(OracleLine)}["exact"] == 403
+    groups = [(line.method, line.asked) for line in record.of(GroupLine)]
+    assert len(groups) == len(dict(groups))
+    assert max(dict(groups).values()) == 5
