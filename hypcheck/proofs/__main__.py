@@ -6,6 +6,7 @@ Where KERNELs are given, files of `hypcheck emit --proof`, Coq checks those alon
 from __future__ import annotations
 
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 import click
@@ -39,16 +40,15 @@ def main(kernels: tuple[Path, ...], soundness: bool, count: int, every: bool, bu
         changes = [change for change in weakened() if change.file in names]
         _refuse(changes, len(changes) if every else count, built)
         if not soundness:
-            changes = list(changed_functions())
-            tried = _tried(changes, len(changes) if every else count, built)
-            click.echo(f"{len(changes)} changes of the header's functions of words; {tried} are tried: all are refused")
-            for changes, which in (
-                (changed_decisions(), "that decide"),
-                (build.changed_integers(), "of long integers"),
+            words, decisions, integers = changed_functions(), changed_decisions(), build.changed_integers()
+            for found, which, some in (
+                (words, "of words", len(words) if every else count),
+                (decisions, "that decide", OF_DECISIONS if every else min(1, count)),
+                (integers, "of long integers", OF_DECISIONS if every else min(1, count)),
             ):
-                tried = _tried(list(changes), OF_DECISIONS if every else min(1, count), built)
+                tried = _tried(found, some, built)
                 click.echo(
-                    f"{len(changes)} changes of the header's functions {which}; {tried} are tried: all are refused"
+                    f"{len(found)} changes of the header's functions {which}; {tried} are tried: all are refused"
                 )
             _refuse_made(count, every=every, built=built)
         build.build_checker(built)
@@ -84,7 +84,7 @@ def _refuse(changes: list[Weakened], count: int, built: Path) -> None:
     click.echo(f"{len(changes)} weakened statements are written by hand; {tried} are tried: all are refused")
 
 
-def _tried(changes: list[Weakened], count: int, built: Path) -> int:
+def _tried(changes: Sequence[Weakened], count: int, built: Path) -> int:
     tried = changes[:: max(1, len(changes) // max(1, count))][:count]
     for change in tried:
         if accepted(change, built):
