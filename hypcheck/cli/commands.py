@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import errno
 import re
+import sys
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from importlib import import_module
@@ -147,6 +148,9 @@ GROUPS = {
 
 COMMANDS = {name: place for group in GROUPS.values() for name, place in group.items()}
 
+OF_POSIX = ("verify", "replay", "hunt", "minimise", "bench", "engines", "simulate")
+"""The commands that start programs or workers and watch them, as Windows cannot; the others run there, too."""
+
 _WORDS = f"{__name__}.words"
 """The key of the words after the command in a context's meta: --help among them works with bad settings too."""
 
@@ -201,6 +205,12 @@ def hypcheck(context: click.Context, /, no_settings: bool) -> None:
     """The position of a spheroid relative to a hyperboloid of one sheet: exact answers, proofs, tests of programs."""
     if no_settings or any(name in context.meta.get(_WORDS, ()) for name in context.help_option_names):
         return
+    if sys.platform == "win32" and context.invoked_subcommand in OF_POSIX:
+        others = ", ".join(name for name in COMMANDS if name not in OF_POSIX)
+        raise InputError(
+            f"'hypcheck {context.invoked_subcommand}' starts programs and watches them, which it can on Linux and macOS"
+            f" alone; on Windows there are {others}"
+        )
     from hypcheck.cli import settings
 
     if context.invoked_subcommand in settings.COMMANDS:
