@@ -208,8 +208,8 @@ def hypcheck(context: click.Context, /, no_settings: bool) -> None:
     if sys.platform == "win32" and context.invoked_subcommand in OF_POSIX:
         others = ", ".join(name for name in COMMANDS if name not in OF_POSIX)
         raise InputError(
-            f"'hypcheck {context.invoked_subcommand}' starts programs and watches them, which it can on Linux and macOS"
-            f" alone; on Windows there are {others}"
+            f"'hypcheck {context.invoked_subcommand}' starts programs and watches them, which it can do on Linux and"
+            f" macOS only; on Windows use {others}"
         )
     from hypcheck.cli import settings
 

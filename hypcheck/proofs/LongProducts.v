@@ -1,4 +1,4 @@
-(** The functions of the header that multiply long integers compute products: Coq reads their text and runs it, for limbs of 32 and of
+(** The functions of the header that multiply long integers: Coq reads their text and runs it, for limbs of 32 and of
     64 bits and any number of them. *)
 
 Require Import List String ZArith Lia Bool.
