@@ -19,7 +19,7 @@ from hypcheck.tables.strict_json import read_document
 from hypcheck.truth.backward_error import Bracket
 from hypcheck.vectors import frozen
 from hypcheck.vectors.cases import AnyVector, SweepVector, Vector, case_text
-from hypcheck.vectors.families import EXTREME, case_id, family_of, select
+from hypcheck.vectors.families import ALL, EXTREME, case_id, family_of, select
 from hypcheck.vectors.family import Family, Metadata
 from hypcheck.vectors.format import Content, read_metadata
 from hypcheck.vectors.frozen import ALL_NAMES
@@ -121,6 +121,8 @@ def case_named(name: str) -> tuple[AnyVector | InvalidRow, Content]:
 
         return generated_case(name)
     family = _family_of(name)
+    if family in ALL and family not in ALL_NAMES:
+        raise InputError(f"{family} has no frozen cases; 'hypcheck cases generate {family}' makes rows of it")
     if family not in ALL_NAMES:
         raise InputError(f"there is no case or family {name!r}; {suggestion(family, ALL_NAMES)}")
     file = frozen.load(family)
