@@ -2,8 +2,10 @@
 
     As in Limbs.v, but a number of words is one value, whatever its words are, structs have fields by name, and arguments that are
     addresses of variables get what the function called puts there. A function that is called computes what is said of it. What is
-    read declares constants and variables, puts values into them, calls functions, branches and returns; loops are not read. An
-    integer of any length has room for so many bits, and is a whole number with a sign as soon as a function has filled it. *)
+    read declares constants and variables, puts values into them, calls functions, branches, counts and returns. An integer of any length
+    has room for so many bits, and is a whole number with a sign as soon as a function has filled it.
+
+    A float that a step computes is known by the name of that step alone, and what operators make of it is said of them as of functions. *)
 
 Require Import List String Ascii ZArith Bool.
 From Hypcheck Require Import Steps Fixed Long Limbs.
@@ -14,7 +16,8 @@ Open Scope Z_scope.
 (** ** The text. *)
 
 Inductive tree := Set_ (type : string) (n : string) (e : expression) (* "" for a variable that is there *)
-  | Calling (f : string) (given : list expression) | If (c : expression) (yes no : list tree) | Returns (e : expression).
+  | Calling (f : string) (given : list expression) | If (c : expression) (yes no : list tree)
+  | Turns (i : string) (count by_ : expression) (l : list tree) (* for (; i < count; i += by) *) | Returns (e : expression).
 Record deciding := Deciding { takes : list string; does : list tree }.
 
 (** Fields of what a pointer leads to are named like others, and so is what it points at; an address is a name. *)
@@ -26,7 +29,7 @@ Fixpoint tidy (ws : list string) : list string := match ws with
   | w :: rest => w :: tidy rest
   | [] => [] end.
 
-Definition types := ["int"; "uint64_t"; "double"; "hc_fixed"; "hc_long"; "hc_parts"; "hc_fixed_terms"; "hc_fixed_cubic"; "hc_bits"].
+Definition types := ["int"; "uint64_t"; "double"; "hc_fixed"; "hc_long"; "hc_parts"; "hc_fixed_terms"; "hc_fixed_cubic"; "hc_bits"; "HC_NUMBER"; "HC_TRUTH"].
 
 (** A function that returns a value and puts others: the value is the first that it puts. *)
 Definition answering := ["hc_fixed_position"].
@@ -61,11 +64,19 @@ Fixpoint statement_of (fuel : nat) (ws : list string) : option (list tree * list
       match behind ["else"] more' with
       | Some (_, other) => try (no, last) <- statement_of f other; Some ([If c yes no], last)
       | None => Some ([If c yes []], more') end
+    else if is "for" w then match behind ["("; ""; "="; "0"; ";"; ""; "<"] rest with
+      | Some ([i; j], inner) => try (count, more) <- expression_to ";" inner; match behind [""; "+="] more with
+        | Some ([k], more') => try (by_, body) <- expression_to ")" more'; try (l, last) <- statement_of f body;
+          if is i j && is i k then Some ([Set_ "" i (Constant Int 0); Turns i count by_ l], last) else None
+        | _ => None end
+      | _ => None end
     else if is "const" w then match rest with t :: names => if is_in t types then names_of enough t names else None | [] => None end
     else if is_in w types then names_of enough w rest
-    else match behind ["("] rest with
+    else match behind ["|"; "="] rest with
+    | Some (_, value) => try (e, more) <- expression_to ";" value; Some ([Set_ "" w (Infix "|" (Named w) e)], more)
+    | None => match behind ["("] rest with
     | Some (_, inner) => try (l, more) <- listed_to enough ")" inner; try (_, last) <- behind [";"] more; Some ([calling w l], last)
-    | None => names_of enough "" ws end
+    | None => names_of enough "" ws end end
   | _, _ => None end
 with trees_of (fuel : nat) (ws : list string) : option (list tree * list string) := match fuel, ws with
   | S f, w :: rest => if is "}" w then Some ([], rest)
@@ -88,9 +99,10 @@ Definition deciding_of (text : string) : option (string * deciding) := match wit
 
 (** ** Its meaning. *)
 
-(** A double is a whole number times 2^(power - 1075). *)
+(** A double is a whole number times 2^(power - 1075). Opaque is a float, or a vector of them, that a step of this name gives in its turn
+    of a loop, or a place in an array, by its number. *)
 Inductive datum := Of (t : type) (z : Z) | Fix (n : number) | Lng (n : long) | Double (whole power : Z) | Rec (l : list (string * datum))
-  | Room (bits : Z) | Whole (z : Z).
+  | Room (bits : Z) | Whole (z : Z) | Opaque (n : string) (turn : Z).
 Definition environment := list (string * datum).
 
 Fixpoint prefixed (p s : string) : option string := match p, s with
@@ -128,7 +140,9 @@ Fixpoint eval (now : environment) (e : expression) : option datum := match e wit
     | Some (Of t x) =>
       if String.eqb o "&&" then if x =? 0 then Some (Of Int 0) else try v <- eval now r; truth v
       else if String.eqb o "||" then if x =? 0 then try v <- eval now r; truth v else Some (Of Int 1)
-      else match eval now r with Some (Of u y) => plain_infix o t x u y | _ => None end
+      else match eval now r with Some (Of u y) => plain_infix o t x u y
+        | Some (Opaque n k) => try m <- look o known; m [Of t x; Opaque n k] | _ => None end
+    | Some (Opaque n k) => try v <- eval now r; try m <- look o known; m [Opaque n k; v]
     | Some (Double m k) => match eval now r with Some (Double n j) => try z <- compare_doubles o m k n j; Some (Of Int z) | _ => None end
     | _ => None end
   | Choice c a b => match eval now c with Some (Of _ z) => if z =? 0 then eval now b else eval now a | _ => None end
@@ -138,17 +152,23 @@ Fixpoint eval (now : environment) (e : expression) : option datum := match e wit
     | Some (Of Int k), Some (Rec l) => try f <- place k; look f l
     | _, _ => None end
   | As t e => match eval now e with Some (Of u z) => try x <- converted u t z; Some (Of t x) | _ => None end
-  | Braces _ => None end.
+  | Braces l => try k <- every (map (eval now) l); Some (Rec (combine (map snd places) k)) end.
 
 (** A value as a variable of a type holds it. *)
 Definition held t v := match t, v with
   | "", _ => Some v
   | "int", Of u z => try x <- converted u Int z; Some (Of Int x)
   | "uint64_t", Of u z => try x <- converted u U64 z; Some (Of U64 x)
-  | "double", Double _ _ | "hc_fixed", Fix _ | "hc_long", Lng _ => Some v
+  | "double", Double _ _ | "double", Opaque _ _ | "HC_NUMBER", Opaque _ _ | "HC_TRUTH", Opaque _ _ | "hc_fixed", Fix _ | "hc_long", Lng _ => Some v
   | "hc_integer", Room _ | "hc_parts", Rec _ | "hc_fixed_terms", Rec _ | "hc_fixed_cubic", Rec _ => Some v
+  | "hc_bits", Rec [(_, Of t a); (_, Of u b); (_, Of v c)] => try x <- converted t U64 a; try y <- converted u U64 b; try z <- converted v U64 c;
+    Some (Rec [("plus", Of U64 x); ("minus", Of U64 y); ("decided", Of U64 z)])
   | _, _ => None end.
 Definition is_new t n (now : environment) := is "" t || match look n now with Some _ => false | None => true end.
+
+(** Without the variables that a block declares. *)
+Definition declared (l : list tree) := flat_map (fun t => match t with Set_ t n _ => if is "" t then [] else [n] | _ => [] end) l.
+Definition outside l (now : environment) := filter (fun v => negb (is_in (fst v) (declared l))) now.
 
 Fixpoint bound_all (given : list expression) (got : list datum) (now : environment) : option environment := match given, got with
   | [], [] => Some now
@@ -164,6 +184,11 @@ Fixpoint go (fuel : nat) (now : environment) (l : list tree) : option (option da
     try got <- m l; try now' <- bound_all (skipn k given) got now; go f now' rest
   | S f, If c yes no :: rest => match eval now c with
     | Some (Of _ z) => go f now ((if z =? 0 then no else yes) ++ rest)%list | _ => None end
+  | S f, (Turns i count by_ l :: rest) as turn => match eval now (Infix "<" (Named i) count) with
+    | Some (Of _ z) => if z =? 0 then go f now rest else try (v, now') <- go f now l; match v with
+      | Some _ => Some (v, now')
+      | None => let now'' := outside l now' in try j <- eval now'' (Infix "+" (Named i) by_); go f (bound i j now'') turn end
+    | _ => None end
   | O, _ => None end.
 
 Definition steps := 100%nat.
