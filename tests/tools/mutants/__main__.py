@@ -1,6 +1,7 @@
 """`python -m tests.tools.mutants [NAME]… [--out FILE]`: gate all, report each, end with 1 where one escaped.
 
-NAME is an implementation (signs.c0) or a module (signs); FILE becomes the page of all of them.
+NAME is an implementation (signs.c0) or a module (signs); FILE becomes the page of all of them, and
+their data is written beside it.
 """
 
 from __future__ import annotations
@@ -13,9 +14,9 @@ from pathlib import Path
 
 import click
 
+from tests.tools.mutants import table
 from tests.tools.mutants.collection import Mutant, mutants
 from tests.tools.mutants.gating import Result, gate
-from tests.tools.mutants.table import render
 
 
 @click.command(context_settings={"show_default": True})
@@ -31,7 +32,9 @@ def main(names: tuple[str, ...], out: Path | None, jobs: int) -> None:
         results.append(result)
         click.echo(line(result))
     if out is not None:
-        out.write_text(render(results), encoding="utf-8")
+        pages = {out: table.render, out.with_name(table.RULINGS): table.rulings}
+        for path, text in {**pages, out.with_name(table.REJECTIONS): table.rejections}.items():
+            path.write_text(text(results), encoding="utf-8")
     amiss = [result for result in results if not result.as_expected]
     click.echo(f"{len(results)} gated, {len(amiss)} not judged as they must be")
     for result in amiss:

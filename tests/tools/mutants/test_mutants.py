@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import csv
+from collections import Counter
 from dataclasses import replace
 from pathlib import Path
 
@@ -130,15 +132,32 @@ def test_every_mutant_gives_one_answer_for_each_row():
             assert np.asarray(each).shape == (1,), name
 
 
-def test_page_of_the_mutants_lists_this_collection():
-    rows = [line[2:-2].split(" | ") for line in PAGE.read_text(encoding="utf-8").splitlines() if line.startswith("| ")]
-    told = [tuple(row[: len(table.stable_cells(mutant))]) for row, mutant in zip(_tables(rows), mutants(), strict=True)]
-    assert told == [table.stable_cells(mutant) for mutant in mutants()]
+def test_rulings_list_this_collection():
+    with (HERE / table.RULINGS).open(encoding="utf-8", newline="") as file:
+        head, *rows = csv.reader(file)
+    assert tuple(head) == table.HEAD
+    cells = [table.stable_cells(mutant) for mutant in mutants()]
+    assert [tuple(row[: len(cells[0])]) for row in rows] == cells
 
 
-def _tables(rows):
-    """The rows of the tables that begin like table.HEAD."""
-    return [row for row in rows if len(row) == len(table.HEAD) and row[0] not in {table.HEAD[0], "---"}]
+def test_page_counts_the_rulings_beside_it_by_module():
+    with (HERE / table.RULINGS).open(encoding="utf-8", newline="") as file:
+        counts = Counter(
+            (row["implementation"].partition(".")[0], row["was"].split(";")[0]) for row in csv.DictReader(file)
+        )
+    page = PAGE.read_text(encoding="utf-8")
+    for module in MODULES:
+        line = next(line for line in page.splitlines() if line.startswith(f"| [{module}]("))
+        assert line.endswith(f" | {counts[module, 'rejected']} | {counts[module, 'passed']} |")
+
+
+def test_rejections_name_implementations_of_the_rulings_and_the_families_of_the_page():
+    with (HERE / table.REJECTIONS).open(encoding="utf-8", newline="") as file:
+        rejections = list(csv.DictReader(file))
+    assert {line["implementation"] for line in rejections} <= set(BY_NAME)
+    rejecting, page = Counter(line["family"] for line in rejections), PAGE.read_text(encoding="utf-8")
+    for family, number in rejecting.items():
+        assert f" | {family} | {number} | " in page
 
 
 WRONG = Mutant("signs", "c0", "It is wrong.", Expectation(right=False))
@@ -167,7 +186,8 @@ def test_escaped_mutant_is_reported_by_exit_code_output_and_table(monkeypatch, r
     said = CliRunner().invoke(__main__.main, ["signs.c0"])
     assert said.exit_code == (0 if expected else 1)
     assert ("✗" in said.output) is not expected
-    assert ("✗" in table.render([result])) is not expected
+    assert ("✗" in table.rulings([result])) is not expected
+    assert ("not as they must" in table.render([result])) is not expected
 
 
 @pytest.mark.parametrize("arguments", [["nothing"], ["signs", "--out", "page.md"]])
