@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import csv
+import io
 import shutil
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
@@ -54,6 +56,17 @@ BODIES = {
 }
 """What stands for the spheroid: the heading of its table, and what it is."""
 
+MEASURED = "measured.csv"
+"""The file of all errors, beside the page."""
+
+HEAD = (
+    *("engine", "version", "settings", "family", "triangles"),
+    *("own wrong", "own rows", "own worst", "lost", "microseconds"),
+    *("false contacts", "clear", "false clears", "contacts", "worst"),
+    *("distance worst", "distance median", "depth worst", "depth median", "contact and apart"),
+)
+"""The columns of measured.csv: an engine's own errors; those against the surface; the distances that it reports."""
+
 NEIGHBOURS = """## Neighbours
 
 Reports of the same kinds in the engines' own trackers, and in one that is not asked here:
@@ -74,7 +87,7 @@ Reports of the same kinds in the engines' own trackers, and in one that is not a
 
 
 def write_page(folder: Path) -> None:
-    """Write README.md, and a badge and a chart for each engine, from the records and findings in a folder."""
+    """Write README.md, measured.csv, and a badge and a chart for each engine, from a folder's records and findings."""
     records = sorted(read_records(folder), key=lambda record: list(ENGINES).index(record.name))
     findings = sorted(read_findings(folder), key=_rank)
     for record in records:
@@ -85,6 +98,7 @@ def write_page(folder: Path) -> None:
     parts += [*_by_distance(records), NEIGHBOURS]
     parts += [_of_engine(record) for record in records]
     (folder / "README.md").write_text("\n".join(parts), encoding="utf-8")
+    (folder / MEASURED).write_text(measured_csv(records), encoding="utf-8")
 
 
 def _rank(finding: Finding) -> tuple[int, float]:
@@ -275,20 +289,10 @@ def _of_engine(record: EngineRecord) -> str:
         f"## {record.name} {record.version}",
         "",
         f"A spheroid is the engine's {engine.body}, a ball {ball}. Settings: {settings}.",
-        f"Record: [{record.name}.json]({record.name}.json).",
+        f"Record: [{record.name}.json]({record.name}.json); its errors by family and mesh: [{MEASURED}]({MEASURED}).",
         "",
         f"![Own worst error of {record.name} in each family]({record.name}.svg)",
         "",
-        f"At the {'tightest' if engine.tightens else 'default'} settings, in millimetres:",
-        "",
-        *table_lines(["family", "triangles", "own wrong", "own worst", "lost", "µs"], map(_own_row, record.best)),
-        "Against the surface, so that the mesh's errors are in it; and the distances that it reports:",
-        "",
-        *table_lines(
-            ["family", "triangles", "false contacts", "false clears", "worst", "distance, worst", "median",
-             "depth, worst", "median", "contact and apart"],
-            map(_surface_row, record.best),
-        ),
         *_of_the_other_setting(record),
         *(f"Not asked: {name}, as {_skipped(reason)}." for name, reason in record.skipped.items()),
         "",
@@ -313,33 +317,30 @@ def _skipped(reason: str) -> str:
     return reason.rstrip(".")
 
 
-def _own_row(measured: Measured) -> list[str]:
-    return [
-        measured.family,
-        str(measured.triangles),
-        f"{measured.own} of {measured.own_rows}",
-        _mm(measured.own_worst_mm),
-        ", ".join(f"{count} {name}" for name, count in measured.faults.items()) or "0",
-        "–" if measured.microseconds is None else f"{measured.microseconds:.3g}",
-    ]
+def measured_csv(records: Iterable[EngineRecord]) -> str:
+    """The errors of each engine in each family on each mesh, in millimetres, at the settings by which it is judged."""
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow(HEAD)
+    for record in records:
+        settings = "tightest" if ENGINES[record.name].tightens else "default"
+        writer.writerows([record.name, record.version, settings, *_measured_row(one)] for one in record.best)
+    return stream.getvalue()
 
 
-def _surface_row(measured: Measured) -> list[str]:
+def _measured_row(measured: Measured) -> list[object]:
+    own = (measured.own, measured.own_rows, measured.own_worst_mm)
+    faults = " ".join(f"{count} {name}" for name, count in measured.faults.items()) or "0"
     clear, contact = sum(one.clear for one in measured.decades), sum(one.contacts for one in measured.decades)
-    return [
-        measured.family,
-        str(measured.triangles),
-        f"{measured.false_contacts} of {clear}",
-        f"{measured.false_clears} of {contact}",
-        _mm(measured.worst_mm),
-        *_shown(measured.distance),
-        *_shown(measured.penetration),
-        str(measured.distance.contradicted + measured.penetration.contradicted),
-    ]
+    surface = (measured.false_contacts, clear, measured.false_clears, contact, measured.worst_mm)
+    reported = (*_reported(measured.distance), *_reported(measured.penetration))
+    contradicted = measured.distance.contradicted + measured.penetration.contradicted
+    about = (measured.family, measured.triangles)
+    return [*about, *own, faults, measured.microseconds, *surface, *reported, contradicted]
 
 
-def _shown(reported: Reported) -> tuple[str, str]:
-    return _mm(reported.worst_mm), _mm(reported.median_mm)
+def _reported(reported: Reported) -> tuple[float | None, float | None]:
+    return reported.worst_mm, reported.median_mm
 
 
 def _worst(record: EngineRecord) -> float:

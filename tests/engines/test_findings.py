@@ -121,11 +121,13 @@ def test_findings_in_which_an_engine_contradicts_itself_lead_the_page_and_no_cel
     assert re.search(r"\| [^|(\[]*\d/\d", page) is None
 
 
-def test_the_committed_page_badges_and_charts_are_those_of_the_committed_records_and_findings(tmp_path):
+def test_the_committed_page_table_badges_and_charts_are_those_of_the_committed_records_and_findings(tmp_path):
     made = tmp_path / "engines"
     shutil.copytree(REPORTS, made)
-    names = [path.name for path in REPORTS.iterdir() if path.suffix in {".md", ".svg"} or ".badge." in path.name]
-    assert len(names) == 1 + 2 * len([path for path in REPORTS.glob("*.json") if ".badge." not in path.name])
+    names = [
+        path.name for path in REPORTS.iterdir() if path.suffix in {".md", ".svg", ".csv"} or ".badge." in path.name
+    ]
+    assert len(names) == 2 + 2 * len([path for path in REPORTS.glob("*.json") if ".badge." not in path.name])
     for name in names:
         (made / name).unlink()
     write_page(made)
