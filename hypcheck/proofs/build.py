@@ -57,6 +57,7 @@ COMPOSED = (
     *("Stages", "StageTwoAnswers", "Underflow", "StageOne", "StageTwoRuns"),
     *("StageThree", "StageFive", "Long", "StageFour", "Limbs", "LimbsRuns", "ShiftRuns"),
     *("Trees", "Computed", "StageThreeRuns", "StageThreeAnswers", "StageThreeNumbers", "StageThreePosition"),
+    *("StageFourSteps", "StageFourPlane"),
     *("LongIntegers", "LongRuns", "LongSums", "LongProducts", "LongUnits"),
     *("StageFiveAnswers", "StagesRuns"),
 )
@@ -65,7 +66,7 @@ functions of the C that decide; the C of long integers."""
 
 OF_STAGES = (
     *("Stages", "StageTwoAnswers", "StageThree", "StageThreePosition"),
-    *("StageFive", "StageFiveAnswers", "StageFour", "StagesRuns"),
+    *("StageFive", "StageFiveAnswers", "StageFour", "StageFourPlane", "StagesRuns"),
 )
 """The files whose theorems say that what a stage answers is the position."""
 
@@ -325,8 +326,12 @@ def changed_functions() -> tuple[Weakened, ...]:
 @cache
 def changed_decisions() -> tuple[Weakened, ...]:
     """The file that runs a function that decides, with one change of that function; each must be refused."""
-    changes = printed_c.deciding_changes()
-    return tuple(Weakened(printed_c.PROVED_IN[name], "HeaderText.deciding", new, what) for name, new, what in changes)
+    changes = (("deciding", printed_c.deciding_changes()), ("beside_tangency", printed_c.tangency_changes()))
+    return tuple(
+        Weakened(printed_c.PROVED_IN[name], f"HeaderText.{texts}", new, what)
+        for texts, found in changes
+        for name, new, what in found
+    )
 
 
 @cache

@@ -44,6 +44,9 @@ _PRODUCTS = ("hc_add_row", "hc_multiply", "hc_scale")
 INTEGERS = (*_SIZES, *_PRODUCTS, "hc_in_units")
 """The functions of the header that compute with long integers."""
 
+BESIDE_TANGENCY = ("hc_position_in_plane",)
+"""The functions of the header that decide beside an exact tangency."""
+
 MACROS = ("HC_MAX_OF", "HC_MIN_OF")
 """The macros of two ints that they use, read as functions."""
 
@@ -57,6 +60,7 @@ PROVED_IN = {
     **dict.fromkeys(_SIZES, "LongSums"),
     **dict.fromkeys(_PRODUCTS, "LongProducts"),
     "hc_in_units": "LongUnits",
+    "hc_position_in_plane": "StageFourPlane",
 }
 """The Coq file that says what each of them computes."""
 
@@ -129,6 +133,13 @@ def deciding(header: str) -> list[str]:
     return [*found, *_texts(DECIDING, header)]
 
 
+def beside_tangency(header: str) -> list[str]:
+    """The texts of the functions that decide beside a tangency, the macro of their lengths written out."""
+    macro = re.search(r"^#define HC_NAMED_LENGTHS\(lengths\)\s+\\\n +(.*)$", header, re.MULTILINE)
+    lengths = macro[1] if macro else ""
+    return [text.replace("HC_NAMED_LENGTHS(lengths)", lengths) for text in _texts(BESIDE_TANGENCY, header)]
+
+
 def _texts(names: tuple[str, ...], header: str) -> list[str]:
     found = [re.search(_FUNCTION.format(name), header, re.MULTILINE | re.DOTALL) for name in names]
     return [text[0] for text in found if text]
@@ -139,15 +150,16 @@ def header_text() -> str:
     text = HEADER.read_text(encoding="utf-8")
     rows = ";\n".join(f"  ({_quoted(name)}, {_quoted(part)}%text)" for name, part in parts(text))
     bounds = "; ".join(f'("{name.lower()}", {value})' for name, value in _BOUND.findall(text))
-    words, trees, long = (
+    words, trees, beside, long = (
         ";\n".join(f"  {_quoted(function)}%text" for function in found)
-        for found in (functions(text), deciding(text), _texts(INTEGERS, text))
+        for found in (functions(text), deciding(text), beside_tangency(text), _texts(INTEGERS, text))
     )
     return (
         f"From Hypcheck Require Import Steps.\n{_HEAD}Definition fixed_bounds : list (string * Z) := [{bounds}]%Z.\n"
         f"Definition texts : list (string * text) := [\n{rows}].\n"
         f"Definition functions : list text := [\n{words}].\n"
         f"Definition deciding : list text := [\n{trees}].\n"
+        f"Definition beside_tangency : list text := [\n{beside}].\n"
         f"Definition integers : list text := [\n{long}].\n"
         "Definition parts := map (fun part => (fst part, string_of (snd part))) texts.\n"
     )
@@ -183,6 +195,11 @@ def function_changes() -> Iterator[tuple[str, str, str]]:
 def deciding_changes() -> Iterator[tuple[str, str, str]]:
     """The same of the functions that decide, and of the macros that they use."""
     yield from _changes_of((*MACROS, *DECIDING), deciding(HEADER.read_text(encoding="utf-8")))
+
+
+def tangency_changes() -> Iterator[tuple[str, str, str]]:
+    """The same of the functions that decide beside a tangency."""
+    yield from _changes_of(BESIDE_TANGENCY, beside_tangency(HEADER.read_text(encoding="utf-8")))
 
 
 def integer_changes() -> Iterator[tuple[str, str, str]]:

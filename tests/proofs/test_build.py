@@ -208,8 +208,9 @@ def test_each_function_of_words_is_changed_in_the_file_that_says_what_it_compute
 
 
 def test_changes_of_functions_that_decide_reach_every_function_in_the_file_that_runs_it():
-    texts = printed_c.deciding(printed_c.HEADER.read_text(encoding="utf-8"))
-    names = (*printed_c.MACROS, *printed_c.DECIDING)
+    header = printed_c.HEADER.read_text(encoding="utf-8")
+    texts = (*printed_c.deciding(header), *printed_c.beside_tangency(header))
+    names = (*printed_c.MACROS, *printed_c.DECIDING, *printed_c.BESIDE_TANGENCY)
     assert [re.search(r"(\w+)\(", text)[1] for text in texts] == list(names)
     found = build.changed_decisions()
     assert {re.search(r" in (\w+),", change.allows)[1] for change in found} == set(names)
