@@ -14,24 +14,7 @@ from dataclasses import dataclass
 
 from hypcheck.messages import counted
 from hypcheck.record import Record
-from hypcheck.report.document import (
-    Block,
-    Code,
-    Paragraph,
-    Row,
-    Section,
-    Strong,
-    Text,
-    against,
-    bullets,
-    columns,
-    count,
-    joined,
-    measured,
-    paced,
-    prose,
-    table,
-)
+from hypcheck.report import document
 from hypcheck.report.measured import (
     BATCH,
     SINGLE,
@@ -237,7 +220,7 @@ def _beats(other: MeasuredMethod, method: MeasuredMethod, timed: Sequence[str]) 
     return bool(shared) and all(other.ratio_interval(name)[1] < method.ratio_interval(name)[0] for name in shared)
 
 
-_HOW = prose(
+_HOW = document.prose(
     "The fastest method that meets the need, by its ratio to the run's reference; nanoseconds are this machine's."
     " Methods that are as fast within the intervals or the noise of the run are named beside it. *Reliable above* a"
     " distance: at most 1 in 1000 answers beyond it is wrong, on every workload that the need covers. A need"
@@ -247,7 +230,7 @@ _HOW = prose(
 )
 
 
-def advice_sections(record: Record) -> Iterator[Section]:
+def advice_sections(record: Record) -> Iterator[document.Section]:
     """The advice as a section; none if nothing was timed."""
     chosen = recommendations(record)
     if not chosen.advice:
@@ -255,21 +238,33 @@ def advice_sections(record: Record) -> Iterator[Section]:
     known = workloads(record)
     scenes = listed([known[name].title for name in timed_workloads(record)])
     other = reference(record)
-    notes: list[Text] = [*_price_sentences(record), f"Everyday scenes are the workloads that were timed: {scenes}."]
+    notes: list[document.Text] = [
+        *_price_sentences(record),
+        f"Everyday scenes are the workloads that were timed: {scenes}.",
+    ]
     notes += [
         (f"No measured method meets this need: {need.what}, {need.where}, {need.asked}.") for need in chosen.unmet
     ]
-    worse = [(Code(loser.name), " (", Code(winner.name), ")") for loser, winner in dominated_methods(record)]
+    worse = [
+        (document.Code(loser.name), " (", document.Code(winner.name), ")")
+        for loser, winner in dominated_methods(record)
+    ]
     if worse:
         lead = "Beaten by a method of the same tier that is certainly faster and errs no farther from contact: "
-        notes.append((lead, joined(worse), "."))
-    lines: list[Text] = [
-        (Strong(line.need.words), ": ", Code(line.use.name), f", {pace(line.ratio, other or 'the reference')}.")
+        notes.append((lead, document.joined(worse), "."))
+    lines: list[document.Text] = [
+        (
+            document.Strong(line.need.words),
+            ": ",
+            document.Code(line.use.name),
+            f", {pace(line.ratio, other or 'the reference')}.",
+        )
         for line in chosen.advice
     ]
-    how = Paragraph(_HOW)
-    yield Section(
-        "Which method to use when", (bullets(lines), how, _advice_table(chosen.advice, other), bullets(notes))
+    how = document.Paragraph(_HOW)
+    yield document.Section(
+        "Which method to use when",
+        (document.bullets(lines), how, _advice_table(chosen.advice, other), document.bullets(notes)),
     )
 
 
@@ -280,7 +275,7 @@ def advice_facts(record: Record) -> Iterator[str]:
         yield f"{line.need.words}: {line.use.name}, {pace(line.ratio, other)}"
 
 
-def _price_sentences(record: Record) -> Iterator[Text]:
+def _price_sentences(record: Record) -> Iterator[document.Text]:
     """The price of exactness in a batch: the time of the fastest never-wrong method over the fastest other's time.
 
     Both are the fastest of their kind on the first timed workload; empty if a kind has no method.
@@ -296,8 +291,14 @@ def _price_sentences(record: Record) -> Iterator[Text]:
         ends = (
             f"errors end at {figure(distance)}" if distance < math.inf else "reliable at no distance on some workload"
         )
-        err: Text = (Code(fastest.name), f", the fastest of those that err ({ends})")
-        yield ("The price of exactness: in a batch ", Code(never.name), f" takes {times} as long as ", err, ".")
+        err: document.Text = (document.Code(fastest.name), f", the fastest of those that err ({ends})")
+        yield (
+            "The price of exactness: in a batch ",
+            document.Code(never.name),
+            f" takes {times} as long as ",
+            err,
+            ".",
+        )
 
 
 def own_method_facts(record: Record) -> Iterator[str]:
@@ -343,48 +344,48 @@ def best_rival_facts(record: Record) -> Iterator[str]:
             yield f"{method.name}: {pace(own / rival, f'{best.name}, the fastest that is as reliable')}"
 
 
-def own_method_sections(record: Record) -> Iterator[Section]:
+def own_method_sections(record: Record) -> Iterator[document.Section]:
     """The user's methods: errors, times, a comparison with the best equally reliable one; none without such methods."""
     items = [f"{fact}." for fact in (*best_rival_facts(record), *own_method_facts(record))]
     if items:
-        yield Section("Your methods", (bullets(items),))
+        yield document.Section("Your methods", (document.bullets(items),))
 
 
-def advised_method_sections(record: Record) -> Iterator[Section]:
+def advised_method_sections(record: Record) -> Iterator[document.Section]:
     """A section that describes the advised methods."""
     advised = {advice.use.name: advice.use for advice in recommendations(record).advice}
     if advised:
-        items: list[Text] = [
+        items: list[document.Text] = [
             (
-                Code(name),
+                document.Code(name),
                 f", {method.tier}: {method.line.title}",
                 f"; {note}" if (note := method.line.note) else "",
                 ".",
             )
             for name, method in advised.items()
         ]
-        yield Section("What these methods are", (bullets(items),), level=3)
+        yield document.Section("What these methods are", (document.bullets(items),), level=3)
 
 
-def _advice_table(advice: tuple[Advice, ...], reference: str | None) -> Block:
+def _advice_table(advice: tuple[Advice, ...], reference: str | None) -> document.Block:
     before, after = (
-        columns("you need | use | in | asked"),
-        columns("# ns a query | # judged | as fast | not reliable on"),
+        document.columns("you need | use | in | asked"),
+        document.columns("# ns a query | # judged | as fast | not reliable on"),
     )
-    heads = (*before, against(reference), *after)
-    return table("which method to use when", heads, [_advice_row(line) for line in advice])
+    heads = (*before, document.against(reference), *after)
+    return document.table("which method to use when", heads, [_advice_row(line) for line in advice])
 
 
-def _advice_row(advice: Advice) -> Row:
+def _advice_row(advice: Advice) -> document.Row:
     line = advice.use.speed[advice.workload, advice.need.mode]
     return (
         advice.need.what,
-        Code(advice.use.name),
+        document.Code(advice.use.name),
         advice.need.where,
         advice.need.asked,
-        paced(line.ratio or 0.0, line.ratio_ci95),
-        measured(line.median_ns),
-        count(advice.use.asked),
-        joined([Code(other.name) for other in advice.alike]),
+        document.paced(line.ratio or 0.0, line.ratio_ci95),
+        document.measured(line.median_ns),
+        document.count(advice.use.asked),
+        document.joined([document.Code(other.name) for other in advice.alike]),
         ", ".join(advice.errs),
     )

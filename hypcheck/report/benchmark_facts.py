@@ -9,25 +9,7 @@ from msgspec.structs import asdict
 
 from hypcheck.geometry.pair import Position
 from hypcheck.messages import counted
-from hypcheck.record import Record, RecordLine, lines
-from hypcheck.record.measurements import (
-    AbsentLine,
-    AccuracyLine,
-    BoundingLine,
-    ComparisonLine,
-    ConvergenceLine,
-    CostLine,
-    ForestLine,
-    KernelLine,
-    MemoryLine,
-    NoiseLine,
-    PlacesLine,
-    RefusedLine,
-    SceneLine,
-    SpeedLine,
-    StabilityLine,
-    UnmeasuredLine,
-)
+from hypcheck.record import Record, RecordLine, lines, measurements
 from hypcheck.report import facts
 from hypcheck.report.facts import Failure, LineFacts, Measurement, NotJudged, RecordContext
 from hypcheck.report.messages import classify_command, figure, from_hex, listed, pace, with_interval
@@ -38,7 +20,9 @@ MEASUREMENT = "measurement"
 SLOWER, INCONCLUSIVE = "slower", "inconclusive"
 """Kinds of failures of speed: certain, and too noisy to tell."""
 
-Timed = TypeVar("Timed", SpeedLine, UnmeasuredLine, RefusedLine, ComparisonLine)
+Timed = TypeVar(
+    "Timed", measurements.SpeedLine, measurements.UnmeasuredLine, measurements.RefusedLine, measurements.ComparisonLine
+)
 
 
 class TimedFacts(LineFacts[Timed]):
@@ -54,7 +38,7 @@ class TimedFacts(LineFacts[Timed]):
         return f"{self.line.workload}, {self.line.mode}"
 
 
-class AccuracyFacts(LineFacts[AccuracyLine]):
+class AccuracyFacts(LineFacts[measurements.AccuracyLine]):
     """A method's answers on a workload; a wrong answer of a method that promises to be exact fails the run."""
 
     @property
@@ -91,7 +75,7 @@ class AccuracyFacts(LineFacts[AccuracyLine]):
         yield f"{self.line.wrong:,} of {counted(self.line.asked, 'answer')} wrong; reliable above {reliable}"
 
 
-class SpeedFacts(TimedFacts[SpeedLine]):
+class SpeedFacts(TimedFacts[measurements.SpeedLine]):
     """A method's time on a workload."""
 
     def measurements(self) -> Iterator[Measurement]:
@@ -107,14 +91,14 @@ class SpeedFacts(TimedFacts[SpeedLine]):
         yield f"{ratio}{figure(self.line.median_ns)} ns"
 
 
-class UnmeasuredFacts(TimedFacts[UnmeasuredLine]):
+class UnmeasuredFacts(TimedFacts[measurements.UnmeasuredLine]):
     """A method that could not be timed, which does not fail the run."""
 
     def not_judged(self) -> NotJudged | None:
         return NotJudged("unmeasured", self.line.reason)
 
 
-class RefusedFacts(TimedFacts[RefusedLine]):
+class RefusedFacts(TimedFacts[measurements.RefusedLine]):
     """A method that is not timed because it was wrong, which fails the run."""
 
     def failures(self) -> Iterator[Failure]:
@@ -122,7 +106,7 @@ class RefusedFacts(TimedFacts[RefusedLine]):
         yield Failure(MEASUREMENT, self.line.method, self.where, "refused", message)
 
 
-class ComparisonFacts(TimedFacts[ComparisonLine]):
+class ComparisonFacts(TimedFacts[measurements.ComparisonLine]):
     """A ratio compared with the baseline's; a gating method that is slower, or too noisy to tell, fails the run."""
 
     def measurements(self) -> Iterator[Measurement]:
@@ -147,7 +131,7 @@ class ComparisonFacts(TimedFacts[ComparisonLine]):
         yield f"{figure(line.change)} times its former ratio, allowed {figure(line.allowed)}: {line.verdict}"
 
 
-class SceneFacts(LineFacts[SceneLine]):
+class SceneFacts(LineFacts[measurements.SceneLine]):
     """The kernel of a scene, timed relative to Table 2; a wrong answer fails the run."""
 
     @property
@@ -175,7 +159,7 @@ class SceneFacts(LineFacts[SceneLine]):
         yield f"{' in a batch and '.join(ratios)} one by one times Table 2's time, {self.line.wrong:,} wrong"
 
 
-class ForestFacts(LineFacts[ForestLine]):
+class ForestFacts(LineFacts[measurements.ForestLine]):
     """A method for a walker among trees; a wrong answer of one that promises to be exact fails the run."""
 
     @property
@@ -204,7 +188,7 @@ class ForestFacts(LineFacts[ForestLine]):
         yield f"{figure(self.line.step_ns)} ns a step, {self.line.wrong:,} wrong"
 
 
-class KernelFacts(LineFacts[KernelLine]):
+class KernelFacts(LineFacts[measurements.KernelLine]):
     """A target of a kernel's speed, which fails the run if it is missed, certainly or within the noise."""
 
     @property
@@ -232,7 +216,7 @@ class KernelFacts(LineFacts[KernelLine]):
         yield line.says
 
 
-class NoiseFacts(LineFacts[NoiseLine]):
+class NoiseFacts(LineFacts[measurements.NoiseLine]):
     """The relative difference between two times of the same method."""
 
     def measurements(self) -> Iterator[Measurement]:
@@ -241,14 +225,14 @@ class NoiseFacts(LineFacts[NoiseLine]):
         yield "", line.workload, line.mode, "floor", line.floor
 
 
-class MemoryFacts(LineFacts[MemoryLine]):
+class MemoryFacts(LineFacts[measurements.MemoryLine]):
     """The memory of a method."""
 
     def measurements(self) -> Iterator[Measurement]:
         return self.fields(self.line.method, "", str(self.line.rows), "peak_bytes")
 
 
-class StabilityFacts(LineFacts[StabilityLine]):
+class StabilityFacts(LineFacts[measurements.StabilityLine]):
     """A method's errors over sizes of pairs."""
 
     def measurements(self) -> Iterator[Measurement]:
@@ -258,7 +242,7 @@ class StabilityFacts(LineFacts[StabilityLine]):
                 yield line.method, line.precision, f"bin {across} {up}", quantity, number
 
 
-class PlacesFacts(LineFacts[PlacesLine]):
+class PlacesFacts(LineFacts[measurements.PlacesLine]):
     """A method's errors over places of a region."""
 
     def measurements(self) -> Iterator[Measurement]:
@@ -267,7 +251,7 @@ class PlacesFacts(LineFacts[PlacesLine]):
             yield self.line.method, "", self.line.region, name, letters.count(letter)
 
 
-class ConvergenceFacts(LineFacts[ConvergenceLine]):
+class ConvergenceFacts(LineFacts[measurements.ConvergenceLine]):
     """A method's errors and time on meshes with a given number of triangles."""
 
     def measurements(self) -> Iterator[Measurement]:
@@ -275,7 +259,7 @@ class ConvergenceFacts(LineFacts[ConvergenceLine]):
         return self.fields(self.line.method, "", f"{self.line.triangles} triangles", *names)
 
 
-class BoundingFacts(LineFacts[BoundingLine]):
+class BoundingFacts(LineFacts[measurements.BoundingLine]):
     """The errors of a bounding shape that replaces the spheroid."""
 
     def measurements(self) -> Iterator[Measurement]:
@@ -292,7 +276,7 @@ class BoundingFacts(LineFacts[BoundingLine]):
             yield f"a bounding {line.shape} in the spheroid's place, {line.workload}: {share} % false contacts"
 
 
-class CostFacts(LineFacts[CostLine]):
+class CostFacts(LineFacts[measurements.CostLine]):
     """A claim of the paper about cost."""
 
     def measurements(self) -> Iterator[Measurement]:
@@ -308,7 +292,7 @@ class CostFacts(LineFacts[CostLine]):
         yield f"claim {self.line.verdict}, {self.line.scene}: {self.line.claim}"
 
 
-class AbsentFacts(LineFacts[AbsentLine]):
+class AbsentFacts(LineFacts[measurements.AbsentLine]):
     """A program or package that is not installed."""
 
     @property
@@ -331,22 +315,22 @@ FACTS: Mapping[type[RecordLine], type[LineFacts[Any]]] = {
     lines.NotStartedLine: facts.NotStartedFacts,
     lines.MapLine: facts.MapFacts,
     lines.TimingLine: facts.TimingFacts,
-    AccuracyLine: AccuracyFacts,
-    SpeedLine: SpeedFacts,
-    UnmeasuredLine: UnmeasuredFacts,
-    RefusedLine: RefusedFacts,
-    ComparisonLine: ComparisonFacts,
-    SceneLine: SceneFacts,
-    ForestLine: ForestFacts,
-    KernelLine: KernelFacts,
-    NoiseLine: NoiseFacts,
-    MemoryLine: MemoryFacts,
-    StabilityLine: StabilityFacts,
-    PlacesLine: PlacesFacts,
-    ConvergenceLine: ConvergenceFacts,
-    BoundingLine: BoundingFacts,
-    CostLine: CostFacts,
-    AbsentLine: AbsentFacts,
+    measurements.AccuracyLine: AccuracyFacts,
+    measurements.SpeedLine: SpeedFacts,
+    measurements.UnmeasuredLine: UnmeasuredFacts,
+    measurements.RefusedLine: RefusedFacts,
+    measurements.ComparisonLine: ComparisonFacts,
+    measurements.SceneLine: SceneFacts,
+    measurements.ForestLine: ForestFacts,
+    measurements.KernelLine: KernelFacts,
+    measurements.NoiseLine: NoiseFacts,
+    measurements.MemoryLine: MemoryFacts,
+    measurements.StabilityLine: StabilityFacts,
+    measurements.PlacesLine: PlacesFacts,
+    measurements.ConvergenceLine: ConvergenceFacts,
+    measurements.BoundingLine: BoundingFacts,
+    measurements.CostLine: CostFacts,
+    measurements.AbsentLine: AbsentFacts,
 }
 """The facts of each type of line; lines of other types state none that formats share."""
 
@@ -375,9 +359,13 @@ def benchmark_failures(record: Record) -> Iterator[Failure]:
     """A benchmark's failures: exact methods that erred, answers that changed during the timing, slowness, noise."""
     for line_facts in accuracy_facts(record):
         yield from line_facts.failures()
-    for kind in (RefusedLine, ForestLine, SceneLine):
+    for kind in (measurements.RefusedLine, measurements.ForestLine, measurements.SceneLine):
         yield from failures_of(record, kind)
-    failures = [*_without_baseline(record), *failures_of(record, ComparisonLine), *failures_of(record, KernelLine)]
+    failures = [
+        *_without_baseline(record),
+        *failures_of(record, measurements.ComparisonLine),
+        *failures_of(record, measurements.KernelLine),
+    ]
     yield from sorted(failures, key=lambda failure: failure.kind != SLOWER)
 
 
@@ -390,6 +378,6 @@ def accuracy_facts(record: Record) -> list[LineFacts[Any]]:
 
 def _without_baseline(record: Record) -> Iterator[Failure]:
     """The failure of a run with a baseline in which no speed could be compared with it."""
-    if record.header.options.get("baseline") and not any(line.gates for line in record.of(ComparisonLine)):
+    if record.header.options.get("baseline") and not any(line.gates for line in record.of(measurements.ComparisonLine)):
         message = "nothing was compared with the baseline: no gated time was measured in both runs"
         yield Failure(MEASUREMENT, "baseline", "all workloads", INCONCLUSIVE, message)

@@ -17,25 +17,7 @@ from hypcheck.record import Record
 from hypcheck.record.fields import numbers_of
 from hypcheck.record.lines import IsolationPart
 from hypcheck.record.measurements import AbsentLine, CompilerLine, MethodLine, WorkloadLine
-from hypcheck.report import advice, changes
-from hypcheck.report.document import (
-    Block,
-    Bullets,
-    Code,
-    Either,
-    Explorer,
-    Paragraph,
-    Row,
-    Section,
-    Strong,
-    TableBlock,
-    Text,
-    bullets,
-    count,
-    prose,
-    table,
-    with_code,
-)
+from hypcheck.report import advice, changes, document
 from hypcheck.report.facts import Failure, cause_facts
 from hypcheck.report.measured import measured_methods
 from hypcheck.report.messages import error_text, figure, from_hex, settings_facts
@@ -47,30 +29,30 @@ from hypcheck.report.verdict import Verdict, failures, tables_of_answers, verdic
 from hypcheck.runs.judge import in_words, truth_in_words
 
 
-def settings_sections(record: Record) -> Iterator[Section]:
+def settings_sections(record: Record) -> Iterator[document.Section]:
     """The settings file of the run and the options that weaken its gate; none if the run has neither."""
     facts = list(settings_facts(record.header.settings))
     if facts:
-        items = [Strong(f"{fact[:1].upper()}{fact[1:]}.") for fact in facts]
-        yield Section("Settings", (bullets(items),))
+        items = [document.Strong(f"{fact[:1].upper()}{fact[1:]}.") for fact in facts]
+        yield document.Section("Settings", (document.bullets(items),))
 
 
-def run_sections(record: Record) -> Iterator[Section]:
+def run_sections(record: Record) -> Iterator[document.Section]:
     """The time, machine, versions and options of the run; every record has this section."""
     header, machine = record.header, record.header.machine
     versions = {"hypcheck": header.hypcheck, "Python": header.python, **header.versions}
     seconds = f", took {figure(record.footer.seconds)} s" if record.footer else ""
     processor = f"{machine.processor}, {machine.architecture}, {machine.system}"
     cores = counted(machine.cores, "core") if machine.cores else "cores unknown"
-    items: tuple[Text, ...] = (
+    items: tuple[document.Text, ...] = (
         f"Started {header.started}{seconds}.",
         f"Machine: {processor}, {cores}.",
         *_isolation(header.isolation),
         f"Versions: {', '.join(f'{name} {version}' for name, version in versions.items())}.",
-        ("Options: ", Code(json.dumps(header.options, ensure_ascii=False)), "."),
+        ("Options: ", document.Code(json.dumps(header.options, ensure_ascii=False)), "."),
         "A case id, family/version/seed/index, names a generated case for ever.",
     )
-    yield Section("The run", (bullets(items),))
+    yield document.Section("The run", (document.bullets(items),))
 
 
 def _isolation(isolation: IsolationPart | UnsetType) -> Iterator[str]:
@@ -85,81 +67,91 @@ IN_TABLE = 1000
 """Failures in the table of the page; junit.xml and summary.json have all."""
 
 
-def failure_sections(record: Record) -> Iterator[Section]:
+def failure_sections(record: Record) -> Iterator[document.Section]:
     """Every failure with its case and the command that shows it; none if nothing failed."""
     failed = failures(record)
     if failed:
-        yield Section("What failed", (Either(page=_failure_table(failed), text=_failure_list(failed)),))
+        yield document.Section(
+            "What failed", (document.Either(page=_failure_table(failed), text=_failure_list(failed)),)
+        )
 
 
-def _failure_list(failed: list[Failure]) -> Bullets:
-    items: list[Text] = []
+def _failure_list(failed: list[Failure]) -> document.Bullets:
+    items: list[document.Text] = []
     for failure in failed[:LISTED]:
-        place: Text = (" (", Code(failure.place), ")") if failure.place else ""
-        case: Text = (" Case ", Code(failure.case), place, ": ", Code(failure.replay or "")) if failure.case else ""
-        items.append((Strong((failure.subject, ", ", failure.group)), ": ", failure.message, ".", case))
-    return bullets([*items, *_omitted_failures(len(failed) - LISTED)])
+        place: document.Text = (" (", document.Code(failure.place), ")") if failure.place else ""
+        case: document.Text = (
+            (" Case ", document.Code(failure.case), place, ": ", document.Code(failure.replay or ""))
+            if failure.case
+            else ""
+        )
+        items.append((document.Strong((failure.subject, ", ", failure.group)), ": ", failure.message, ".", case))
+    return document.bullets([*items, *_omitted_failures(len(failed) - LISTED)])
 
 
-def _failure_table(failed: list[Failure]) -> TableBlock:
+def _failure_table(failed: list[Failure]) -> document.TableBlock:
     """The failures, with the commands that show them if there are any."""
     replays = any(failure.replay for failure in failed)
     rows = [_failure_row(failure, with_case=replays) for failure in failed[:IN_TABLE]]
     rows += [("", "", text, *(("", "") if replays else ())) for text in _omitted_failures(len(failed) - IN_TABLE)]
-    return table("failures", f"which | where | what happened{' | case | look at it with' if replays else ''}", rows)
+    return document.table(
+        "failures", f"which | where | what happened{' | case | look at it with' if replays else ''}", rows
+    )
 
 
-def _failure_row(failure: Failure, *, with_case: bool) -> Row:
-    place: Text = (" (", Code(failure.place), ")") if failure.place else ""
-    case = (Code(failure.case or "", failure.row), Code(failure.replay or "")) if with_case else ()
-    return (Code(failure.name), failure.group, (failure.message, place), *case)
+def _failure_row(failure: Failure, *, with_case: bool) -> document.Row:
+    place: document.Text = (" (", document.Code(failure.place), ")") if failure.place else ""
+    case = (document.Code(failure.case or "", failure.row), document.Code(failure.replay or "")) if with_case else ()
+    return (document.Code(failure.name), failure.group, (failure.message, place), *case)
 
 
-def _omitted_failures(left_out: int) -> list[Text]:
+def _omitted_failures(left_out: int) -> list[document.Text]:
     if left_out <= 0:
         return []
-    files = (Code("junit.xml"), " and ", Code("summary.json"))
+    files = (document.Code("junit.xml"), " and ", document.Code("summary.json"))
     return [(f"… and {counted(left_out, 'more failure')}; ", *files, " list them all.")]
 
 
-def square_sections(record: Record) -> Iterator[Section]:
+def square_sections(record: Record) -> Iterator[document.Section]:
     """The table of given answers by right answers, for each implementation; none if no answer was wrong."""
     if verdict(record).passed:
         return
-    blocks: list[Block] = []
+    blocks: list[document.Block] = []
     for square, passing in tables_of_answers(record):
-        blocks += [square, *([Paragraph(f"{passing[:1].upper()}{passing[1:]}.")] if passing else [])]
+        blocks += [square, *([document.Paragraph(f"{passing[:1].upper()}{passing[1:]}.")] if passing else [])]
     if blocks:
-        yield Section("Answers against the truth", tuple(blocks))
+        yield document.Section("Answers against the truth", tuple(blocks))
 
 
-_CAUSES = prose(
+_CAUSES = document.prose(
     "A cause is a rule that is known to be wrong: at each of these rows it gives the very answer that was given, and"
     " where it errs hardly any right answer denies it. `hypcheck explain CAUSE` says more. *Unexplained* are those that"
     " no known rule gives."
 )
 
 
-def cause_sections(record: Record) -> Iterator[Section]:
+def cause_sections(record: Record) -> Iterator[document.Section]:
     """The causes of wrong answers with their remedies; none without wrong answers, or in records before 1.7.0."""
     causes = cause_facts(record)
     if not causes:
         return
     rows = [
         (
-            Code(facts.line.method),
-            count(facts.line.cases, bad=True),
+            document.Code(facts.line.method),
+            document.count(facts.line.cases, bad=True),
             facts.share,
-            Code(facts.name),
+            document.Code(facts.name),
             facts.line.sentence + (f" ({facts.line.claim})" if facts.line.claim else ""),
             facts.families(6),
-            with_code(facts.line.remedy),
-            (error_text(facts.line.worst), ": ", Code(facts.replay)),
+            document.with_code(facts.line.remedy),
+            (error_text(facts.line.worst), ": ", document.Code(facts.replay)),
         )
         for facts in causes
     ]
     columns = "implementation | # wrong | # share | cause | why | where | what to do | the worst of them"
-    yield Section("Why wrong answers are wrong", (Paragraph(_CAUSES), table("causes", columns, rows)))
+    yield document.Section(
+        "Why wrong answers are wrong", (document.Paragraph(_CAUSES), document.table("causes", columns, rows))
+    )
 
 
 ON_THE_RING = (1.0, 2.0, 1.0, 1.0, 2.5, 0.0, 0.0)
@@ -171,20 +163,22 @@ def can_be_drawn(row: Sequence[float]) -> bool:
     return len(row) > 0 and not PAIRS.has_axis(row) and trouble_with_row(row) is None  # a case may have no row
 
 
-def explorer_sections(record: Record) -> Iterator[Section]:
+def explorer_sections(record: Record) -> Iterator[document.Section]:
     """The picture with the bodies of a failing case, which a reader can move; none if no failing case can be drawn."""
     shown = list(shown_case(record))
     rows = [failure.row for failure in failures(record) if can_be_drawn(failure.row)]
     if shown or rows:
         row = shown[0][0] if shown else min(rows, key=_spread)
-        yield Section("Look closer", (*(Paragraph(text) for _, text in shown), Explorer(row)), page=True)
+        yield document.Section(
+            "Look closer", (*(document.Paragraph(text) for _, text in shown), document.Explorer(row)), page=True
+        )
 
 
-_ON_THE_RING = Section("Look closer", (Explorer(ON_THE_RING),), page=True)
+_ON_THE_RING = document.Section("Look closer", (document.Explorer(ON_THE_RING),), page=True)
 """The explorer of a run without a failing case."""
 
 
-def shown_case(record: Record) -> Iterator[tuple[tuple[float, ...], Text]]:
+def shown_case(record: Record) -> Iterator[tuple[tuple[float, ...], document.Text]]:
     """The drawable wrong answer with the greatest error: its row and a sentence; None if there is no such answer.
 
     An answer whose wall looks flat or is far away is taken only if there is no other.
@@ -198,8 +192,8 @@ def shown_case(record: Record) -> Iterator[tuple[tuple[float, ...], Text]]:
     ]
     drawable = [(case, row, total) for case, row, total in failing if can_be_drawn(row) and _spread(row) <= _ALIKE]
     for case, row, total in sorted(drawable, key=lambda drawn: (_flat(drawn[1]), -drawn[0].backward_error))[:1]:
-        answers = f" is {truth_in_words(case.truth, total.question)}; ", Code(total.name), " answered "
-        yield row, (Code(case.case), *answers, Strong(in_words(case.answer, total.question)), ".")
+        answers = f" is {truth_in_words(case.truth, total.question)}; ", document.Code(total.name), " answered "
+        yield row, (document.Code(case.case), *answers, document.Strong(in_words(case.answer, total.question)), ".")
 
 
 _ALIKE = 20.0
@@ -219,7 +213,7 @@ def _flat(row: Sequence[float]) -> bool:
     return not max(others) / _ALIKE <= gamma <= min(others) * _ALIKE
 
 
-def compared_sections(record: Record) -> Iterator[Section]:
+def compared_sections(record: Record) -> Iterator[document.Section]:
     """The subjects of a benchmark: methods, workloads, missing requirements; none if nothing was measured."""
     methods = measured_methods(record)
     if not methods:
@@ -227,7 +221,7 @@ def compared_sections(record: Record) -> Iterator[Section]:
     columns = "method | what it is | tier | precision | question | exact | remarks"
     rows = [
         (
-            Code(method.name),
+            document.Code(method.name),
             method.line.title,
             method.tier,
             method.line.precision,
@@ -238,15 +232,18 @@ def compared_sections(record: Record) -> Iterator[Section]:
         for method in methods
     ]
     items = [
-        (Strong(line.title), f" ({line.rows:,} rows, seed {line.seed}): {line.text}")
+        (document.Strong(line.title), f" ({line.rows:,} rows, seed {line.seed}): {line.text}")
         for line in record.of(WorkloadLine)
     ]
     missing = [f"Not there: {line.what}: {line.reason}." for line in record.of(AbsentLine)]
     compiled = [
         f"Compiled with {line.program} {line.version}: {' '.join(line.flags)}." for line in record.of(CompilerLine)
     ]
-    blocks: list[Block] = [table("methods", columns, rows), bullets([*items, *compiled, *missing])]
-    yield Section("What was compared", tuple(blocks))
+    blocks: list[document.Block] = [
+        document.table("methods", columns, rows),
+        document.bullets([*items, *compiled, *missing]),
+    ]
+    yield document.Section("What was compared", tuple(blocks))
 
 
 def _remarks(line: MethodLine) -> Iterator[str]:
@@ -258,7 +255,7 @@ def _remarks(line: MethodLine) -> Iterator[str]:
         yield line.note
 
 
-FAILING: tuple[Callable[[Record], Iterator[Section]], ...] = (
+FAILING: tuple[Callable[[Record], Iterator[document.Section]], ...] = (
     square_sections,
     explorer_sections,
     cause_sections,
@@ -266,7 +263,7 @@ FAILING: tuple[Callable[[Record], Iterator[Section]], ...] = (
 )
 """The sections of a failing run that come first: which answers are wrong, a picture, why, and what failed."""
 
-PARTS: tuple[Callable[[Record], Iterator[Section]], ...] = (
+PARTS: tuple[Callable[[Record], Iterator[document.Section]], ...] = (
     settings_sections,
     times.baseline_sections,
     advice.own_method_sections,
@@ -302,7 +299,7 @@ class ReportContent:
 
     title: str
     verdict: Verdict
-    sections: tuple[Section, ...]
+    sections: tuple[document.Section, ...]
 
 
 def content(record: Record, against: Record | None = None) -> ReportContent:
@@ -324,7 +321,7 @@ def report_title(record: Record) -> str:
 
 _OTHER_REPORTS = (
     "All reports of this run, with every table, plot and measurement, are made from its record by ",
-    Code("hypcheck report record.jsonl --out FOLDER"),
+    document.Code("hypcheck report record.jsonl --out FOLDER"),
     ".",
 )
 
@@ -332,7 +329,7 @@ _OTHER_REPORTS = (
 def overview(record: Record, beside: Collection[str]) -> ReportContent:
     """The content of the overview; it shows the pictures among the files `beside` it."""
     parts = (oracle_facts, paper_facts, method_facts, benchmark_facts)
-    shows = bullets([f"{fact[:1].upper()}{fact[1:]}." for part in parts for fact in part(record)])
+    shows = document.bullets([f"{fact[:1].upper()}{fact[1:]}." for part in parts for fact in part(record)])
     pictures = tuple(figures for figures in (verification.MAP, FRONT, PARETO, ERRORS) if figures.file in beside)
     sections = [
         *square_sections(record),
@@ -341,11 +338,11 @@ def overview(record: Record, beside: Collection[str]) -> ReportContent:
         *advice.own_method_sections(record),
         *advice.advice_sections(record),
         *advice.advised_method_sections(record),
-        *([Section("Pictures", pictures[:1])] if pictures else []),
-        *([Section("What it shows", (shows,))] if shows.items else []),
+        *([document.Section("Pictures", pictures[:1])] if pictures else []),
+        *([document.Section("What it shows", (shows,))] if shows.items else []),
         *times.claim_sections(record),
-        *([Section("More pictures", pictures[1:])] if pictures[1:] else []),
+        *([document.Section("More pictures", pictures[1:])] if pictures[1:] else []),
         *run_sections(record),
-        Section("The rest", (bullets([_OTHER_REPORTS]),)),
+        document.Section("The rest", (document.bullets([_OTHER_REPORTS]),)),
     ]
     return ReportContent(report_title(record), verdict(record), tuple(sections))

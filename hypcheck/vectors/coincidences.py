@@ -13,7 +13,7 @@ from functools import partial
 import numpy as np
 
 from hypcheck.geometry.rows import Floats, Mask, Rows
-from hypcheck.vectors import double_roots
+from hypcheck.vectors import double_roots, random_pairs
 from hypcheck.vectors.double_roots import (
     ULPS,
     DoubleRoots,
@@ -27,17 +27,6 @@ from hypcheck.vectors.double_roots import (
     turned,
 )
 from hypcheck.vectors.draw import Draw, Integers, Maker, exponent, in_turn, ldexp, stepped, turns
-from hypcheck.vectors.random_pairs import (
-    UNITS,
-    Sizes,
-    all_regimes,
-    around,
-    beside_surface,
-    centred,
-    heights,
-    offsets,
-    sizes,
-)
 
 
 def exact_maker(construction: Callable[[Draw, int], tuple[Rows, Mask]]) -> Maker:
@@ -198,7 +187,9 @@ def ring_neighbourhood(draw: Draw, n: int) -> Rows:
     radius = np.sqrt((c * c + 1) * (a * a / (c * c) + 1))
     step = draw.signs(n) * draw.log_uniform(n, -40, -6)
     height = np.where(turns(n, True, True, False), 0.0, draw.log_uniform(n, -40, -6))
-    return centred(draw, sizes(draw, a, c), radius + np.where(turns(n, True, False, True), step, 0), height)
+    return random_pairs.centred(
+        draw, random_pairs.sizes(draw, a, c), radius + np.where(turns(n, True, False, True), step, 0), height
+    )
 
 
 def osculation(draw: Draw, n: int) -> Rows:
@@ -212,9 +203,11 @@ def osculation(draw: Draw, n: int) -> Rows:
     height = np.where(turns(n, True, True, False, False, False), 0.0, draw.log_uniform(n, -24, -1))
     hair = draw.signs(n) * draw.log_uniform(n, -50, -3)
     free = a + 1 + hair, height
-    bound = beside_surface(a, c, height, 1 + hair)
+    bound = random_pairs.beside_surface(a, c, height, 1 + hair)
     here = turns(n, True, False)
-    return centred(draw, sizes(draw, a, c), np.where(here, free[0], bound[0]), np.where(here, free[1], bound[1]))
+    return random_pairs.centred(
+        draw, random_pairs.sizes(draw, a, c), np.where(here, free[0], bound[0]), np.where(here, free[1], bound[1])
+    )
 
 
 def near_axis(draw: Draw, n: int) -> Rows:
@@ -224,43 +217,43 @@ def near_axis(draw: Draw, n: int) -> Rows:
     c = draw.log_uniform(n, -2, 7)
     radius = np.where(turns(n, False, True, True), gap * draw.between(n, 0, 2), 0.0)
     height = np.where(turns(n, True, True, True, False), np.sqrt(gap) * draw.between(n, 0, 3) * np.sqrt(1 + c * c), 0)
-    return centred(draw, sizes(draw, a, c), radius, height)
+    return random_pairs.centred(draw, random_pairs.sizes(draw, a, c), radius, height)
 
 
 def axis(draw: Draw, n: int) -> Rows:
     """x = y = 0: at the origin, at heights near the height from which the ball fits, and at any height."""
-    a, c = all_regimes(draw, n)
+    a, c = random_pairs.all_regimes(draw, n)
     fits = np.sqrt(np.maximum((a * a + c * c) * (1 - a * a), 0)) / a
     hair = 1 + draw.signs(n) * draw.log_uniform(n, -50, -1)
     kind = turns(n, 0, 1, 1, 2, 2)
-    height = np.where(kind == 0, 0.0, np.where(kind == 1, fits * hair, heights(draw, c)))
-    return centred(draw, sizes(draw, a, c), np.zeros(n), height)
+    height = np.where(kind == 0, 0.0, np.where(kind == 1, fits * hair, random_pairs.heights(draw, c)))
+    return random_pairs.centred(draw, random_pairs.sizes(draw, a, c), np.zeros(n), height)
 
 
 def waist(draw: Draw, n: int) -> Rows:
     """z = 0: near r = a − 1, a + 1 and the radius where a sphere too round for the groove leaves it, or anywhere."""
-    a, c = all_regimes(draw, n)
+    a, c = random_pairs.all_regimes(draw, n)
     both_flanks = np.sqrt((a * a + c * c) * (1 + 1 / (c * c)))
     hair = draw.signs(n) * draw.log_uniform(n, -50, -1)
     anywhere = 3 * a * draw.unit(n)
-    places = [np.abs(a - 1) + hair, a + 1 + hair, both_flanks * (1 + hair), a + offsets(draw, n), anywhere]
+    places = [np.abs(a - 1) + hair, a + 1 + hair, both_flanks * (1 + hair), a + random_pairs.offsets(draw, n), anywhere]
     radius = np.choose(turns(n, *range(len(places))), places)
-    return centred(draw, sizes(draw, a, c), np.abs(radius), np.zeros(n))
+    return random_pairs.centred(draw, random_pairs.sizes(draw, a, c), np.abs(radius), np.zeros(n))
 
 
 def regime_borders(draw: Draw, n: int) -> Rows:
     """a = 1 and c² = a, exactly or one ulp of a size to either side, centres all around the surface."""
     aim = turns(n, True, False)
-    b = draw.log_uniform(n, *UNITS)
+    b = draw.log_uniform(n, *random_pairs.UNITS)
     top, bottom = draw.integers(n, 1, 4095).astype(np.float64), draw.integers(n, 1, 4095).astype(np.float64)
     units = ldexp(1, draw.integers(n, -14, -10)), ldexp(1, draw.integers(n, -10, -6))
-    size = Sizes(
+    size = random_pairs.Sizes(
         alpha=np.where(aim, b, top * top * units[0]),
-        gamma=np.where(aim, draw.log_uniform(n, *UNITS), top * units[1]),
+        gamma=np.where(aim, draw.log_uniform(n, *random_pairs.UNITS), top * units[1]),
         b=np.where(aim, b, bottom * bottom * units[0]),
-        d=np.where(aim, draw.log_uniform(n, *UNITS), bottom * units[1]),
+        d=np.where(aim, draw.log_uniform(n, *random_pairs.UNITS), bottom * units[1]),
     )
-    rows = around(draw, size)
+    rows = random_pairs.around(draw, size)
     # Six in a row: α and γ each exact, one ulp up, one ulp down; γ does not matter for a = 1.
     ulps = turns(n, 0, 0, 1, 1, -1, -1)
     column = np.where(aim | (draw.signs(n) < 0), 0, 1)
@@ -279,7 +272,7 @@ def _throat(draw: Draw, n: int) -> Rows:
     a, c = draw.log_uniform(n, -5, 0) * 0.999, draw.log_uniform(n, -4, 3)
     stuck = np.sqrt((a * a + c * c) * (1 - a * a)) / a
     radius = np.abs(1 - a) * draw.between(n, 0, 1.2)
-    return centred(draw, sizes(draw, a, c), radius, stuck * draw.between(n, 0, 2))
+    return random_pairs.centred(draw, random_pairs.sizes(draw, a, c), radius, stuck * draw.between(n, 0, 2))
 
 
 def _groove(draw: Draw, n: int) -> Rows:
@@ -289,13 +282,13 @@ def _groove(draw: Draw, n: int) -> Rows:
     leaves = np.sqrt((a * a + c * c) * (1 + 1 / (c * c)))
     radius = a + 1 + (leaves - a - 1) * draw.between(n, -0.1, 1.5)
     height = np.where(turns(n, True, False), 0.0, c * draw.between(n, 0, 0.5))
-    return centred(draw, sizes(draw, a, c), np.abs(radius), height)
+    return random_pairs.centred(draw, random_pairs.sizes(draw, a, c), np.abs(radius), height)
 
 
 def _neither_condition(draw: Draw, n: int) -> Rows:
     """a < 1 and c² < a, centres all around the surface."""
     a = draw.log_uniform(n, -5, 0) * 0.999
-    return around(draw, sizes(draw, a, np.sqrt(a * draw.log_uniform(n, -6, 0) * 0.99)))
+    return random_pairs.around(draw, random_pairs.sizes(draw, a, np.sqrt(a * draw.log_uniform(n, -6, 0) * 0.99)))
 
 
 def second_coefficient_zero(draw: Draw, n: int) -> tuple[Rows, Mask]:

@@ -29,8 +29,8 @@ from hypcheck.record.measurements import PlacesLine, StabilityLine
 from hypcheck.report.measured import is_unstable, is_wrong_somewhere, stability_title
 from hypcheck.report.messages import figure, listed
 from hypcheck.report.model import ImplementationTotal, implementations
+from hypcheck.report.plots import style
 from hypcheck.report.plots.colours import MISTAKES, STEPS
-from hypcheck.report.plots.style import SMALL, WIDTH, Plot, colour, decades, new_figure, power_of_ten, share_layout
 
 GAP = 0.08
 """Between two cells, of the width of a cell."""
@@ -59,7 +59,7 @@ def cells(bins: Iterable[Sequence[int]], merged: int = 1) -> Cells:
     return {place: (asked[place], wrong[place]) for place in sorted(asked) if asked[place]}
 
 
-def _heat_plots(prefix: str, width: float, maps: Mapping[str, Cells]) -> Iterator[Plot]:
+def _heat_plots(prefix: str, width: float, maps: Mapping[str, Cells]) -> Iterator[style.Plot]:
     """A small plot over the sizes for each map, by its title; all show the same part of the plane.
 
     A cell has `width` decades: cell k reaches from 10^(k·width) to 10^((k+1)·width).
@@ -71,32 +71,32 @@ def _heat_plots(prefix: str, width: float, maps: Mapping[str, Cells]) -> Iterato
     first = None
     for number, (title, bins) in enumerate(maps.items()):
         plot = _heat_plot(f"{prefix}-{number}", title, width, bins, limits)
-        first = share_layout(plot.figure, first)
+        first = style.share_layout(plot.figure, first)
         yield plot
 
 
-def _heat_plot(name: str, title: str, width: float, bins: Cells, limits: Sequence[tuple[int, int]]) -> Plot:
-    drawn = new_figure(SMALL, 170)
+def _heat_plot(name: str, title: str, width: float, bins: Cells, limits: Sequence[tuple[int, int]]) -> style.Plot:
+    drawn = style.new_figure(style.SMALL, 170)
     axes = drawn.subplots()
     axes.grid(visible=False)
     wrong = {place: counts for place, counts in bins.items() if counts[1]}
     right = [place for place in bins if place not in wrong]
     if right:  # as one shape, because there are many and none has a tooltip
         shape = Path.make_compound_path_from_polys(_squares(right))
-        axes.add_patch(PathPatch(shape, facecolor=colour("share-0"), linewidth=0, clip_on=False))
+        axes.add_patch(PathPatch(shape, facecolor=style.colour("share-0"), linewidth=0, clip_on=False))
     if wrong:
-        squares, colours = _squares(wrong), [colour(step(*counts)) for counts in wrong.values()]
+        squares, colours = _squares(wrong), [style.colour(step(*counts)) for counts in wrong.values()]
         axes.add_collection(PolyCollection(list(squares), facecolors=colours, linewidths=0, gid=name, clip_on=False))
     for axis, label, ends in zip("xy", SIZES, limits, strict=True):
-        exponents = decades(10.0 ** (ends[0] * width), 10.0 ** (ends[1] * width), 4)
+        exponents = style.decades(10.0 ** (ends[0] * width), 10.0 ** (ends[1] * width), 4)
         ticks = [exponent / width for exponent in exponents]
         getattr(axes, f"set_{axis}lim")(*ends)
-        getattr(axes, f"set_{axis}ticks")(ticks, [power_of_ten(exponent) for exponent in exponents])
+        getattr(axes, f"set_{axis}ticks")(ticks, [style.power_of_ten(exponent) for exponent in exponents])
         getattr(axes, f"set_{axis}label")(label)
     asked, errors = (sum(counts[k] for counts in bins.values()) for k in (0, 1))
     description = f"Share of wrong answers over {SIZES[0]} and {SIZES[1]}: {errors:,} of {asked:,} wrong."
     tips = {name: [_tip(width, place, counts) for place, counts in wrong.items()]} if wrong else {}
-    return Plot(name, title, description, drawn, tips)
+    return style.Plot(name, title, description, drawn, tips)
 
 
 def _squares(places: Iterable[tuple[int, int]]) -> Floats:
@@ -115,7 +115,7 @@ OCTAVES = 3
 """Octaves of the record that make one cell."""
 
 
-def size_plots(record: Record) -> Iterator[Plot]:
+def size_plots(record: Record) -> Iterator[style.Plot]:
     """A small plot for each method that erred."""
     maps = {
         implementation.name: cells((row for group in implementation.groups for row in group.size_bins), OCTAVES)
@@ -125,7 +125,7 @@ def size_plots(record: Record) -> Iterator[Plot]:
     yield from _heat_plots("sizes", OCTAVES * math.log10(2), maps)
 
 
-def stability_plots(record: Record) -> Iterator[Plot]:
+def stability_plots(record: Record) -> Iterator[style.Plot]:
     """A small plot for each method and precision that is wrong somewhere; the record's cells have half a decade."""
     wrong = [line for line in record.of(StabilityLine) if is_unstable(line)]
     yield from _heat_plots("stability", 0.5, {stability_title(line): cells(line.bins) for line in wrong})
@@ -180,26 +180,26 @@ CELLS, PER_UNIT = 64, 8
 """Cells of the record in each direction, and in one semi-axis; the last of each stands for all that lies beyond."""
 
 
-def field_plots(record: Record) -> Iterator[Plot]:
+def field_plots(record: Record) -> Iterator[style.Plot]:
     """A small plot for each method that erred."""
     first = None
     for number, implementation in enumerate(implementations(record)):
         bins = cells(row for group in implementation.groups for row in group.place_bins)
         if any(wrong for _, wrong in bins.values()):
             plot = _field_plot(f"fields-{number}", implementation, bins)
-            first = share_layout(plot.figure, first)
+            first = style.share_layout(plot.figure, first)
             yield plot
 
 
-def _field_plot(name: str, implementation: ImplementationTotal, bins: Cells) -> Plot:
-    drawn = new_figure(SMALL, 170)
+def _field_plot(name: str, implementation: ImplementationTotal, bins: Cells) -> style.Plot:
+    drawn = style.new_figure(style.SMALL, 170)
     axes = drawn.subplots()
     image = np.zeros((CELLS, CELLS, 4))
     steps: Counter[str] = Counter()
     for (across, up), (asked, wrong) in bins.items():
         role = step(asked, wrong)
         steps[role] += 1
-        image[min(up, CELLS - 1), min(across, CELLS - 1)] = to_rgba(FAINT if role == "share-0" else colour(role))
+        image[min(up, CELLS - 1), min(across, CELLS - 1)] = to_rgba(FAINT if role == "share-0" else style.colour(role))
     end = CELLS / PER_UNIT
     axes.imshow(image, extent=(0, end, 0, end), origin="lower", interpolation="nearest", aspect="auto")
     axes.grid(visible=False)
@@ -211,23 +211,23 @@ def _field_plot(name: str, implementation: ImplementationTotal, bins: Cells) -> 
     description = (
         f"Share of wrong answers over r/α and |z|/γ: {wrong:,} of {asked:,} wrong, in {some:,} of {len(bins):,} cells."
     )
-    return Plot(name, implementation.name, description, drawn)
+    return style.Plot(name, implementation.name, description, drawn)
 
 
-def place_plots(record: Record) -> Iterator[Plot]:
+def place_plots(record: Record) -> Iterator[style.Plot]:
     """A small plot for each method, scene and region in which it is wrong."""
     for number, line in enumerate(record.of(PlacesLine)):
         if is_wrong_somewhere(line):
             yield _place_plot(f"places-{number}", line)
 
 
-def _place_plot(name: str, line: PlacesLine) -> Plot:
-    drawn = new_figure(SMALL, 185)
+def _place_plot(name: str, line: PlacesLine) -> style.Plot:
+    drawn = style.new_figure(style.SMALL, 185)
     axes = drawn.subplots()
     r, z = (line.r[0], line.r[1]), (line.z[0], line.z[1])
-    colours = {letter: colour(role) for letter, (_, role) in MISTAKES.items()}
+    colours = {letter: style.colour(role) for letter, (_, role) in MISTAKES.items()}
     paint_letters(axes, line.wrong, {".": FAINT, **colours}, r, z)
-    draw_surface(axes, (line.scene.alpha, line.scene.gamma), r, z, colour("ink"))
+    draw_surface(axes, (line.scene.alpha, line.scene.gamma), r, z, style.colour("ink"))
     mark_grid_points(axes, line.wrong, colours, r, z)
     axes.set(xlabel="r (m)", ylabel="z (m)")
     axes.locator_params(nbins=4)
@@ -236,7 +236,7 @@ def _place_plot(name: str, line: PlacesLine) -> Plot:
     where = "near the ring" if line.region == "ring" else "around the scene"
     scene = ", ".join(f"{size} {value:g}" for size, value in asdict(line.scene).items())
     description = f"Wrong answers {where} ({scene}) at {sum(counts.values()):,} grid points: {listed(mistakes)}."
-    return Plot(name, f"{line.method}, {where}", description, drawn)
+    return style.Plot(name, f"{line.method}, {where}", description, drawn)
 
 
 REGIONS = {"e": ("exterior", "#d7e9f7"), "c": ("contact", "#737373"), "i": ("interior", "#ecc767")}
@@ -250,25 +250,27 @@ ON_MAP = "#1a1a1a"
 """The colour of lines and words on the map, whose ground is light in both schemes."""
 
 
-def map_plots(record: Record) -> Iterator[Plot]:
+def map_plots(record: Record) -> Iterator[style.Plot]:
     """A plot for each map."""
     for number, line in enumerate(record.of(MapLine)):
         title = f"{line.name}: {line.method}"
-        yield Plot(f"map-{number}", title, f"{_scene(line)}. {_counts(line)}.", draw_maps([line], WIDTH, 400))
+        yield style.Plot(
+            f"map-{number}", title, f"{_scene(line)}. {_counts(line)}.", draw_maps([line], style.WIDTH, 400)
+        )
 
 
-def maps_together(record: Record) -> Plot:
+def maps_together(record: Record) -> style.Plot:
     """The maps side by side, with a title that explains the picture when it is seen without a report."""
     lines = record.of(MapLine)
     drawn = draw_maps(lines, 390 * len(lines), 470)
     drawn.suptitle("\n".join(dict.fromkeys(map(_scene, lines))), fontsize=11)
     description = " ".join(f"{escaped(line.name)}: {_counts(line)}." for line in lines)
-    return Plot("map", "Exact positions, and the wrong answers of a method", description, drawn)
+    return style.Plot("map", "Exact positions, and the wrong answers of a method", description, drawn)
 
 
 def draw_maps(lines: Sequence[MapLine], width: float, height: float) -> Figure:
     """A panel for each map line, side by side, over one legend."""
-    drawn = new_figure(width, height)
+    drawn = style.new_figure(width, height)
     panels = drawn.subplots(1, len(lines), squeeze=False)[0]
     for axes, line in zip(panels, lines, strict=True):
         _panel(axes, line)
@@ -330,6 +332,6 @@ def _within(small: MapLine, large: MapLine) -> bool:
 def _legend(methods: str, lines: Sequence[MapLine]) -> list[Any]:
     seen = {letter.lower() for line in lines for text in line.lines for letter in text}
     regions = [Patch(facecolor=shade, label=name) for letter, (name, shade) in REGIONS.items() if letter in seen]
-    meridian = Line2D([], [], color=colour("ink"), linewidth=0.9, label="hyperboloid")
+    meridian = Line2D([], [], color=style.colour("ink"), linewidth=0.9, label="hyperboloid")
     wrong = Line2D([], [], color=WRONG, marker="s", linestyle="none", label=f"wrong answer of {methods}")
     return [*regions, meridian, wrong]

@@ -11,29 +11,7 @@ from hypcheck.implementations.description import QUESTIONS
 from hypcheck.record import Record, measurements
 from hypcheck.record.fields import numbers_of
 from hypcheck.record.lines import FaultPart, GroupLine, WrongAnswer
-from hypcheck.report.document import (
-    NONE,
-    Block,
-    Code,
-    Column,
-    Details,
-    Figures,
-    Paragraph,
-    Row,
-    Section,
-    TableBlock,
-    TableCell,
-    against,
-    bullets,
-    count,
-    joined,
-    measured,
-    number,
-    paced,
-    prose,
-    share,
-    table,
-)
+from hypcheck.report import document
 from hypcheck.report.measured import (
     SweepTotal,
     is_unstable,
@@ -57,7 +35,7 @@ HEAT = tuple((f"share-{place}", words) for place, (_, words) in enumerate(STEPS)
 
 _BAD = {status.value for status in Status} - {"right", "skipped", "tolerated", "refused", "excused"}
 
-_FAMILY_DISTANCE = prose(
+_FAMILY_DISTANCE = document.prose(
     "The *distance to the other answer* is the least relative change of a case's inputs that leads to another position;"
     " of a tilted spheroid, what it is proved to be at least. A method"
     " whose errors end at a distance can be trusted beyond it. All families together, tolerated answers among the"
@@ -65,43 +43,45 @@ _FAMILY_DISTANCE = prose(
 )
 
 
-def family_sections(record: Record) -> Iterator[Section]:
+def family_sections(record: Record) -> Iterator[document.Section]:
     """Every family of every judged method, the worst cases, and their places; only the page has these sections."""
     totals = [total for total in implementations(record) if total.asked or total.statuses]
     if not totals:
         return
     if any(group.octaves for total in totals for group in total.groups):
-        yield Section("Wrong answers by distance", (Paragraph(_FAMILY_DISTANCE), Figures("octaves")), page=True)
-    size = Figures("sizes", small=True, legend=HEAT)
-    place = Figures("fields", small=True, legend=HEAT)
+        yield document.Section(
+            "Wrong answers by distance", (document.Paragraph(_FAMILY_DISTANCE), document.Figures("octaves")), page=True
+        )
+    size = document.Figures("sizes", small=True, legend=HEAT)
+    place = document.Figures("fields", small=True, legend=HEAT)
     blocks = (
-        Details("By the sizes of the bodies, α/b and γ/d", (size,)),
-        Details("By the place, r/α and |z|/γ", (place,)),
+        document.Details("By the sizes of the bodies, α/b and γ/d", (size,)),
+        document.Details("By the place, r/α and |z|/γ", (place,)),
     )
-    yield Section("Where the wrong answers lie", blocks, page=True)
-    yield Section("Family by family", tuple(_families(record, totals)), page=True)
+    yield document.Section("Where the wrong answers lie", blocks, page=True)
+    yield document.Section("Family by family", tuple(_families(record, totals)), page=True)
 
 
-def _families(record: Record, totals: Sequence[ImplementationTotal]) -> Iterator[Block]:
+def _families(record: Record, totals: Sequence[ImplementationTotal]) -> Iterator[document.Block]:
     """A fold for each gated implementation, and one for all built-in methods."""
     replays = Replays.of(record)
     for total in totals:
         if total.gated:
-            yield Details(total.name, (_family_table([total]), *_cases([total], replays)))
+            yield document.Details(total.name, (_family_table([total]), *_cases([total], replays)))
     builtin = [total for total in totals if not total.gated]
     if builtin:
-        yield Details("All methods and families", (_family_table(builtin),))
-        yield Details("Their worst cases", tuple(_cases(builtin, replays)))
+        yield document.Details("All methods and families", (_family_table(builtin),))
+        yield document.Details("Their worst cases", tuple(_cases(builtin, replays)))
 
 
-def _family_table(totals: Sequence[ImplementationTotal]) -> TableBlock:
+def _family_table(totals: Sequence[ImplementationTotal]) -> document.TableBlock:
     """Families by status, with columns for the statuses that occurred."""
     seen = [status.value for status in Status if any(status.value in total.statuses for total in totals)]
     mistakes, several = _mistakes(totals), len(totals) > 1
     fresh, left_out = any(total.fresh for total in totals), any(total.not_asked for total in totals)
     rows = [
         (
-            *([Code(total.name)] if several else []),
+            *([document.Code(total.name)] if several else []),
             *_status_row(group, seen, mistakes, fresh=fresh),
             *([rows_not_asked(group.not_asked or {})] if left_out else []),
         )
@@ -111,7 +91,9 @@ def _family_table(totals: Sequence[ImplementationTotal]) -> TableBlock:
     numbers = ("asked", *(["fresh"] if fresh else []), *seen, *(name.replace("-", " ") for name in mistakes))
     counted = " | ".join(f"# {name}" for name in numbers)
     why = " | why not asked" if left_out else ""
-    return table("families", f"{'method | ' if several else ''}family | {counted} | # worst error in u{why}", rows)
+    return document.table(
+        "families", f"{'method | ' if several else ''}family | {counted} | # worst error in u{why}", rows
+    )
 
 
 def _mistakes(totals: Sequence[ImplementationTotal]) -> list[str]:
@@ -122,95 +104,101 @@ def _mistakes(totals: Sequence[ImplementationTotal]) -> list[str]:
     return [mistake.value for mistake in (Mistake.FALSE_CLEAR, Mistake.FALSE_CONTACT, *of_positions, *of_times)]
 
 
-def _status_row(group: GroupLine, seen: Sequence[str], names: Sequence[str], *, fresh: bool) -> Row:
+def _status_row(group: GroupLine, seen: Sequence[str], names: Sequence[str], *, fresh: bool) -> document.Row:
     error = worst_u(group)
     failing = _BAD if group.failing is UNSET else group.failing
-    statuses = [count(group.counts.get(status, 0), bad=status in failing) for status in seen]
-    mistakes = [count(group.mistakes.get(name, 0)) for name in names]
-    worst = TableCell(figure(error) if error else NONE, error)
-    new = [count(group.fresh or 0)] if fresh else []
-    return (Code(group.family), count(group.asked), *new, *statuses, *mistakes, worst)
+    statuses = [document.count(group.counts.get(status, 0), bad=status in failing) for status in seen]
+    mistakes = [document.count(group.mistakes.get(name, 0)) for name in names]
+    worst = document.TableCell(figure(error) if error else document.NONE, error)
+    new = [document.count(group.fresh or 0)] if fresh else []
+    return (document.Code(group.family), document.count(group.asked), *new, *statuses, *mistakes, worst)
 
 
-def _cases(totals: Sequence[ImplementationTotal], replays: Replays) -> Iterator[TableBlock]:
+def _cases(totals: Sequence[ImplementationTotal], replays: Replays) -> Iterator[document.TableBlock]:
     worst = [(total, group, case) for total in totals for group in total.groups for case in group.worst]
     if worst:
         worst.sort(key=lambda of: -of[2].backward_error_u)
         kept = [of for total in totals for of in [one for one in worst if one[0] is total][:MOST_CASES]]
         columns = "case | method | truth | answer | mistake | # wrong by, u | status | look at it with"
-        yield table("worst cases", columns, [_case(*of, replays) for of in kept])
+        yield document.table("worst cases", columns, [_case(*of, replays) for of in kept])
     faults = [(total, group, case) for total in totals for group in total.groups for case in group.faults or ()]
     if faults:
         columns = "case | method | ended | because | look at it with"
-        yield table("cases without an answer", columns, [_fault(*of, replays) for of in faults[: 5 * MOST_CASES]])
+        yield document.table(
+            "cases without an answer", columns, [_fault(*of, replays) for of in faults[: 5 * MOST_CASES]]
+        )
 
 
-def _case(total: ImplementationTotal, group: GroupLine, case: WrongAnswer, replays: Replays) -> Row:
+def _case(total: ImplementationTotal, group: GroupLine, case: WrongAnswer, replays: Replays) -> document.Row:
     return (
-        Code(case.case, from_hex(numbers_of(case))),
-        Code(total.name),
+        document.Code(case.case, from_hex(numbers_of(case))),
+        document.Code(total.name),
         truth_in_words(case.truth, group.question),
         str(case.answer),
         case.mistake,
-        measured(case.backward_error_u),
+        document.measured(case.backward_error_u),
         _status(case),
-        Code(replays.command(group, case)),
+        document.Code(replays.command(group, case)),
     )
 
 
-def _fault(total: ImplementationTotal, group: GroupLine, case: FaultPart, replays: Replays) -> Row:
-    shown, command = Code(case.case, from_hex(numbers_of(case))), Code(replays.command(group, case))
-    return (shown, Code(total.name), _status(case), case.reason, command)
+def _fault(total: ImplementationTotal, group: GroupLine, case: FaultPart, replays: Replays) -> document.Row:
+    shown, command = document.Code(case.case, from_hex(numbers_of(case))), document.Code(replays.command(group, case))
+    return (shown, document.Code(total.name), _status(case), case.reason, command)
 
 
-def _status(case: WrongAnswer | FaultPart) -> TableCell:
-    return TableCell(case.status, tone="bad" if case.status in _BAD else "")
+def _status(case: WrongAnswer | FaultPart) -> document.TableCell:
+    return document.TableCell(case.status, tone="bad" if case.status in _BAD else "")
 
 
-_WORKLOAD_DISTANCE = prose(
+_WORKLOAD_DISTANCE = document.prose(
     "The *distance to the other answer* is the least relative change of a case's inputs that leads to another position:"
     " a method whose curve has come down can be trusted to the right of it. A point stands for up to three octaves."
 )
-_SIZE_DISTANCE = prose(
+_SIZE_DISTANCE = document.prose(
     "The *distance to the other answer* of a sweep is the least relative change of b and d together that leads to it,"
     " estimated in floats: a method whose curve has come down can be trusted to the right of it. A point stands for up"
     " to three octaves."
 )
-_FRONT = prose(
+_FRONT = document.prose(
     "Lower is right nearer to contact, farther left is faster; the line joins the methods that no other beats in both."
     " Every mark has a tooltip. The *worst of all workloads* includes those that are only judged, such as the ring."
 )
-_TABLE = prose(
+_TABLE = document.prose(
     "*False clear* (dangerous) calls a contact clear, *false contact* is an invisible wall. *Reliable above*:"
     " the distance to the other answer beyond which at most 1 in 1000 answers is wrong; 0 where none is, ∞ where there"
     " is no such distance."
 )
-FRONT = Figures("front", "error against run time near contact, and with the errors of all workloads", "front.svg")
-PARETO = Figures("pareto", "error against run time on the other workloads", "pareto.svg")
-ERRORS = Figures("errors", "share of wrong answers against distance to the other answer", "errors.svg")
+FRONT = document.Figures(
+    "front", "error against run time near contact, and with the errors of all workloads", "front.svg"
+)
+PARETO = document.Figures("pareto", "error against run time on the other workloads", "pareto.svg")
+ERRORS = document.Figures("errors", "share of wrong answers against distance to the other answer", "errors.svg")
 
 _PLACES = tuple((role, words) for words, role in MISTAKES.values())
 
 
-def error_sections(record: Record) -> Iterator[Section]:
+def error_sections(record: Record) -> Iterator[document.Section]:
     """The errors of a benchmark's methods: by distance, by workload, by size and by place."""
     if record.of(measurements.AccuracyLine):
         about_sweeps = list(sweep_sections(record))
         yield from about_sweeps
-        blocks: tuple[Block, ...] = (Paragraph(_FRONT), FRONT, PARETO)
+        blocks: tuple[document.Block, ...] = (document.Paragraph(_FRONT), FRONT, PARETO)
         if record.of(measurements.SpeedLine) and not about_sweeps:
-            yield Section("Error against run time", blocks)
-        others = Details("On the other workloads, the methods that are wrong there", (Figures("other-errors"),))
+            yield document.Section("Error against run time", blocks)
+        others = document.Details(
+            "On the other workloads, the methods that are wrong there", (document.Figures("other-errors"),)
+        )
         distance = _SIZE_DISTANCE if about_sweeps else _WORKLOAD_DISTANCE
-        yield Section("Wrong answers by distance", (Paragraph(distance), ERRORS, others))
-        yield Section("Wrong answers by workload", (Paragraph(_TABLE), _workload_table(record)))
+        yield document.Section("Wrong answers by distance", (document.Paragraph(distance), ERRORS, others))
+        yield document.Section("Wrong answers by workload", (document.Paragraph(_TABLE), _workload_table(record)))
     yield from _maps(record)
 
 
-def _workload_table(record: Record) -> Block:
+def _workload_table(record: Record) -> document.Block:
     titles = {name: line.title for name, line in workloads(record).items()}
     rows = [
-        (Code(method.name), titles[name], *_workload_row(line))
+        (document.Code(method.name), titles[name], *_workload_row(line))
         for method in measured_methods(record)
         for name, line in method.accuracy.items()
     ]
@@ -218,169 +206,178 @@ def _workload_table(record: Record) -> Block:
         "method | workload | # asked | # wrong | # false clear | # false contact | # wrong side | # abstained"
         " | # reliable above | case farthest from contact"
     )
-    return table("wrong answers by workload", columns, rows)
+    return document.table("wrong answers by workload", columns, rows)
 
 
-def _workload_row(line: measurements.AccuracyLine) -> Row:
+def _workload_row(line: measurements.AccuracyLine) -> document.Row:
     worst = max(line.worst, key=lambda case: case.flip_distance, default=None)
     reliable = line.reliable_above
     return (
-        count(line.asked),
-        count(line.wrong),
-        count(line.false_clear, bad=True),
-        count(line.false_contact),
-        count(line.wrong_side),
-        count(line.abstained),
-        TableCell(figure(reliable), reliable, "bad" if reliable == math.inf else ""),
-        Code(worst.case, from_hex((*worst.row, *(worst.axis or ())))) if worst else "",
+        document.count(line.asked),
+        document.count(line.wrong),
+        document.count(line.false_clear, bad=True),
+        document.count(line.false_contact),
+        document.count(line.wrong_side),
+        document.count(line.abstained),
+        document.TableCell(figure(reliable), reliable, "bad" if reliable == math.inf else ""),
+        document.Code(worst.case, from_hex((*worst.row, *(worst.axis or ())))) if worst else "",
     )
 
 
-def _maps(record: Record) -> Iterator[Section]:
+def _maps(record: Record) -> Iterator[document.Section]:
     if record.of(measurements.StabilityLine):
         words = "Share of wrong answers over the sizes of the bodies, α/b across and γ/d up, in half decades."
-        figures = Figures("stability", small=True, legend=HEAT)
+        figures = document.Figures("stability", small=True, legend=HEAT)
         never = _never_wrong(
             "Wrong nowhere: ",
             [stability_title(line) for line in record.of(measurements.StabilityLine) if not is_unstable(line)],
         )
-        yield Section("Stability", (Paragraph(words), figures, never), page=True)
+        yield document.Section("Stability", (document.Paragraph(words), figures, never), page=True)
     places = record.of(measurements.PlacesLine)
     if places:
         wrong = {line.method for line in places if is_wrong_somewhere(line)}
         words = "Grid points of the half plane, distance from the axis across and height up, in metres."
-        figures = Figures("places", small=True, legend=_PLACES)
+        figures = document.Figures("places", small=True, legend=_PLACES)
         never = _never_wrong(
             "Wrong at none of the grid points: ",
             [name for name in dict.fromkeys(line.method for line in places) if name not in wrong],
         )
-        yield Section("Where the wrong answers lie", (Paragraph(words), figures, never), page=True)
+        yield document.Section("Where the wrong answers lie", (document.Paragraph(words), figures, never), page=True)
 
 
-def _never_wrong(words: str, names: Sequence[str]) -> Block:
-    return bullets([(words, joined([Code(name) for name in names]), ".")] if names else [])
+def _never_wrong(words: str, names: Sequence[str]) -> document.Block:
+    return document.bullets([(words, document.joined([document.Code(name) for name in names]), ".")] if names else [])
 
 
-_MESHES = prose(
+_MESHES = document.prose(
     "A mesh in place of the hyperboloid errs by its deviation; more triangles reduce it, and cost time. A build makes"
     " one mesh, a query decides one position."
 )
-_BOUNDS = prose(
+_BOUNDS = document.prose(
     "Another shape around the spheroid is never clear where the spheroid is not, so a *false clear* would be a fault;"
     " it costs invisible walls: the less the spheroid resembles the shape, the more of them."
 )
 
 
-def peer_sections(record: Record) -> Iterator[Section]:
+def peer_sections(record: Record) -> Iterator[document.Section]:
     """The price of meshes and bounding volumes, in answers and in time."""
     if record.of(measurements.ConvergenceLine):
-        yield Section(
-            "Meshes", (Paragraph(_MESHES), Figures("convergence"), _meshes(record.of(measurements.ConvergenceLine)))
+        yield document.Section(
+            "Meshes",
+            (
+                document.Paragraph(_MESHES),
+                document.Figures("convergence"),
+                _meshes(record.of(measurements.ConvergenceLine)),
+            ),
         )
     if record.of(measurements.BoundingLine):
         lines = record.of(measurements.BoundingLine)
-        yield Section("Bounding volumes", (Paragraph(_BOUNDS), Figures("bounding"), _bounds(lines), _overlaps(lines)))
+        yield document.Section(
+            "Bounding volumes",
+            (document.Paragraph(_BOUNDS), document.Figures("bounding"), _bounds(lines), _overlaps(lines)),
+        )
 
 
-def _meshes(lines: list[measurements.ConvergenceLine]) -> TableBlock:
+def _meshes(lines: list[measurements.ConvergenceLine]) -> document.TableBlock:
     rows = [
         (
-            Code(line.method),
-            count(line.triangles),
-            measured(line.deviation),
-            count(line.asked),
-            count(line.wrong),
-            measured(line.query_ns),
-            measured(line.build_ns),
+            document.Code(line.method),
+            document.count(line.triangles),
+            document.measured(line.deviation),
+            document.count(line.asked),
+            document.count(line.wrong),
+            document.measured(line.query_ns),
+            document.measured(line.build_ns),
         )
         for line in lines
     ]
     columns = "method | # triangles | # deviation, radii | # asked | # wrong | # query, ns | # build, ns"
-    return table("meshes", columns, rows)
+    return document.table("meshes", columns, rows)
 
 
-def _bounds(lines: list[measurements.BoundingLine]) -> TableBlock:
+def _bounds(lines: list[measurements.BoundingLine]) -> document.TableBlock:
     rows = [
         (
             line.shape,
             line.workload,
-            count(line.asked),
-            count(line.false_contact),
-            share(line.false_contact, line.asked),
-            count(line.false_clear, bad=True),
+            document.count(line.asked),
+            document.count(line.false_contact),
+            document.share(line.false_contact, line.asked),
+            document.count(line.false_clear, bad=True),
         )
         for line in lines
     ]
     columns = "shape | workload | # asked | # false contact | # share | # false clear"
-    return table("bounding volumes", columns, rows)
+    return document.table("bounding volumes", columns, rows)
 
 
-def _overlaps(lines: list[measurements.BoundingLine]) -> TableBlock:
+def _overlaps(lines: list[measurements.BoundingLine]) -> document.TableBlock:
     rows = [
         (
             line.shape,
             line.workload,
-            measured(ratio),
-            count(int(asked)),
-            count(int(contacts)),
-            share(contacts, asked),
-            measured(excess),
+            document.measured(ratio),
+            document.count(int(asked)),
+            document.count(int(contacts)),
+            document.share(contacts, asked),
+            document.measured(excess),
         )
         for line in lines
         for ratio, asked, contacts, excess in line.overlap
     ]
     columns = "shape | workload | # d/b | # asked | # false contact | # share | # median excess clearance, radii"
-    return table("bounding volumes by shape of the spheroid", columns, rows)
+    return document.table("bounding volumes by shape of the spheroid", columns, rows)
 
 
-_SWEEPS = prose(
+_SWEEPS = document.prose(
     "A *missed contact* (dangerous) is a sweep that was called clear and has contact; a *false contact* closes a"
     " sweep that is clear. Counts are of all workloads together; a slow method is asked fewer sweeps. A wrong answer"
     " is measured by the change of b and d that makes it right: half of the wrong answers need at least what stands"
     " under *wrong by*, about, and *worst* is the greatest that was found (∞: no change below 100 % is enough, as"
     " where the centre goes through the surface). Times are medians of a sweep in a batch."
 )
-_SWEEP_FRONT = Figures("front", "missed contacts and false contacts against the time of a sweep", "front.svg")
+_SWEEP_FRONT = document.Figures("front", "missed contacts and false contacts against the time of a sweep", "front.svg")
 
 
-def sweep_sections(record: Record) -> Iterator[Section]:
+def sweep_sections(record: Record) -> Iterator[document.Section]:
     """The comparison of methods for sweeps; none if the benchmark is about positions."""
     totals = sweep_totals(record)
     if totals:
-        yield Section(
-            "Missed and false contacts against time", (Paragraph(_SWEEPS), _SWEEP_FRONT, _sweep_table(record, totals))
+        yield document.Section(
+            "Missed and false contacts against time",
+            (document.Paragraph(_SWEEPS), _SWEEP_FRONT, _sweep_table(record, totals)),
         )
 
 
-def _sweep_table(record: Record, totals: list[SweepTotal]) -> TableBlock:
+def _sweep_table(record: Record, totals: list[SweepTotal]) -> document.TableBlock:
     where = workloads(record)[principal(record)].title
     mistakes = ("sweeps", "missed contacts", "share", "false contacts", "share", "cannot say", "wrong by", "worst")
     columns = (
-        Column("method"),
-        *map(number, mistakes),
-        number("µs a sweep", hint=f"on the workload: {where}"),
-        against(reference(record)),
+        document.Column("method"),
+        *map(document.number, mistakes),
+        document.number("µs a sweep", hint=f"on the workload: {where}"),
+        document.against(reference(record)),
     )
-    return table("missed and false contacts", columns, [_sweep_row(total) for total in totals])
+    return document.table("missed and false contacts", columns, [_sweep_row(total) for total in totals])
 
 
-def _sweep_row(total: SweepTotal) -> Row:
+def _sweep_row(total: SweepTotal) -> document.Row:
     return (
-        Code(total.name),
-        count(total.asked),
-        count(total.missed, bad=True),
-        share(total.missed, total.asked),
-        count(total.false),
-        share(total.false, total.asked),
-        count(total.abstained),
+        document.Code(total.name),
+        document.count(total.asked),
+        document.count(total.missed, bad=True),
+        document.share(total.missed, total.asked),
+        document.count(total.false),
+        document.share(total.false, total.asked),
+        document.count(total.abstained),
         _size(total, total.typical),
         _size(total, total.worst),
-        measured(None if total.time_ns is None else total.time_ns / 1000),
-        paced(total.ratio, total.ratio_ci95),
+        document.measured(None if total.time_ns is None else total.time_ns / 1000),
+        document.paced(total.ratio, total.ratio_ci95),
     )
 
 
-def _size(total: SweepTotal, size: float) -> TableCell:
+def _size(total: SweepTotal, size: float) -> document.TableCell:
     if not total.missed and not total.false:
-        return TableCell(NONE, 0.0)
-    return TableCell(f"{figure(100 * size)} %" if size < math.inf else "∞", size)
+        return document.TableCell(document.NONE, 0.0)
+    return document.TableCell(f"{figure(100 * size)} %" if size < math.inf else "∞", size)

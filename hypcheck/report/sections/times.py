@@ -8,31 +8,11 @@ from msgspec.structs import astuple, fields
 
 from hypcheck.messages import counted
 from hypcheck.record import Record, measurements
-from hypcheck.report.document import (
-    MISSING,
-    Block,
-    Code,
-    Figures,
-    Item,
-    Paragraph,
-    Row,
-    Section,
-    Strong,
-    TableBlock,
-    TableCell,
-    against,
-    bullets,
-    columns,
-    count,
-    measured,
-    paced,
-    prose,
-    table,
-)
+from hypcheck.report import document
 from hypcheck.report.measured import lost, measured_methods, noise_floor, reference, workloads
 from hypcheck.report.messages import figure
 
-_TIMES = prose(
+_TIMES = document.prose(
     "Medians over interleaved rounds in fresh processes, with 95 % intervals. A method is set *against* the run's"
     " reference in the same rounds. *Noise* is the difference of one method from itself: a smaller difference"
     " means nothing. Times do not carry over to another machine; one method against another mostly does."
@@ -40,176 +20,192 @@ _TIMES = prose(
 _MEMORY = "The growth of a fresh process's peak resident memory while it answers a batch."
 
 
-def speed_sections(record: Record) -> Iterator[Section]:
+def speed_sections(record: Record) -> Iterator[document.Section]:
     """The times and the memory of methods, with their intervals and the noise of the run."""
     blocks = [
         *_untimed("Not timed, because the answers were wrong:", record.of(measurements.RefusedLine)),
         *_untimed("Could not be timed here, which does not fail the run:", record.of(measurements.UnmeasuredLine)),
     ]
     if record.of(measurements.SpeedLine) or blocks:
-        yield Section("Run times", (Paragraph(_TIMES), *blocks, Figures("speeds"), _speed_table(record)))
+        yield document.Section(
+            "Run times", (document.Paragraph(_TIMES), *blocks, document.Figures("speeds"), _speed_table(record))
+        )
     if record.of(measurements.MemoryLine):
-        yield Section("Memory", (Paragraph(_MEMORY), _memory(record)))
+        yield document.Section("Memory", (document.Paragraph(_MEMORY), _memory(record)))
 
 
-def _untimed(words: str, lines: Sequence[measurements.RefusedLine | measurements.UnmeasuredLine]) -> list[Block]:
+def _untimed(
+    words: str, lines: Sequence[measurements.RefusedLine | measurements.UnmeasuredLine]
+) -> list[document.Block]:
     """A list of these lines after these words; nothing if there is no line."""
-    items = [(Code(line.method), f" on {line.workload}, {line.mode}: {line.reason}") for line in lines]
-    return [Paragraph(words), bullets(items)] if items else []
+    items = [(document.Code(line.method), f" on {line.workload}, {line.mode}: {line.reason}") for line in lines]
+    return [document.Paragraph(words), document.bullets(items)] if items else []
 
 
-def _speed_table(record: Record) -> TableBlock:
+def _speed_table(record: Record) -> document.TableBlock:
     titles = {name: line.title for name, line in workloads(record).items()}
     rows = [
-        (Code(method.name), titles[line.workload], line.mode, *_time(record, line))
+        (document.Code(method.name), titles[line.workload], line.mode, *_time(record, line))
         for method in measured_methods(record)
         for line in method.speed.values()
     ]
     after = "# ns a query | # queries a second | # noise | # rows | timed by"
-    heads = (*columns("method | workload | mode"), against(reference(record)), *columns(after))
-    return table("run times", heads, rows)
+    heads = (
+        *document.columns("method | workload | mode"),
+        document.against(reference(record)),
+        *document.columns(after),
+    )
+    return document.table("run times", heads, rows)
 
 
-def _time(record: Record, line: measurements.SpeedLine) -> Row:
+def _time(record: Record, line: measurements.SpeedLine) -> document.Row:
     floor = noise_floor(record, line.workload, line.mode)
-    noise = MISSING if floor is None else TableCell(f"± {figure(100 * floor)} %", floor)
+    noise = document.MISSING if floor is None else document.TableCell(f"± {figure(100 * floor)} %", floor)
     dropped = f", {counted(line.dropped, 'impossible sample')} dropped" if line.dropped else ""
-    ends = (noise, count(line.rows), f"{line.timed_by}{dropped}")
+    ends = (noise, document.count(line.rows), f"{line.timed_by}{dropped}")
     if lost(line):
-        return (MISSING, "no more than an empty call", MISSING, *ends)
+        return (document.MISSING, "no more than an empty call", document.MISSING, *ends)
     median = line.median_ns
-    rate = measured(1e9 / median if median > 0 else None)
-    return (paced(line.ratio, line.ratio_ci95), measured(median, line.ci95_ns), rate, *ends)
+    rate = document.measured(1e9 / median if median > 0 else None)
+    return (document.paced(line.ratio, line.ratio_ci95), document.measured(median, line.ci95_ns), rate, *ends)
 
 
-def _memory(record: Record) -> TableBlock:
+def _memory(record: Record) -> document.TableBlock:
     rows = [
         (
-            Code(line.method),
-            count(line.rows),
-            TableCell(figure(line.peak_bytes / 1e6), line.peak_bytes),
-            measured(line.peak_bytes / max(1, line.rows)),
+            document.Code(line.method),
+            document.count(line.rows),
+            document.TableCell(figure(line.peak_bytes / 1e6), line.peak_bytes),
+            document.measured(line.peak_bytes / max(1, line.rows)),
         )
         for line in record.of(measurements.MemoryLine)
     ]
-    return table("memory", "method | # rows | # growth, MB | # bytes a row", rows)
+    return document.table("memory", "method | # rows | # growth, MB | # bytes a row", rows)
 
 
-_FOREST = prose(
+_FOREST = document.prose(
     "A walker's step from Python, one call each, on the same path among the same trees; *building* is the time from a"
     " list of trees to the first answer. *Wrong* answers are counted against rational arithmetic about every tree."
 )
-_SCENES = prose(
+_SCENES = document.prose(
     "Centres spread evenly over each scene's region; the share that each stage of its kernel (`hypcheck emit`) decides."
     " Then the kernel's time, in C, against Table 2 as printed, in C, and against the certified kernel of"
     " `classify_scene`, in one thread, many rows by a call and a call for each."
 )
 
 
-def scene_sections(record: Record) -> Iterator[Section]:
+def scene_sections(record: Record) -> Iterator[document.Section]:
     """The work that scenes' kernels leave out, the time that they save, and the cost of a walker's step in a forest."""
     scenes, forests = record.of(measurements.SceneLine), record.of(measurements.ForestLine)
     if scenes:
-        yield Section("What scenes leave out", (Paragraph(_SCENES), _shares(scenes), _scene_table(scenes)))
+        yield document.Section(
+            "What scenes leave out", (document.Paragraph(_SCENES), _shares(scenes), _scene_table(scenes))
+        )
     if forests:
         titles = {line.method: line.title for line in forests}
-        methods = bullets([(Code(name), f": {title}") for name, title in titles.items()])
-        yield Section("A step in a forest", (Paragraph(_FOREST), Figures("forest"), _forest(forests), methods))
+        methods = document.bullets([(document.Code(name), f": {title}") for name, title in titles.items()])
+        yield document.Section(
+            "A step in a forest", (document.Paragraph(_FOREST), document.Figures("forest"), _forest(forests), methods)
+        )
 
 
-def _forest(lines: list[measurements.ForestLine]) -> TableBlock:
+def _forest(lines: list[measurements.ForestLine]) -> document.TableBlock:
     rows = [
         (
-            Code(line.method),
-            count(line.trees),
-            measured(line.step_ns, line.ci95_ns),
-            paced(line.ratio, line.ratio_ci95),
-            measured(line.build_s),
-            count(line.asked),
-            count(line.wrong, bad=line.exact),
+            document.Code(line.method),
+            document.count(line.trees),
+            document.measured(line.step_ns, line.ci95_ns),
+            document.paced(line.ratio, line.ratio_ci95),
+            document.measured(line.build_s),
+            document.count(line.asked),
+            document.count(line.wrong, bad=line.exact),
         )
         for line in lines
     ]
     heads = "asked | # trees | # ns a step | # against hypcheck.Scene | # building, s | # steps | # wrong"
-    return table("a step in a forest", heads, rows)
+    return document.table("a step in a forest", heads, rows)
 
 
-def _shares(lines: list[measurements.SceneLine]) -> TableBlock:
-    rows: list[Row] = [
+def _shares(lines: list[measurements.SceneLine]) -> document.TableBlock:
+    rows: list[document.Row] = [
         (
             line.scene,
             line.question,
-            count(line.settings),
-            *(TableCell(figure(100 * part), part) for part in astuple(line.shares)),
-            count(line.wrong, bad=True),
+            document.count(line.settings),
+            *(document.TableCell(figure(100 * part), part) for part in astuple(line.shares)),
+            document.count(line.wrong, bad=True),
         )
         for line in lines
     ]
     stages = " | ".join(f"# {field.name}, %" for field in fields(measurements.Shares))
-    return table("what decides in scenes", f"scene | question | # pairs of sizes | {stages} | # wrong", rows)
+    return document.table("what decides in scenes", f"scene | question | # pairs of sizes | {stages} | # wrong", rows)
 
 
-def _scene_table(lines: list[measurements.SceneLine]) -> TableBlock:
+def _scene_table(lines: list[measurements.SceneLine]) -> document.TableBlock:
     rows = [
         (
             line.scene,
             how,
-            measured(times.kernel_ns),
-            paced(times.by_printed, times.by_printed_ci95),
-            paced(times.by_certified, times.by_certified_ci95),
+            document.measured(times.kernel_ns),
+            document.paced(times.by_printed, times.by_printed_ci95),
+            document.paced(times.by_certified, times.by_certified_ci95),
         )
         for line in lines
         for times, how in ((line.batch, "many by a call"), (line.single, "a call each"))
     ]
     heads = "scene | asked | # ns a row | # against Table 2 | # against the certified kernel"
-    return table("what scenes save", heads, rows)
+    return document.table("what scenes save", heads, rows)
 
 
 _TONES = {"does not hold": "bad", "slower": "bad", "holds": "good", "faster": "good"}
-_BASELINE = prose(
+_BASELINE = document.prose(
     "Times by that of the run's reference, here and in the baseline; *change* is their quotient with its 95 % interval."
     " *Slower* means beyond what is allowed even at the interval's lower end; *inconclusive*, that the noise is too"
     " large to tell. Verdicts in brackets are about methods that the baseline does not gate, and decide nothing."
 )
 
 
-def baseline_sections(record: Record) -> Iterator[Section]:
+def baseline_sections(record: Record) -> Iterator[document.Section]:
     """The comparison with the baseline; none if there is no baseline."""
     if record.of(measurements.ComparisonLine):
-        yield Section("Against the baseline", (Paragraph(_BASELINE), _baseline(record.of(measurements.ComparisonLine))))
+        yield document.Section(
+            "Against the baseline", (document.Paragraph(_BASELINE), _baseline(record.of(measurements.ComparisonLine)))
+        )
 
 
-def target_sections(record: Record) -> Iterator[Section]:
+def target_sections(record: Record) -> Iterator[document.Section]:
     """The paper's claims of cost, and the targets of the kernels."""
     if record.of(measurements.CostLine):
-        yield Section("The paper's claims of cost", tuple(_claims(record)))
+        yield document.Section("The paper's claims of cost", tuple(_claims(record)))
     if record.of(measurements.KernelLine):
-        yield Section("The kernels' targets", (_kernels(record.of(measurements.KernelLine)),))
+        yield document.Section("The kernels' targets", (_kernels(record.of(measurements.KernelLine)),))
 
 
-def _baseline(lines: list[measurements.ComparisonLine]) -> TableBlock:
+def _baseline(lines: list[measurements.ComparisonLine]) -> document.TableBlock:
     order = ["slower", "inconclusive", "faster", "same"]
     ranked = sorted(lines, key=lambda line: (not line.gates, order.index(line.verdict)))
     rows = [
         (
-            Code(line.method),
+            document.Code(line.method),
             line.workload,
             line.mode,
-            paced(line.before),
-            paced(line.after),
-            measured(line.change, line.ci95),
-            measured(line.allowed),
+            document.paced(line.before),
+            document.paced(line.after),
+            document.measured(line.change, line.ci95),
+            document.measured(line.allowed),
             _verdict(line),
         )
         for line in ranked
     ]
     heads = "method | workload | mode | # before | # after | # change | # allowed | verdict"
-    return table("against the baseline", heads, rows)
+    return document.table("against the baseline", heads, rows)
 
 
-def _verdict(line: measurements.ComparisonLine) -> TableCell:
+def _verdict(line: measurements.ComparisonLine) -> document.TableCell:
     verdict = line.verdict
-    return TableCell(verdict, tone=_TONES.get(verdict, "")) if line.gates else TableCell(f"({verdict})")
+    return (
+        document.TableCell(verdict, tone=_TONES.get(verdict, "")) if line.gates else document.TableCell(f"({verdict})")
+    )
 
 
 def costs_by_claim(record: Record) -> dict[str, list[measurements.CostLine]]:
@@ -220,51 +216,59 @@ def costs_by_claim(record: Record) -> dict[str, list[measurements.CostLine]]:
     return claims
 
 
-def claim_sections(record: Record) -> Iterator[Section]:
+def claim_sections(record: Record) -> Iterator[document.Section]:
     """The claims of cost with their verdicts, without the tables."""
     items = [
-        Item(claim, tuple((Strong(line.verdict), f", {line.scene}. {line.says}") for line in lines))
+        document.Item(claim, tuple((document.Strong(line.verdict), f", {line.scene}. {line.says}") for line in lines))
         for claim, lines in costs_by_claim(record).items()
     ]
     if items:
-        yield Section("The paper's claims of cost", (bullets(items),))
+        yield document.Section("The paper's claims of cost", (document.bullets(items),))
 
 
-def _claims(record: Record) -> Iterator[Block]:
+def _claims(record: Record) -> Iterator[document.Block]:
     for claim, lines in costs_by_claim(record).items():
-        yield Paragraph(Strong(claim))
-        verdicts: list[Row] = [
-            (line.scene, TableCell(Strong(line.verdict), tone=_TONES.get(line.verdict, "")), line.says)
+        yield document.Paragraph(document.Strong(claim))
+        verdicts: list[document.Row] = [
+            (
+                line.scene,
+                document.TableCell(document.Strong(line.verdict), tone=_TONES.get(line.verdict, "")),
+                line.says,
+            )
             for line in lines
         ]
-        yield table("what was measured of a claim", "scene | verdict | what was measured", verdicts)
+        yield document.table("what was measured of a claim", "scene | verdict | what was measured", verdicts)
         compared = [row for line in lines for row in _compared(line)]
-        yield table("what was compared", "scene | compared | # against the first | # ns | operations", compared)
+        yield document.table(
+            "what was compared", "scene | compared | # against the first | # ns | operations", compared
+        )
 
 
-def _compared(line: measurements.CostLine) -> Iterator[Row]:
+def _compared(line: measurements.CostLine) -> Iterator[document.Row]:
     for alternative in line.compared:
         operations = ", ".join(f"{amount} {name}" for name, amount in (alternative.operations or {}).items())
         yield (
             line.scene,
             alternative.name,
-            paced(alternative.ratio, alternative.ratio_ci95),
-            measured(alternative.median_ns),
+            document.paced(alternative.ratio, alternative.ratio_ci95),
+            document.measured(alternative.median_ns),
             operations,
         )
 
 
-def _kernels(lines: list[measurements.KernelLine]) -> TableBlock:
+def _kernels(lines: list[measurements.KernelLine]) -> document.TableBlock:
     rows = [
         (
             line.name,
             line.target,
-            measured(line.wanted),
-            measured(line.measured, line.ci95),
-            TableCell("yes", tone="good") if line.met else TableCell(Strong("no"), tone="bad"),
+            document.measured(line.wanted),
+            document.measured(line.measured, line.ci95),
+            document.TableCell("yes", tone="good")
+            if line.met
+            else document.TableCell(document.Strong("no"), tone="bad"),
             line.says,
         )
         for line in sorted(lines, key=lambda line: line.met)
     ]
     heads = "kernel | target | # wanted | # measured | met | which says"
-    return table("targets of the kernels", heads, rows)
+    return document.table("targets of the kernels", heads, rows)

@@ -11,73 +11,52 @@ from hypcheck.messages import counted
 from hypcheck.record import Record
 from hypcheck.record.fields import numbers_of
 from hypcheck.record.lines import EquationLine, FindingLine, ImplementationLine, MapLine, NotStartedLine, ProofLine
-from hypcheck.report import messages, model
-from hypcheck.report.document import (
-    MISSING,
-    NONE,
-    Block,
-    Code,
-    Column,
-    Figures,
-    Item,
-    Paragraph,
-    Row,
-    Section,
-    Strong,
-    TableBlock,
-    TableCell,
-    Text,
-    bullets,
-    count,
-    joined,
-    measured,
-    number,
-    paced,
-    prose,
-    table,
-)
+from hypcheck.report import document, messages, model
 
-_ORACLES = prose(
+_ORACLES = document.prose(
     "Each oracle answers on its own. `exact` agrees where an independent check accepts the certificate of its answer;"
     " the others agree where they say what `exact` says. An oracle that cannot decide says so and is counted as"
     " undecided. Where the hyperboloid ends, `roots` is not asked. Seconds are summed over all processes."
 )
 
 
-def oracle_sections(record: Record) -> Iterator[Section]:
+def oracle_sections(record: Record) -> Iterator[document.Section]:
     """The agreement of the oracles; none if the plan has no oracle."""
     totals = model.oracle_totals(record)
     if not totals:
         return
     answering = [total for total in totals if total.unavailable is None]
-    missing = [(Code(total.name), f" was not asked: {total.unavailable}") for total in totals if total.unavailable]
-    yield Section(
-        "The oracles", (Paragraph(_ORACLES), *([_oracle_table(answering)] if answering else []), bullets(missing))
+    missing = [
+        (document.Code(total.name), f" was not asked: {total.unavailable}") for total in totals if total.unavailable
+    ]
+    yield document.Section(
+        "The oracles",
+        (document.Paragraph(_ORACLES), *([_oracle_table(answering)] if answering else []), document.bullets(missing)),
     )
 
 
-def _oracle_table(totals: list[model.OracleTotal]) -> TableBlock:
+def _oracle_table(totals: list[model.OracleTotal]) -> document.TableBlock:
     rows = [
         (
-            Code(total.name),
-            count(total.asked),
-            count(total.agreed),
-            count(total.undecided),
-            count(total.disagreements, bad=True),
+            document.Code(total.name),
+            document.count(total.asked),
+            document.count(total.agreed),
+            document.count(total.undecided),
+            document.count(total.disagreements, bad=True),
             ", ".join(f"{stage or 'answered'} {answers:,}" for stage, answers in total.stages.items()),
-            measured(total.seconds),
+            document.measured(total.seconds),
         )
         for total in totals
     ]
     columns = "oracle | # asked | # agreed | # undecided | # disagreed | how it answered | # seconds"
-    return table("oracles", columns, rows)
+    return document.table("oracles", columns, rows)
 
 
 _IN_TABLE = ("right", "tolerated", "wrong", "skipped")
 """The statuses that have a column, and that of cases that were not asked."""
 
 
-def method_sections(record: Record) -> Iterator[Section]:
+def method_sections(record: Record) -> Iterator[document.Section]:
     """The wrong answers of each method, their errors and families; none if nothing was judged."""
     totals = model.implementations(record)
     exact = [total for total in totals if total.exact]
@@ -90,95 +69,102 @@ def method_sections(record: Record) -> Iterator[Section]:
         yield _part(precision, [total for total in others if total.precision == precision])
 
 
-def _exact(methods: Sequence[model.ImplementationTotal]) -> Section:
-    rows = [(Code(method.name), method.title, count(method.asked), _statuses(method.statuses)) for method in methods]
-    return Section(
+def _exact(methods: Sequence[model.ImplementationTotal]) -> document.Section:
+    rows = [
+        (document.Code(method.name), method.title, document.count(method.asked), _statuses(method.statuses))
+        for method in methods
+    ]
+    return document.Section(
         "Methods that promise to be exact",
         (
-            Paragraph("A single answer that is not right fails the run."),
-            table("exact methods", "method | what it is | # asked | answers", rows),
+            document.Paragraph("A single answer that is not right fails the run."),
+            document.table("exact methods", "method | what it is | # asked | answers", rows),
         ),
     )
 
 
-def _introduction(record: Record, methods: Sequence[model.ImplementationTotal]) -> Section:
+def _introduction(record: Record, methods: Sequence[model.ImplementationTotal]) -> document.Section:
     tolerance = messages.tolerance_of(record.header.options)
     limit = f"at most {messages.figure(tolerance)} u" if tolerance is not None else "at most the run's tolerance"
     sentences = (
-        prose(
+        document.prose(
             "Each method in floats, held against the exact decisions, on the cases inside its stated regimes. The"
             " *backward error* of a wrong answer is the least relative change of the inputs that makes it right, in"
             " units u of the precision (∞: no change of up to 100 % does); a wrong answer with"
         ),
         f" {limit} is ",
-        prose(
+        document.prose(
             "*tolerated*. A *false clear* (dangerous) calls a contact clear, a *false contact* is an invisible wall."
         ),
     )
-    return Section("Numerical findings", (Paragraph(sentences), _glossary(methods)))
+    return document.Section("Numerical findings", (document.Paragraph(sentences), _glossary(methods)))
 
 
-def _glossary(methods: Sequence[model.ImplementationTotal]) -> Block:
+def _glossary(methods: Sequence[model.ImplementationTotal]) -> document.Block:
     """The titles of the methods; one that runs in several precisions is described once."""
     titles = {_plain_name(method): method.title.removesuffix(f", {method.precision}") for method in methods}
-    return bullets([(Code(name), f": {title}") for name, title in titles.items() if title != name])
+    return document.bullets([(document.Code(name), f": {title}") for name, title in titles.items() if title != name])
 
 
 def _plain_name(method: model.ImplementationTotal) -> str:
     return method.name.removesuffix(f"-{method.precision}")
 
 
-def _part(precision: str, methods: Sequence[model.ImplementationTotal]) -> Section:
+def _part(precision: str, methods: Sequence[model.ImplementationTotal]) -> document.Section:
     otherwise = [
         (method, {name: n for name, n in method.statuses.items() if name not in _IN_TABLE}) for method in methods
     ]
-    also: list[Text] = [(Code(method.name), f" also ended: {_statuses(rest)}") for method, rest in otherwise if rest]
-    return Section(precision, (_totals(methods), bullets(also), *_matrix(methods)), level=3)
+    also: list[document.Text] = [
+        (document.Code(method.name), f" also ended: {_statuses(rest)}") for method, rest in otherwise if rest
+    ]
+    return document.Section(precision, (_totals(methods), document.bullets(also), *_matrix(methods)), level=3)
 
 
-def _totals(methods: Sequence[model.ImplementationTotal]) -> TableBlock:
+def _totals(methods: Sequence[model.ImplementationTotal]) -> document.TableBlock:
     columns = (
         "method | question | # asked | # right | # tolerated | # wrong | # false clear | # worst error in u | its case"
     )
-    return table("methods", columns, [_method_row(method) for method in methods])
+    return document.table("methods", columns, [_method_row(method) for method in methods])
 
 
-def _method_row(method: model.ImplementationTotal) -> Row:
+def _method_row(method: model.ImplementationTotal) -> document.Row:
     statuses, worst = method.statuses, method.worst
     error = model.worst_error_u(worst)
     return (
-        Code(_plain_name(method)),
+        document.Code(_plain_name(method)),
         method.question,
-        count(method.asked),
-        count(statuses.get("right", 0)),
-        count(statuses.get("tolerated", 0)),
-        count(statuses.get("wrong", 0), bad=True),
-        count(method.mistakes.get("false-clear", 0)),
-        TableCell(messages.figure(error) if worst else NONE, error),
-        Code(worst.case, messages.from_hex(numbers_of(worst))) if worst else NONE,
+        document.count(method.asked),
+        document.count(statuses.get("right", 0)),
+        document.count(statuses.get("tolerated", 0)),
+        document.count(statuses.get("wrong", 0), bad=True),
+        document.count(method.mistakes.get("false-clear", 0)),
+        document.TableCell(messages.figure(error) if worst else document.NONE, error),
+        document.Code(worst.case, messages.from_hex(numbers_of(worst))) if worst else document.NONE,
     )
 
 
-def _matrix(methods: Sequence[model.ImplementationTotal]) -> tuple[Block, ...]:
+def _matrix(methods: Sequence[model.ImplementationTotal]) -> tuple[document.Block, ...]:
     families = dict.fromkeys(group.family for total in methods for group in total.groups)
     groups = {(total.name, group.family): group for total in methods for group in total.groups}
 
-    def cell(method: str, family: str) -> TableCell:
+    def cell(method: str, family: str) -> document.TableCell:
         group = groups.get((method, family))
         if group is None or not group.asked:
-            return TableCell(MISSING, -1)
+            return document.TableCell(document.MISSING, -1)
         wrong = group.counts.get("wrong", 0)
-        return TableCell(f"{wrong:,}", wrong, "bad") if wrong else TableCell(NONE, 0)
+        return document.TableCell(f"{wrong:,}", wrong, "bad") if wrong else document.TableCell(document.NONE, 0)
 
-    rows: list[Row] = [(Code(family), *(cell(total.name, family) for total in methods)) for family in families]
-    columns = (Column("family"), *(number(Code(_plain_name(total))) for total in methods))
+    rows: list[document.Row] = [
+        (document.Code(family), *(cell(total.name, family) for total in methods)) for family in families
+    ]
+    columns = (document.Column("family"), *(document.number(document.Code(_plain_name(total))) for total in methods))
     asked = max((group.asked for group in groups.values()), default=0)
     return (
-        Paragraph(
-            f"Wrong answers by family, of at most {counted(asked, 'case')} each ({NONE} none, {MISSING} nothing"
-            " asked: outside the stated regimes or the format's range):"
+        document.Paragraph(
+            f"Wrong answers by family, of at most {counted(asked, 'case')} each ({document.NONE} none, "
+            f"{document.MISSING} nothing asked: outside the stated regimes or the format's range):"
         ),
-        table("wrong answers by family", columns, rows),
+        document.table("wrong answers by family", columns, rows),
     )
 
 
@@ -186,7 +172,7 @@ def _statuses(statuses: dict[str, int]) -> str:
     return ", ".join(f"{name} {cases:,}" for name, cases in statuses.items())
 
 
-def gated_sections(record: Record) -> Iterator[Section]:
+def gated_sections(record: Record) -> Iterator[document.Section]:
     """Gated implementations: their declarations, and the values used to judge them; none if nothing was gated."""
     gated = model.under_test(record)
     if not gated:
@@ -198,13 +184,15 @@ def gated_sections(record: Record) -> Iterator[Section]:
         if isinstance(tested.line, ImplementationLine)
         for row in _gated_rows(tested.name, tested.line)
     ]
-    declared = [table("implementations under test", columns, rows)] if rows else []
-    yield Section("Implementations under test", (*declared, bullets([_gated_value(tested) for tested in gated])))
+    declared = [document.table("implementations under test", columns, rows)] if rows else []
+    yield document.Section(
+        "Implementations under test", (*declared, document.bullets([_gated_value(tested) for tested in gated]))
+    )
 
 
-def _gated_rows(name: str, line: ImplementationLine) -> Iterator[Row]:
+def _gated_rows(name: str, line: ImplementationLine) -> Iterator[document.Row]:
     """The declarations and the values used to judge: options of the command line replace declarations."""
-    for shown, what, description in ((Code(name), "declared", line.declared), ("", "judged as", line.used)):
+    for shown, what, description in ((document.Code(name), "declared", line.declared), ("", "judged as", line.used)):
         yield (
             shown,
             what,
@@ -212,14 +200,14 @@ def _gated_rows(name: str, line: ImplementationLine) -> Iterator[Row]:
             ("upright and tilted" if description.tilt else "upright") + ", with ends" * (description.heights is True),
             description.precision,
             messages.domain_text(description.domain),
-            description.language or MISSING,
-            description.version or MISSING,
+            description.language or document.MISSING,
+            description.version or document.MISSING,
         )
 
 
-def _gated_value(tested: model.UnderTest) -> Text:
+def _gated_value(tested: model.UnderTest) -> document.Text:
     line = tested.line
-    name: Text = (Code(tested.name), ", ", Code(line.spec))
+    name: document.Text = (document.Code(tested.name), ", ", document.Code(line.spec))
     if isinstance(line, NotStartedLine):
         return (name, f", was not started: {line.trouble}.")
     again = line.again
@@ -242,26 +230,28 @@ def _gated_value(tested: model.UnderTest) -> Text:
     return (name, sentences)
 
 
-SWEEPS = Figures("ways", "the sweep of each implementation's worst answer, in the half plane (r, z)", "ways.svg")
-_SWEEPS = prose(
+SWEEPS = document.Figures(
+    "ways", "the sweep of each implementation's worst answer, in the half plane (r, z)", "ways.svg"
+)
+_SWEEPS = document.prose(
     "The worst answer of each implementation about a sweep of an upright spheroid. Distance from the axis is drawn"
     " across and height up, so that a straight sweep is curved; a spheroid touches the hyperboloid in this plane. On"
     " the right is where it first touches, or comes nearest, each direction in its own scale."
 )
 
 
-def sweep_sections(record: Record) -> Iterator[Section]:
+def sweep_sections(record: Record) -> Iterator[document.Section]:
     """Pictures of the worst answers about sweeps; none if no answer about a sweep is wrong."""
     if any(model.drawn_sweep(implementation) is not None for implementation in model.implementations(record)):
-        yield Section("The worst sweeps", (Paragraph(_SWEEPS), SWEEPS))
+        yield document.Section("The worst sweeps", (document.Paragraph(_SWEEPS), SWEEPS))
 
 
-def timing_sections(record: Record) -> Iterator[Section]:
+def timing_sections(record: Record) -> Iterator[document.Section]:
     """The time of the fast path compared with other methods; none if nothing was timed."""
     totals = model.timing_totals(record)
     if not totals:
         return
-    workloads = joined([Code(name) for name in dict.fromkeys(total.workload for total in totals)])
+    workloads = document.joined([document.Code(name) for name in dict.fromkeys(total.workload for total in totals)])
     how = (
         ", in one process, in interleaved rounds on the machine below. Each is set against the"
         f" {model.REFERENCE} in the same round; the median of the rounds. Times do not carry over to another machine."
@@ -271,45 +261,47 @@ def timing_sections(record: Record) -> Iterator[Section]:
         (
             total.name,
             total.title,
-            count(total.rows),
-            measured(total.median_ns),
-            TableCell(f"{messages.figure(total.least_ns)} to {messages.figure(total.greatest_ns)}", total.greatest_ns),
-            paced(total.ratio),
+            document.count(total.rows),
+            document.measured(total.median_ns),
+            document.TableCell(
+                f"{messages.figure(total.least_ns)} to {messages.figure(total.greatest_ns)}", total.greatest_ns
+            ),
+            document.paced(total.ratio),
         )
         for total in totals
     ]
     columns = "contender | what it is | # rows | # ns a row, median | # least to greatest | # against the plain formula"
-    yield Section("Timings", (Paragraph(introduction), table("timings", columns, rows)))
+    yield document.Section("Timings", (document.Paragraph(introduction), document.table("timings", columns, rows)))
 
 
-MAP = Figures("map", "exact positions and wrong answers over the half plane (r, z)", "map.svg")
+MAP = document.Figures("map", "exact positions and wrong answers over the half plane (r, z)", "map.svg")
 
 
-def map_sections(record: Record) -> Iterator[Section]:
+def map_sections(record: Record) -> Iterator[document.Section]:
     """The points in the half plane of a scene at which a method is wrong; none if there is no map."""
     items = [
         (
             f"{line.name}: ",
-            Code(line.method),
+            document.Code(line.method),
             f" is wrong at {line.wrong:,} of {counted(line.points, 'grid point')}",
         )
         for line in record.of(MapLine)
     ]
     if items:
-        yield Section("Where it goes wrong", (MAP, bullets(items)))
+        yield document.Section("Where it goes wrong", (MAP, document.bullets(items)))
 
 
-_PROOFS = prose(
+_PROOFS = document.prose(
     "Each formula is a program of single steps. What its steps must equal was derived in symbols, and its decision was "
     "compared with its rule for every combination of signs. `derivation` are the identities that the rules rest on."
 )
-_FINDINGS = prose(
+_FINDINGS = document.prose(
     "Evaluated in exact rationals, without rounding. *Inside* its stated regimes a formula claims to be right; "
     "*outside* them it does not, and the table shows how it errs there."
 )
 
 
-def paper_sections(record: Record) -> Iterator[Section]:
+def paper_sections(record: Record) -> Iterator[document.Section]:
     """The paper's equations, the proofs of its formulas, and their errors in exact arithmetic."""
     equations, proofs, findings = record.of(EquationLine), record.of(ProofLine), record.of(FindingLine)
     if equations:
@@ -320,12 +312,12 @@ def paper_sections(record: Record) -> Iterator[Section]:
         yield _findings(findings)
 
 
-def _equations(lines: list[EquationLine]) -> Section:
+def _equations(lines: list[EquationLine]) -> document.Section:
     holding = [f"({line.number})" for line in lines if line.holds]
     items = [
-        Item(
-            (Strong(f"({line.number})"), f" {line.verdict}: {line.finding}."),
-            (("printed: ", Code(line.statement)), ("derived: ", Code(line.correction))),
+        document.Item(
+            (document.Strong(f"({line.number})"), f" {line.verdict}: {line.finding}."),
+            (("printed: ", document.Code(line.statement)), ("derived: ", document.Code(line.correction))),
         )
         for line in lines
         if not line.holds
@@ -334,42 +326,46 @@ def _equations(lines: list[EquationLine]) -> Section:
     introduction = (
         f"Each displayed formula was compared with the derivation: {len(holding)} of {len(lines)} hold{named}"
     )
-    return Section("The paper's equations", (Paragraph(introduction), bullets(items)))
+    return document.Section("The paper's equations", (document.Paragraph(introduction), document.bullets(items)))
 
 
-def _proofs(lines: list[ProofLine]) -> Section:
+def _proofs(lines: list[ProofLine]) -> document.Section:
     by_formula: dict[str, list[bool]] = {}
     for line in lines:
         by_formula.setdefault(line.formula, []).append(line.holds)
     rows = [
-        (Code(name), TableCell(str(sum(holds)), sum(holds)), TableCell(str(len(holds)), len(holds)))
+        (
+            document.Code(name),
+            document.TableCell(str(sum(holds)), sum(holds)),
+            document.TableCell(str(len(holds)), len(holds)),
+        )
         for name, holds in by_formula.items()
     ]
-    proved = table("proofs", "formula | # proved | # to be shown", rows)
-    return Section("The proofs", (Paragraph(_PROOFS), proved))
+    proved = document.table("proofs", "formula | # proved | # to be shown", rows)
+    return document.Section("The proofs", (document.Paragraph(_PROOFS), proved))
 
 
-def _findings(lines: list[FindingLine]) -> Section:
+def _findings(lines: list[FindingLine]) -> document.Section:
     """Findings inside the stated regimes come first: they are errors. Formulas with the same witness share a row."""
     alike: dict[tuple[object, ...], list[FindingLine]] = {}
     for line in sorted(lines, key=lambda line: not line.inside):
         key = (line.inside, line.family, line.cause, line.first_case, line.wrong, line.asked, line.reason)
         alike.setdefault(key, []).append(line)
     columns = "formula | family | stated regimes | # wrong | why | first witness, to six digits | its case"
-    witnesses = table("mathematical findings", columns, [_finding(group) for group in alike.values()])
-    return Section("Mathematical findings", (Paragraph(_FINDINGS), witnesses))
+    witnesses = document.table("mathematical findings", columns, [_finding(group) for group in alike.values()])
+    return document.Section("Mathematical findings", (document.Paragraph(_FINDINGS), witnesses))
 
 
-def _finding(group: list[FindingLine]) -> Row:
+def _finding(group: list[FindingLine]) -> document.Row:
     line = group[0]
     why = model.explanation(line)
     row = messages.from_hex(line.first_row)
     return (
-        joined([Code(finding.formula) for finding in group]),
-        Code(line.family),
-        Strong("inside") if line.inside else "outside",
-        TableCell(f"{line.wrong:,} of {line.asked:,}", line.wrong / max(1, line.asked)),
-        TableCell(Strong(why), tone="bad") if model.unlisted(line) else why,
+        document.joined([document.Code(finding.formula) for finding in group]),
+        document.Code(line.family),
+        document.Strong("inside") if line.inside else "outside",
+        document.TableCell(f"{line.wrong:,} of {line.asked:,}", line.wrong / max(1, line.asked)),
+        document.TableCell(document.Strong(why), tone="bad") if model.unlisted(line) else why,
         messages.short_row(row),
-        Code(line.first_case, row),
+        document.Code(line.first_case, row),
     )
