@@ -20,7 +20,7 @@ from hypcheck.record.fields import layout_of, numbers_of
 from hypcheck.report import messages
 from hypcheck.report.measured import MeasuredMethod, measured_methods
 from hypcheck.report.model import SubjectKey, explanation, in_order, names_in, subject_of, worst_case
-from hypcheck.runs.judge import UNANSWERED, in_words, truth_in_words
+from hypcheck.runs.judge import UNANSWERED, Status, in_words, truth_in_words
 
 Measurement = tuple[Any, ...]
 """Method, workload, detail, quantity and value, and the two ends of its interval if it has one."""
@@ -367,9 +367,16 @@ class ImplementationFacts(LineFacts[lines.ImplementationLine]):
     def failures(self) -> Iterator[Failure]:
         if self.line.broke_protocol_throughout:
             message = f"{self.name} broke the protocol throughout"
-            yield Failure("implementation", self.name, "start", "protocol", message)
+            yield Failure("implementation", self.name, "start", Status.PROTOCOL.value, message + self._first_reply())
         for trouble in self.line.troubles:
             yield Failure("implementation", self.name, "all families", "behaviour", trouble)
+
+    def _first_reply(self) -> str:
+        """Why the first reply that the record keeps breaks the protocol; "" if it keeps none."""
+        subject = subject_of(self.line)
+        groups = [group for group in self.context.record.of(lines.GroupLine) if subject_of(group) == subject]
+        faults = [fault for group in groups for fault in group.faults or () if fault.status == Status.PROTOCOL.value]
+        return f"; {faults[0].case}: {faults[0].reason}" if faults else ""
 
     def sentences(self) -> Iterator[str]:
         return messages.implementation_claims(self.line)

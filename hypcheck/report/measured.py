@@ -201,6 +201,19 @@ def reference(record: Record) -> str | None:
     return None if named is None else str(named)
 
 
+REFERENCES = {
+    "table-2-float64": "the paper's Table 2 in numpy (table-2-float64)",
+    "eigh": "numpy's eigenvalues (eigh)",
+    "passage-exact": "exact arithmetic (passage-exact)",
+}
+"""Reference methods in words that need no list of methods."""
+
+
+def reference_in_words(name: str) -> str:
+    """The reference method in words: "the paper's Table 2 in numpy (table-2-float64)"; its name if it has no words."""
+    return REFERENCES.get(name, name)
+
+
 def by_ratio(methods: Iterable[MeasuredMethod], workload: str, mode: str = BATCH) -> list[MeasuredMethod]:
     """The methods that have a ratio on this workload in this mode, the fastest first."""
     ranked = [(ratio, method) for method in methods if (ratio := method.ratio(workload, mode)) is not None]

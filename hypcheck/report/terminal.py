@@ -96,10 +96,13 @@ def _failures(record: Record, verdict_sentence: str) -> Iterator[str]:
     their reason.
     """
     explained = {line.method for line in record.of(CauseLine)}
+    failed = failures(record)
+    lost = {failure.name for failure in failed if failure.group == "start"}
     alike: dict[tuple[str, ...], list[Failure]] = {}
-    for failure in failures(record):
+    for failure in failed:
         of_cause = failure.kind == Status.WRONG.value and failure.name in explained
-        if failure.message not in verdict_sentence and not of_cause:
+        of_start = failure.kind == Status.PROTOCOL.value and failure.name in lost
+        if failure.message not in verdict_sentence and not of_cause and not of_start:
             behaviour = failure.subject == "implementation" and failure.case is not None
             alike.setdefault((failure.name, failure.kind) if behaviour else (str(len(alike)),), []).append(failure)
     ordered = sorted(alike.values(), key=lambda some: some[0].kind == Status.NOT_RUN.value)

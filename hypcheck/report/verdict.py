@@ -12,7 +12,7 @@ confused.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from hypcheck.geometry.rows import CANNOT_SAY
@@ -26,7 +26,7 @@ from hypcheck.report import messages, model
 from hypcheck.report.benchmark_facts import SLOWER, benchmark_failures, failures_of
 from hypcheck.report.document import Code, Column, Row, Strong, TableBlock, TableCell, number, plain, table
 from hypcheck.report.facts import Failure
-from hypcheck.report.measured import by_ratio, measured_methods, reference, timed_workloads
+from hypcheck.report.measured import by_ratio, measured_methods, reference, reference_in_words, timed_workloads
 from hypcheck.runs.judge import Status, in_words, truth_in_words
 from hypcheck.truth.passage_error import HIT
 
@@ -45,14 +45,15 @@ def _method_clauses(record: Record) -> Iterator[str]:
     )
     ratio = None if best is None else best.ratio(scenes[0])
     if best is not None and ratio and against and best.name != against:
-        yield f"right on every row and {messages.pace(ratio, against)}: {best.name}"
+        yield f"right on every row and {messages.pace(ratio, reference_in_words(against))}: {best.name}"
     timed = sum(bool(method.speed) for method in methods)
     workloads = {name for method in methods for name in (*method.accuracy, *(name for name, _ in method.speed))}
     compared = f"{counted(len(methods), 'method')} compared on {counted(len(workloads), 'workload')}"
     yield f"{compared}, {timed:,} of them timed"
-    exact = [f"{method.name} ({method.asked:,})" for method in methods if method.exact and method.asked]
+    exact = [method for method in methods if method.exact and method.asked]
     if exact:
-        yield f"right on every row: {messages.listed(exact)}"
+        which = exact[0].name if len(exact) == 1 else f"each of the {len(exact):,} that promise to be exact"
+        yield f"{which} was right on every row"
     held = [line for line in record.of(ComparisonLine) if line.gates]
     if held:
         slower = sum(line.verdict == SLOWER for line in held)
@@ -160,23 +161,26 @@ def _reasons(record: Record, failed: list[Failure]) -> str:
     if len(failed) == 1 and failed[0].subject in _TELLING and failed[0].kind != Status.WRONG.value:
         return failed[0].message
     tested = [failure for failure in failed if failure.subject == "implementation"]
-    clauses = [*_wrong_clauses(record), *(failure.message for failure in tested if failure.group in _WHOLE)]
+    starts = [failure for failure in tested if failure.group == "start"]
+    others = [failure.message for failure in tested if failure.group == "all families"]
+    counts = _wrong_clauses(record, {failure.name for failure in starts})
+    clauses = [*(failure.message for failure in starts), *counts, *others]
     if tested and clauses:
         rest = [f"and {counted(len(clauses) - _NAMED, 'more reason')}"] if len(clauses) > _NAMED else []
-        others = _failure_counts([failure for failure in failed if failure not in tested])
-        return "; ".join([*clauses[:_NAMED], *rest, *([others] if others else [])])
+        besides = _failure_counts([failure for failure in failed if failure not in tested])
+        return "; ".join([*clauses[:_NAMED], *rest, *([besides] if besides else [])])
     return failed[0].message if len(failed) == 1 and failed[0].subject in _TELLING else _failure_counts(failed)
 
 
 _TELLING = ("implementation", "findings", "measurement")
 """Subjects of failures whose message says in one sentence what happened."""
 
-_WHOLE = ("start", "all families")
-"""Groups of failures of an implementation as a whole."""
 
+def _wrong_clauses(record: Record, lost: Collection[str]) -> Iterator[str]:
+    """For each implementation under test, a clause with the numbers of tested cases by status that fails the run.
 
-def _wrong_clauses(record: Record) -> Iterator[str]:
-    """For each implementation under test, a clause with the numbers of tested cases by status that fails the run."""
+    Of the `lost` ones, which have a clause of their own, broken protocol is not said again.
+    """
     for total in model.implementations(record):
         ended = sum(
             (
@@ -186,7 +190,8 @@ def _wrong_clauses(record: Record) -> Iterator[str]:
             Counter(),
         )
         counts = [f"{number:,} {status}" for status, number in model.in_order(ended).items()]
-        if total.gated and counts:
+        said_already = total.name in lost and set(+ended) == {Status.PROTOCOL.value}
+        if total.gated and counts and not said_already:
             yield f"{total.name}: {', '.join(counts)} of {counted(total.asked, 'case')}"
 
 

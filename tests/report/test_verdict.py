@@ -17,9 +17,9 @@ def of(*extra, exit_code=0, body=None):
 
 EXACT_ABSTAINS = group("fast", "float64", "tangent", {"abstained": 2, "right": 3}, exact=True)
 BENCHMARK_HELD = (
-    "HELD: 11 methods compared on 3 workloads, 10 of them timed; right on every row: fast (7,520) and rational (7,520);"
-    " 1 ratio held to the baseline's, 0 of them slower than allowed; 2 of 2 targets of the kernels met; a walker's step"
-    " timed in 2 forests of up to 1,000,000 trees; 1 scene timed against Table 2."
+    "HELD: 11 methods compared on 3 workloads, 10 of them timed; each of the 2 that promise to be exact was right on"
+    " every row; 1 ratio held to the baseline's, 0 of them slower than allowed; 2 of 2 targets of the kernels met;"
+    " a walker's step timed in 2 forests of up to 1,000,000 trees; 1 scene timed against Table 2."
 )
 TRUNCATED = "TRUNCATED: the record has no end; the run was interrupted and is not a pass."
 
@@ -138,6 +138,21 @@ def test_the_verdict_on_chosen_families_names_those_that_were_left_out_if_there_
     found = verdict(record_samples.record(body, options={"families": ["uniform"]}))
     assert found.sentence.startswith("HELD: engine: 3 judged")
     assert found.sentence.endswith(ending)
+
+
+def test_broken_protocol_throughout_is_said_once_with_its_reason_before_other_counts():
+    implementation = next(line for line in sample("failures") if line.get("name") == "engine")
+    reason = "it answered 5; it must be one of -1, 0, 1 or 2"
+    fault = next(line["faults"][0] for line in sample("failures") if line.get("faults"))
+    fault |= {"status": "protocol", "reason": reason}
+    counts = {"protocol": 9}
+    line = group("engine", "float64", "ring", counts, spec="library:engine.so", failing=["protocol"], faults=[fault])
+    body = [{**implementation, "broke_protocol_throughout": True, "troubles": []}, line]
+    sentence = f"engine broke the protocol throughout; {fault['case']}: {reason}"
+    assert verdict(record_samples.record(body, 5)).sentence == f"FAILED with exit code 5: {sentence}."
+    body[1] = line | {"counts": {"wrong": 2, "protocol": 7}, "failing": ["wrong", "protocol"]}
+    counted = f"FAILED with exit code 5: {sentence}; engine: 2 wrong, 7 protocol of 9 cases."
+    assert verdict(record_samples.record(body, 5)).sentence == counted
 
 
 def test_a_method_that_promises_to_be_exact_fails_a_benchmark_by_an_answer_of_which_no_case_was_kept():
