@@ -29,16 +29,14 @@ Theorem at_B_text : Forall (is_computed shift num) C_at_B -> shift "by_q" = by_q
   puts functions known [] "hc_fixed_at_B" [terms] = Some [asked "offset_at_B"; asked "slope_at_B"].
 Proof.
   intros F Q T Q0 T0; unfold C_at_B in F; equations F; rewrite Q, T in *; clear Q T.
-  repeat match goal with E : _ = _ |- _ => set_apart E end.
-  begins "hc_fixed_at_B"; runs_through.
+  puts_straight [("offset", asked "offset_at_B"); ("slope", asked "slope_at_B")] num.
 Qed.
 
 Theorem at_A_text : Forall (is_computed shift num) C_at_A -> shift "by_q" = by_q -> shift "by_t" = by_t -> 0 <= by_q -> 0 <= by_t ->
   puts functions known [] "hc_fixed_at_A" [terms] = Some [asked "offset_at_A"; asked "slope_at_A"].
 Proof.
   intros F Q T Q0 T0; unfold C_at_A in F; equations F; rewrite Q, T in *; clear Q T.
-  repeat match goal with E : _ = _ |- _ => set_apart E end.
-  begins "hc_fixed_at_A"; runs_through.
+  puts_straight [("offset", asked "offset_at_A"); ("slope", asked "slope_at_A")] num.
 Qed.
 
 End Terms.
@@ -65,6 +63,10 @@ Hypotheses (NN : num' "N" = shifted_down (shifted_up (num "N") 1) down_3) (Nps :
 Definition cubic_of (num' : string -> number) k grown := Rec [("grown", Of Int grown); ("k", Of Int k); ("n2", Fix (num' "n2")); ("N", Fix (num' "N"));
   ("h2", Fix (num' "h2")); ("h1", Fix (num' "h1")); ("middle", Fix (num' "middle")); ("delta", Fix (num' "delta"))].
 
+Definition counts := map (fun p => (fst p, Of Int (snd p))) [("bits_2", bits_2); ("bits_1", bits_1); ("top_2", top_2); ("top_1", top_1);
+  ("top_0", top_0); ("top_3", top_3); ("least", least); ("most", most); ("k", k); ("top", top); ("down_3", down_3); ("down_2", down_2);
+  ("down_1", down_1); ("down_0", down_0); ("up_2", up_2); ("up_1", up_1); ("grown", grown)].
+
 Lemma halved a : Z.abs (Z.quot a 2) <= Z.abs a.
 Proof. clear; Z.to_euclidean_division_equations; lia. Qed.
 Lemma third a : Z.abs (Z.quot a 3) <= Z.abs a.
@@ -77,9 +79,7 @@ Proof.
   { pose proof (halved (top_0 - top_2)) as H1; pose proof (halved (top_1 - top_3)) as H2;
       pose proof (third (top_0 - top_3)) as H3; rewrite <- Eq1 in H1; rewrite <- Eq2 in H2; rewrite <- Eq3 in H3;
       clear - H1 H2 H3 T1 T2 B0 B3; lia. }
-  assert (Q2 : -60000 <= Z.quot (top_0 - top_2) 2 <= 60000) by (rewrite <- Eq1; apply Q1).
-  assert (Q3 : -60000 <= Z.quot (top_1 - top_3) 2 <= 60000) by (rewrite <- Eq2; apply Q1).
-  assert (Q4 : -60000 <= Z.quot (top_0 - top_3) 3 <= 60000) by (rewrite <- Eq3; apply Q1).
+  rewrite Eq1, Eq2, Eq3 in *; clear Eq1 Eq2 Eq3.
   assert (L : -60000 <= least <= 60000 /\ -60000 <= most <= 60000) by (clear - Eleast Emost T1 T2 Q1; lia).
   assert (K : -60000 <= k <= 60000) by (clear - Ek L; lia).
   assert (D : 0 <= down_3 /\ 0 <= down_2 /\ 0 <= down_1 /\ 0 <= down_0) by (clear - Etop Edown_3 Edown_2 Edown_1 Edown_0; lia).
@@ -87,8 +87,7 @@ Proof.
   assert (D' : down_3 <= 600000 /\ down_2 <= 600000 /\ down_1 <= 600000 /\ down_0 <= 600000) by (clear - T K T1 T2 B0 B3 Edown_3 Edown_2 Edown_1 Edown_0; lia).
   assert (U : 0 <= up_2 <= 125 /\ 0 <= up_1 <= 125) by (clear - R2 R1 Eup_2 Eup_1; lia).
   unfold C_discriminant in Steps; equations Steps.
-  repeat match goal with E : _ = _ |- _ => set_apart E end.
-  begins "hc_fixed_cubic_of"; runs_through.
+  returns_straight counts num'.
 Qed.
 End Cubic.
 
@@ -104,12 +103,20 @@ Lemma go_return known procedures f now e rest v : eval known now e = Some v ->
 Proof. intros E; cbn [go]; rewrite E; reflexivity. Qed.
 
 (** Conditions whose parts are true or false. *)
-Definition bit (b : bool) := if b then 1 else 0.
+Lemma not_bit (b : bool) : Some (Of Int (1 - (if b then 1 else 0))) = Some (Of Int (bit (negb b))).
+Proof. destruct b; reflexivity. Qed.
 Lemma eval_choice known now c a b x v w : eval known now c = Some (Of Int (bit x)) -> eval known now a = Some v -> eval known now b = Some w ->
   eval known now (Choice c a b) = Some (if x then v else w).
 Proof. intros E F G; cbn [eval]; rewrite E; destruct x; [exact F | exact G]. Qed.
-Lemma eval_both_no known now l r x : eval known now l = Some (Of Int (bit x)) -> x = false -> eval known now (Infix "&&" l r) = Some (Of Int (bit false)).
-Proof. intros E ->; cbn [eval]; rewrite E; reflexivity. Qed.
+Lemma eval_chosen known now c a b x v : eval known now c = Some (Of Int (bit x)) -> (x = true -> eval known now a = Some v) ->
+  (x = false -> eval known now b = Some v) -> eval known now (Choice c a b) = Some v.
+Proof. intros E F G; cbn [eval]; rewrite E; destruct x; [exact (F eq_refl) | exact (G eq_refl)]. Qed.
+Lemma eval_if known now c a b t z v w : eval known now c = Some (Of t z) -> eval known now a = Some v -> eval known now b = Some w ->
+  eval known now (Choice c a b) = Some (if z =? 0 then w else v).
+Proof. intros E F G; cbn [eval]; rewrite E; destruct (z =? 0); [exact G | exact F]. Qed.
+Lemma eval_guarded known now l r x y : eval known now l = Some (Of Int (bit x)) -> (x = true -> eval known now r = Some (Of Int (bit y))) ->
+  eval known now (Infix "&&" l r) = Some (Of Int (bit (x && y))).
+Proof. intros E F; cbn [eval]; rewrite E; destruct x; [rewrite (F eq_refl); destruct y |]; reflexivity. Qed.
 Lemma eval_both known now l r x y : eval known now l = Some (Of Int (bit x)) -> eval known now r = Some (Of Int (bit y)) ->
   eval known now (Infix "&&" l r) = Some (Of Int (bit (x && y))).
 Proof. intros E F; cbn [eval]; rewrite E; destruct x; [rewrite F; destruct y |]; reflexivity. Qed.
@@ -119,10 +126,6 @@ Proof. intros E F; cbn [eval]; rewrite E; destruct x; [| rewrite F; destruct y];
 Lemma go_if known procedures f now c yes no rest x : eval known now c = Some (Of Int (bit x)) ->
   go known procedures (S f) now (If c yes no :: rest) = go known procedures f now ((if x then yes else no) ++ rest)%list.
 Proof. intros E; cbn [go]; rewrite E; destruct x; reflexivity. Qed.
-Lemma go_calling known procedures f now g given rest k m l got now' : look g procedures = Some (k, m) ->
-  every (map (eval known now) (firstn k given)) = Some l -> m l = Some got -> bound_all (skipn k given) got now = Some now' ->
-  go known procedures (S f) now (Calling g given :: rest) = go known procedures f now' rest.
-Proof. intros K L M B; cbn [go]; rewrite K, L, M, B; reflexivity. Qed.
 
 (** The text of hc_fixed_position, for any shift and any lengths, where what it calls gives these signs of its numbers. *)
 Section Answer.
@@ -147,52 +150,51 @@ Definition position_procedures := [("hc_fixed_at_B", (1%nat, at_B)); ("hc_fixed_
 Definition tree_answer := if most_grown <? grown then fixed_answer Datatypes.Eq s2 s1 oB sB oA sA Datatypes.Eq wide
   else fixed_answer sD s2 s1 oB sB oA sA sM wide.
 
-Ltac open text := eval cbv -[Z.ltb compare_doubles said most_grown sign_int] in text.
+(** The two that are not asked for beyond it. *)
+Let delta := if most_grown <? grown then Eq else sD.
+Let middle := if most_grown <? grown then Eq else sM.
+Lemma tree_answer_is : tree_answer = fixed_answer delta s2 s1 oB sB oA sA middle wide.
+Proof. unfold tree_answer, delta, middle; destruct (_ <? _); reflexivity. Qed.
+
+Ltac open text := eval cbv -[Z.ltb Z.sub compare_doubles said most_grown sign_int] in text.
 Ltac opened := lazymatch goal with |- ?text = ?answer => let v := open text in change (v = answer) end.
-(** Comparisons of signs that are known. *)
-Ltac settled := repeat match goal with |- context [Z.ltb ?a ?c] =>
-  let v := eval vm_compute in (Z.ltb a c) in lazymatch v with true => idtac | false => idtac end; change (Z.ltb a c) with v end.
 Ltac known_calls := match goal with
   | H : ?l = _ |- context [?l] => rewrite H end.
-Ltac evaluated := opened; repeat (first [known_calls | progress settled]; opened); reflexivity.
-Ltac to_bit := opened; repeat (first [known_calls | progress settled]; opened); lazymatch goal with
-  | |- Some (Of Int 0) = _ => exact (eq_refl (Some (Of Int (bit false))))
-  | |- Some (Of Int 1) = _ => exact (eq_refl (Some (Of Int (bit true))))
-  | |- Some (Of Int (if ?x then 1 else 0)) = _ => exact (eq_refl (Some (Of Int (bit x)))) end.
+Ltac evaluated := opened; repeat (known_calls; opened); reflexivity.
+Ltac to_bit := opened; repeat (known_calls; opened); lazymatch goal with
+  | |- Some (Of Int (if ?x then 1 else 0)) = _ => exact (eq_refl (Some (Of Int (bit x))))
+  | |- Some (Of Int (1 - (if ?x then 1 else 0))) = _ => exact (not_bit x) end.
 Ltac in_bits := lazymatch goal with
-  | |- eval _ _ (Choice _ _ _) = _ => eapply eval_choice; [in_bits | evaluated | evaluated]
-  | |- eval _ _ (Infix "&&" _ _) = _ => first [eapply eval_both_no; [in_bits | solve [reflexivity | apply andb_false_r]] | eapply eval_both; [in_bits | in_bits]]
+  | |- eval _ _ (Infix "&&" _ _) = _ => eapply eval_both; [in_bits | in_bits]
   | |- eval _ _ (Infix "||" _ _) = _ => eapply eval_either; [in_bits | in_bits]
   | |- _ => first [eapply eval_infix; [reflexivity | evaluated | evaluated | to_bit] | to_bit] end.
-Ltac evaluated_constant := lazymatch goal with |- eval _ _ (Choice _ _ _) = _ => fail | _ => evaluated end.
-Ltac next := match goal with
-  | |- context [go _ _ _ _ (Set_ _ _ _ :: _)] => erewrite go_put; [| reflexivity | evaluated | reflexivity]; cbv [bound app map fst snd append]
-  | |- context [go _ _ _ _ (If _ _ _ :: _)] => erewrite go_if; [| in_bits]
-  | |- context [go _ _ _ _ (Returns _ :: _)] => erewrite go_return; [| first [evaluated_constant | in_bits]]; cbv beta iota
-  | |- context [go _ _ _ _ (Calling _ _ :: _)] => erewrite go_calling; [| reflexivity | evaluated | evaluated | reflexivity];
-    cbv [bound_all skipn bound app map fst snd append] end.
+Ltac put_by evaluated := eapply put_ends; [reflexivity | evaluated | reflexivity | cbv [bound app map fst snd append]; reflexivity |].
+Ltac branch := eapply if_ends; [in_bits | let H := fresh "Yes" in intros H | let H := fresh "No" in intros H]; cbn [app].
+Ltac calls := eapply calling_ends; [reflexivity | evaluated | evaluated | cbv [bound_all skipn bound app map fst snd append]; reflexivity |].
+Ltac returns := eapply return_ends; [| cbv beta iota].
+(** What is returned is the answer, for all signs that lead there. *)
+Ltac for_all_signs := repeat match goal with H : @eq bool _ _ |- _ => revert H end; clear; cbv [sign_int fixed_answer];
+  let settled := try (cbv [Z.ltb Z.compare andb orb negb]; intros; (discriminate || reflexivity)) in
+  repeat match goal with |- context [match ?s with _ => _ end] => is_var s; destruct s; settled end.
 
 Theorem position_text : called functions position_calls position_procedures "hc_fixed_position" [row m e] = Some (Of Int (code tree_answer)).
 Proof.
-  unfold sign_asked, certain, struct in *.
+  rewrite tree_answer_is; unfold sign_asked, certain, struct in *.
   cbv [row struct_of cubic_of map combine fst snd lengths] in Terms, Cubic, At_B, At_A.
-  unfold called; function "hc_fixed_position"; cbv beta iota;
-  match goal with |- context [bound_all ?a ?b ?c] => let v := open (bound_all a b c) in change (bound_all a b c) with v end; cbv iota beta;
-  cbn [does]; change steps with 100%nat.
-  unfold tree_answer; destruct (Z.ltb_spec most_grown grown) as [L | L];
-    [apply Z.ltb_lt in L; clear SD SM | specialize (SD L); specialize (SM L); apply Z.ltb_ge in L].
-  all: do 3 next; [.. | destruct sD].
-  all: do 4 next; cbn [app].
-  Ltac branches := repeat (cbn [app]; match goal with
-    | |- context [if true then ?a else ?b] => change (if true then a else b) with a
-    | |- context [if false then ?a else ?b] => change (if false then a else b) with b
-    | |- context [((if ?x then _ else _) ++ _)%list] => destruct x eqn:? end); cbn [app].
-  all: branches.
-  all: repeat (next; branches).
-  all: clear L; repeat match goal with H : @eq bool _ _ |- _ => revert H end; clear; destruct s2, s1; try (cbv [sign_int Z.ltb Z.compare andb orb]; intros; discriminate);
-    cbn [fixed_answer code].
-  all: repeat match goal with s : comparison |- _ => clear s | s : bool |- _ => clear s end.
-  all: try destruct oB; try destruct sB; try destruct oA; try destruct sA; try destruct sM; try destruct wide; cbv [sign_int code Z.ltb Z.compare andb orb]; intros; reflexivity || discriminate.
+  begins_to_end "hc_fixed_position".
+  do 2 put_by evaluated.
+  put_by ltac:(eapply eval_chosen with (x := most_grown <? grown) (v := Of Int (sign_int delta));
+    [in_bits | intros L; unfold delta; rewrite L; reflexivity | intros L; unfold delta; rewrite L; apply Z.ltb_ge, SD in L; evaluated]).
+  do 2 put_by evaluated.
+  eapply put_ends; [reflexivity | eapply eval_if; evaluated | reflexivity | |].
+  { match goal with |- bound ?n ?v ?now = _ => instantiate (1 := (n, v) :: now) end; destruct (_ =? 0); reflexivity. }
+  cbv beta; branch; [| branch; [calls; branch; [| branch] | branch; [branch; [| calls; branch] |]]].
+  all: lazymatch goal with |- ends _ _ _ _ _ (Returns (Choice _ _ _) :: _) => idtac | _ => returns; [evaluated |] end.
+  4: returns; [eapply eval_choice; [eapply eval_guarded; [in_bits | intros L] | evaluated | evaluated] |].
+  4: { apply andb_prop in L as [_ L]; apply negb_true_iff, Z.ltb_ge, SM in L; in_bits. }
+  7: returns; [eapply eval_choice; [in_bits | evaluated | evaluated] |].
+  all: unfold delta, middle in *; destruct (most_grown <? grown).
+  all: for_all_signs.
 Qed.
 End Answer.
 

@@ -18,9 +18,9 @@ Definition functions := Eval vm_compute in
 
 Definition or_else (o : option answer) (a : answer) := match o with Some c => c | None => a end.
 
-Lemma go_decided known procedures f now c yes no rest t z : eval known now c = Some (Of t z) ->
-  go known procedures (S f) now (If c yes no :: rest) = go known procedures f now ((if z =? 0 then no else yes) ++ rest)%list.
-Proof. intros E; cbn [go]; rewrite E; reflexivity. Qed.
+Lemma decided_ends known procedures Post f now c yes no rest t z : eval known now c = Some (Of t z) ->
+  ends known procedures Post f now ((if z =? 0 then no else yes) ++ rest)%list -> ends known procedures Post (S f) now (If c yes no :: rest).
+Proof. intros E; unfold ends; cbn [go]; rewrite E; exact (fun P => P). Qed.
 
 Section Texts.
 Variables m e : string -> Z.
@@ -31,12 +31,13 @@ Ltac opened := lazymatch goal with |- ?text = ?answer => let v := open text in c
 Ltac evaluated := opened; repeat (first [match goal with H : ?l = _ |- context [?l] => rewrite H end
   | progress repeat match goal with |- context [Z.eqb ?a ?c] => let v := eval vm_compute in (Z.eqb a c) in
       lazymatch v with true => idtac | false => idtac end; change (Z.eqb a c) with v end]; opened); reflexivity.
-Ltac next := match goal with
-  | |- context [go _ _ _ _ (Calling _ _ :: _)] => erewrite go_calling; [| reflexivity | evaluated | evaluated | reflexivity];
-    cbv [bound_all skipn bound app map fst snd append]
-  | |- context [go _ _ _ _ (Set_ _ _ _ :: _)] => erewrite go_put; [| reflexivity | evaluated | reflexivity]; cbv [bound app map fst snd append]
-  | |- context [go _ _ _ _ (If _ _ _ :: _)] => erewrite go_decided; [| evaluated]; cbn [Z.eqb Pos.eqb app]
-  | |- context [go _ _ _ _ (Returns _ :: _)] => erewrite go_return; [| evaluated]; reflexivity end.
+Ltac next := lazymatch goal with
+  | |- ends _ _ _ _ _ (Calling _ _ :: _) => eapply calling_ends;
+    [reflexivity | evaluated | evaluated | cbv [bound_all skipn bound app map fst snd append]; reflexivity |]
+  | |- ends _ _ _ _ _ (Set_ _ _ _ :: _) => eapply put_ends;
+    [reflexivity | evaluated | reflexivity | cbv [bound app map fst snd append]; reflexivity |]
+  | |- ends _ _ _ _ _ (If _ _ _ :: _) => eapply decided_ends; [evaluated | cbn [Z.eqb Pos.eqb app]]
+  | |- ends _ _ _ _ _ (Returns _ :: _) => eapply return_ends; [evaluated | reflexivity] end.
 Ltac runs := repeat next.
 
 (** Stages 3, 4 and 5. *)
@@ -51,7 +52,7 @@ Definition exact_procedures := [("hc_fixed_position", (1%nat, fixed))].
 
 Theorem exact_text : called functions exact_calls exact_procedures "hc_exact_position" [row m e] = Some (Of Int (code (Some (or_else o3 (or_else o4 a5))))).
 Proof.
-  cbv [row lengths map combine fst snd] in *; begins "hc_exact_position".
+  cbv [row lengths map combine fst snd] in *; begins_to_end "hc_exact_position".
   destruct o3 as [[| |] |]; [clear Fourth Fifth; cbv [code] in Third; runs .. |]; specialize (Fourth eq_refl); specialize (Fifth eq_refl).
   destruct o4 as [[| |] |]; [clear Fifth; cbv [code] in Third, Fourth; runs .. |]; specialize (Fifth eq_refl); cbv [code] in Third, Fourth; destruct a5; cbv [code] in Fifth; runs.
 Qed.
@@ -84,7 +85,7 @@ Definition answer_of_all := if floats =? 0 then exact_or_refused else match o1 w
 Theorem position_text : called_with functions stage_calls [] "hc_position_of" [row m e] = Some (Of Int answer_of_all).
 Proof.
   unfold answer_of_all, exact_or_refused; destruct Certified as (bits & C & B); clear Certified; cbv [row lengths map combine fst snd] in *.
-  unfold called_with; begins "hc_position_of".
+  unfold called_with; begins_to_end "hc_position_of".
   destruct (Z.eqb_spec floats 0) as [F | F].
   - clear Single; assert (N : (floats =? 0) = true) by (apply Z.eqb_eq; exact F); clear F.
     assert (K : exists p q d, bits = bits_of_stage p q d).
