@@ -1,4 +1,4 @@
-"""TOML files that users write, read strictly: bounded, each value checked, none left over; a refusal names its line.
+"""TOML files that users write: read if they are not too large or too deep, and the line of each value.
 
 A reader of TOML does not give lines. The scanner at the end finds them in a text that is known to be valid TOML 1.0
 (tomllib has read it), so it judges nothing.
@@ -6,19 +6,15 @@ A reader of TOML does not give lines. The scanner at the end finds them in a tex
 
 from __future__ import annotations
 
-import json
-import math
 import os
 import re
 import stat
 import sys
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
-from functools import cache, cached_property
-from typing import Any, NoReturn, TypeVar
+from collections.abc import Mapping
+from functools import cache
+from typing import Any
 
 from hypcheck.errors import InputError, system_reason
-from hypcheck.messages import suggestion
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -90,173 +86,8 @@ def shipped(package: str, name: str) -> dict[str, Any]:
     return parsed(resources.files(package).joinpath(name).read_text(encoding="utf-8"), name)
 
 
-Value = TypeVar("Value")
-Check = Callable[[object], Value]
-"""From what the file holds to what is made of it; raises ValueError, whose text ends "it must be …"."""
-
 Path = tuple[str | int, ...]
 """How to get to a value: keys of tables, and places in arrays counted from 0."""
-
-_LONGEST = 60
-"""Characters of a value that a message shows."""
-
-LONGEST_TEXT = 1000
-"""Characters of a text."""
-
-
-@dataclass(frozen=True)
-class TomlSource:
-    """A file's name and its text."""
-
-    name: str
-    text: str
-
-    @cached_property
-    def lines(self) -> dict[Path, int]:
-        """The line of each value; computed only for an error."""
-        return lines_of(self.text)
-
-    def refuse(self, path: Path, sentence: str) -> NoReturn:
-        """Raise InputError about the value at the path."""
-        line = nearest_line(self.lines, path)
-        raise InputError(f"{self.name}{'' if line is None else f', line {line}'}: {sentence}")
-
-
-class TomlTable:
-    """A table of a file. `title` says which one it is, as messages name it."""
-
-    def __init__(self, source: TomlSource, path: Path, title: str, content: object, keys: Sequence[str]) -> None:
-        self._source, self._path, self.title = source, path, title
-        if not isinstance(content, dict):
-            self.refuse(f"{title} is {shown(content)}; it must be a table with {', '.join(keys)}")
-        self._content: dict[str, Any] = content
-        for key in content:
-            if key not in keys:
-                hint = suggestion(key, keys, most=1, otherwise="it may have")
-                self.refuse(f"{title} has the key {shown(key)}, which is not known; {hint}", key)
-
-    def refuse(self, sentence: str, *keys: str | int) -> NoReturn:
-        """Raise InputError about the table, or about a value in it."""
-        self._source.refuse((*self._path, *keys), sentence)
-
-    def required(self, key: str, check: Check[Value]) -> Value:
-        """The checked value of a key that must be there."""
-        if key not in self._content:
-            self.refuse(f"{self.title} has no {key}; it must be {_wanted(check)}")
-        return self._checked(key, check)
-
-    def optional(self, key: str, check: Check[Value], default: Value) -> Value:
-        """The checked value of a key, or the default if it is absent."""
-        return self._checked(key, check) if key in self._content else default
-
-    def table(self, key: str, keys: Sequence[str]) -> TomlTable | None:
-        """The table of that key; None if it is absent."""
-        if key not in self._content:
-            return None
-        title = f"{self.title}.{key}" if self._path else f"[{key}]"
-        return TomlTable(self._source, (*self._path, key), title, self._content[key], keys)
-
-    def tables(self, key: str, keys: Sequence[str], most: int | None = None) -> list[TomlTable]:
-        """The array of tables of that key, `most` of them at most, each entitled by its number; empty without one."""
-        array = self._content.get(key, [])
-        if not isinstance(array, list):
-            name = ".".join([*map(str, self._path), key])
-            self.refuse(f"{key} is {shown(array)}; it must be an array of tables, [[{name}]]", key)
-        if most is not None and len(array) > most:
-            self.refuse(f"{self.title} has {len(array):,} tables {key}; a file may have {most:,} at most", key)
-        title = f"{self.title} {key}" if self._path else key.replace("_", " ")
-        return [
-            TomlTable(self._source, (*self._path, key, place), f"{title} {place + 1}", content, keys)
-            for place, content in enumerate(array)
-        ]
-
-    def _checked(self, key: str, check: Check[Value]) -> Value:
-        value = self._content[key]
-        try:
-            return check(value)
-        except ValueError as error:
-            self.refuse(f"{self.title}: {key} is {shown(value)}; it must be {error}", key)
-
-
-def shown(value: object) -> str:
-    """A value as a message shows it: short, and written as in the file if possible."""
-    text = json.dumps(value, ensure_ascii=False, default=str).replace("NaN", "nan").replace("Infinity", "inf")
-    return text if len(text) <= _LONGEST else text[:_LONGEST] + "…"
-
-
-def text(value: object) -> str:
-    """A text with something in it."""
-    if not isinstance(value, str) or not value.strip() or len(value) > LONGEST_TEXT:
-        raise ValueError(f"a text that is not empty, of at most {LONGEST_TEXT:,} characters")
-    return value
-
-
-def one_of(*choices: str) -> Check[str]:
-    """One of some words."""
-
-    def check(value: object) -> str:
-        if not isinstance(value, str) or value not in choices:
-            raise ValueError(f"one of {', '.join(choices)}")
-        return value
-
-    return check
-
-
-def number_with(wanted: str, low: float = -math.inf, high: float = math.inf, *, above: bool = False) -> Check[float]:
-    """A check for a finite number from `low` to `high`, or `above` low; `wanted` ends the sentence of a refusal."""
-
-    def check(value: object) -> float:
-        result = number_of(value, wanted)
-        if not low <= result <= high or (above and result == low):
-            raise ValueError(wanted)
-        return result
-
-    return check
-
-
-number = number_with("a finite number")
-positive = number_with("a finite number above 0", 0, above=True)
-"""A length of a body."""
-
-not_negative = number_with("a finite number, 0 or more", 0)
-"""A distance."""
-
-
-def integer(value: object) -> int:
-    """How many of something."""
-    if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value < 2**31:
-        raise ValueError("a whole number, 0 or more and below 2^31")
-    return value
-
-
-def truth(value: object) -> bool:
-    """The value of a key that must be true or false."""
-    if not isinstance(value, bool):
-        raise ValueError("true or false")  # noqa: TRY004 - as in number_of
-    return value
-
-
-def number_of(value: object, wanted: str, *, infinite: bool = False) -> float:
-    """The number, as float64. Raises ValueError with the text `wanted` if it is not a number or not finite."""
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise ValueError(wanted)  # noqa: TRY004 - turned into a sentence about the value
-    try:
-        result = float(value) + 0.0  # + 0.0 turns −0.0 into 0.0
-    except OverflowError:
-        raise ValueError(f"{wanted} that float64 holds") from None
-    if math.isnan(result) or (math.isinf(result) and not infinite):
-        raise ValueError(wanted)
-    return result
-
-
-def _wanted(check: Check[Any]) -> str:
-    """The requirement of a check: the sentence with which it refuses None."""
-    try:
-        check(None)
-    except ValueError as error:
-        return str(error)
-    raise AssertionError("a check let nothing pass for something")
-
 
 _BLANK = re.compile(r"[ \t\r\n]*")
 _COMMENT = re.compile(r"#[^\n]*")

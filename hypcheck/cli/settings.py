@@ -17,11 +17,11 @@ from typing import TYPE_CHECKING, Any
 import click
 from click.core import ParameterSource
 
-from hypcheck import toml
+from hypcheck import strict, toml
 from hypcheck.cli.options import LARGEST_COUNT, LARGEST_SEED, LIMITS, integer_wanted
 from hypcheck.errors import InputError
-from hypcheck.messages import escaped, suggestion
-from hypcheck.toml import TomlSource
+from hypcheck.messages import escaped
+from hypcheck.strict import Check
 
 if TYPE_CHECKING:
     from hypcheck.record.lines import SettingsPart
@@ -146,46 +146,20 @@ def _as_text(value: object) -> str:
 def read_settings(path: Path) -> ProjectSettings | None:
     """The settings in a file, None if there is no such file. Raises InputError naming file, line and key."""
     try:
-        source = TomlSource(str(path), toml.text_of(str(path)))
+        text = toml.text_of(str(path))
     except FileNotFoundError:
         return None
-    checked = {key: _checked(source, key, value) for key, value in toml.parsed(source.text, source.name).items()}
-    return ProjectSettings(checked.pop("specs", ()), checked)
+    options = strict.table_of(text, str(path), "the file", tuple(_KEYS)).present(_KEYS)
+    return ProjectSettings(options.pop("specs", ()), options)
 
 
-def _checked(source: TomlSource, key: str, value: object) -> Any:  # noqa: ANN401 - the type of its option
-    check = _KEYS.get(key)
-    if check is None:
-        source.refuse((key,), f"there is no setting {key!r}; {suggestion(key, _KEYS, most=1)}")
-    try:
-        return check(value)
-    except ValueError as error:
-        source.refuse((key,), f"{key} is {toml.shown(value)}; it must be {error}")
-    except InputError as error:  # of a domain, whose message is whole
-        source.refuse((key,), str(error))
-
-
-def _texts(wanted: str) -> Callable[[object], tuple[str, ...]]:
-    """Lists of texts; `wanted` is what the error says that they must be."""
-
-    def check(value: object) -> tuple[str, ...]:
-        if not isinstance(value, list) or not value or not all(isinstance(text, str) and text for text in value):
-            raise ValueError(wanted)
-        return tuple(value)
-
-    return check
-
-
-def _names(wanted: str) -> Callable[[object], str]:
+def _names(wanted: str) -> Check[str]:
     """Lists of names, or one text of them, in the form of the option: separated by commas."""
+    listed = strict.texts(wanted)
 
     def check(value: object) -> str:
-        names = [value] if isinstance(value, str) else value
-        if (
-            not isinstance(names, list)
-            or not names
-            or not all(isinstance(name, str) and name.strip() for name in names)
-        ):
+        names = listed([value] if isinstance(value, str) else value)
+        if not all(map(str.strip, names)):
             raise ValueError(wanted)
         return ",".join(names)
 
@@ -198,7 +172,7 @@ def _path(value: object) -> str:
     return value
 
 
-def _integer(least: int, greatest: int = LARGEST_COUNT) -> Callable[[object], int]:
+def _integer(least: int, greatest: int = LARGEST_COUNT) -> Check[int]:
     def check(value: object) -> int:
         if isinstance(value, float) and value.is_integer():  # 1e9 is a float in TOML
             value = int(value)
@@ -220,13 +194,13 @@ def _bytes(value: object) -> str:
 def _precision(value: object) -> str:
     from hypcheck.implementations.domain import PRECISIONS
 
-    return toml.one_of(*PRECISIONS)(value)
+    return strict.one_of(*PRECISIONS)(value)
 
 
 def _question(value: object) -> str:
     from hypcheck.implementations.description import QUESTIONS
 
-    return toml.one_of(*QUESTIONS)(value)
+    return strict.one_of(*QUESTIONS)(value)
 
 
 def _domain(value: object) -> str:
@@ -240,28 +214,28 @@ def _domain(value: object) -> str:
     return text
 
 
-_KEYS: Mapping[str, Callable[[object], Any]] = MappingProxyType(
+_KEYS: Mapping[str, Check[Any]] = MappingProxyType(
     {
-        "specs": _texts('a list of texts, such as ["command:./adapter"]'),
+        "specs": strict.texts('a list of texts, such as ["command:./adapter"]'),
         "out": _path,
         "families": _names('names and globs, such as ["ring", "tower-*"]'),
         "count": _integer(0),
         "seed": _integer(0, LARGEST_SEED),
-        "tolerance": toml.not_negative,
+        "tolerance": strict.not_negative,
         "precision": _precision,
         "question": _question,
         "domain": _domain,
         "max_abstained": _integer(0),
-        "fail_on": toml.one_of("wrong", "false-clear"),
-        "deterministic": toml.truth,
+        "fail_on": strict.one_of("wrong", "false-clear"),
+        "deterministic": strict.truth,
         "known_failures": _path,
-        "startup_timeout": toml.positive,
-        "timeout": toml.positive,
+        "startup_timeout": strict.positive,
+        "timeout": strict.positive,
         "restarts": _integer(0),
         "memory": _bytes,
-        "isolate": toml.one_of("auto", "on", "off"),
+        "isolate": strict.one_of("auto", "on", "off"),
         "pass_env": _names('names of environment variables, such as ["LANG", "LD_LIBRARY_PATH"]'),
-        "see": _texts('a list of paths, such as ["vendor/lib"]'),
+        "see": strict.texts('a list of paths, such as ["vendor/lib"]'),
     }
 )
 """Checks the value of each key, and gives it the form of its option."""

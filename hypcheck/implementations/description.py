@@ -6,18 +6,19 @@ value raises InputError, which names the key, the value, and what would be right
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Any, Literal
 
+from hypcheck import strict
 from hypcheck.errors import InputError
 from hypcheck.geometry import rows
-from hypcheck.geometry.pair import AXIS, CENTER, GROUPS, HEIGHTS, SIZES, Position, trouble_with
+from hypcheck.geometry.pair import CENTER, GROUPS, HEIGHTS, SIZES, Position, Sizes, trouble_with
 from hypcheck.implementations.domain import ORDINARY, PRECISIONS, Domain
 from hypcheck.implementations.output import foreign_text
-from hypcheck.tables.strict_json import object_of, refused_constant, strict_decoder
+from hypcheck.strict import Check, Origin, StrictTable
+from hypcheck.tables.strict_json import refused_constant, strict_decoder
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,8 +110,8 @@ class Description:
         """
         changed = replace(
             self,
-            precision=self.precision if precision is None else _one_of(PRECISIONS)(precision, "the precision"),
-            question=self.question if question is None else _one_of(QUESTIONS)(question, "the question"),
+            precision=self.precision if precision is None else _chosen("the precision", precision, PRECISIONS),
+            question=self.question if question is None else _chosen("the question", question, QUESTIONS),
             domain=domain or self.domain,
         )
         if changed.asked.layout != self.asked.layout:
@@ -123,10 +124,14 @@ class Description:
 
 def described(raw: object, defaults: Description, required: tuple[str, ...] = ()) -> Description:
     """The description in a mapping, completed from `defaults`; raises InputError naming key and value."""
-    content = object_of(raw, "the description", tuple(_KEYS), required)
-    values: dict[str, Any] = {key: _KEYS[key](value, f"the description's {key}") for key, value in content.items()}
+    table = StrictTable(_Foreign("the description"), (), raw, _KEYS)
+    for key in required:
+        table.required(key, _CHECKS[key])
+    values, taken = table.present(_CHECKS), table.optional("takes", _groups, ())
     values.pop("protocol", None)
-    taken = values.pop("takes", ())
+    domain = table.table("domain", DOMAIN_KEYS)
+    if domain is not None:
+        values["domain"] = _domain(domain)
     if "axis" in taken and values.get("tilt") is False:
         raise InputError("the description takes an axis, but its tilt is false; leave tilt out, or make it true")
     values |= {name: True for name, group in (("tilt", "axis"), ("heights", "heights")) if group in taken}
@@ -152,7 +157,12 @@ def described_by_json(text: str | bytes, defaults: Description, required: tuple[
 
 def parse_domain(text: str) -> Domain:
     """The domain in a JSON text of the command line; raises InputError."""
-    return domain_of(_json(text, "the domain"), "the domain")
+    return domain_of(_json(text, "the domain"))
+
+
+def domain_of(value: object) -> Domain:
+    """The domain in a mapping; raises InputError naming key and value."""
+    return _domain(StrictTable(_Foreign("the domain"), (), value, DOMAIN_KEYS))
 
 
 def _unbounded(text: str) -> float:
@@ -175,135 +185,103 @@ def _json(text: str | bytes, where: str) -> object:
         raise InputError(f"{where} is '{foreign_text(shown, 80)}'; it must be JSON ({why})") from None
 
 
-def _wrong(value: object, where: str, wanted: str) -> InputError:
-    """The error about a value: `where` it stands, what it is, and what it must be."""
-    return InputError(f"{where} is {_shown(value)}; it must be {wanted}")
+class _Foreign(Origin):
+    """What foreign code says, whose texts may hold secrets and signs that a terminal obeys."""
+
+    def shown(self, value: object) -> str:
+        """The value as Python writes it, short and masked."""
+        return foreign_text(repr(value), 80)
 
 
-def _shown(value: object) -> str:
-    return foreign_text(repr(value), 80)
+def _chosen(title: str, name: str, choices: Collection[str]) -> str:
+    """The name, if it is one of the choices. Raises InputError."""
+    return _Foreign(title).checked((), name, strict.one_of(*choices))
 
 
-def _checked(holds: Callable[[Any], bool], wanted: str) -> Callable[[object, str], Any]:
-    """A reader of values for which that holds."""
-
-    def read(value: object, where: str) -> object:
-        if not holds(value):
-            raise _wrong(value, where, wanted)
-        return value
-
-    return read
+def _protocol(value: object) -> int:
+    if value != PROTOCOL or isinstance(value, bool):
+        raise ValueError(f"{PROTOCOL}, the only version")
+    return PROTOCOL
 
 
-def _one_of(choices: Collection[str]) -> Callable[[object, str], str]:
-    return _checked(lambda value: isinstance(value, str) and value in choices, f"one of {', '.join(choices)}")
-
-
-_truth_value = _checked(lambda value: isinstance(value, bool), "true or false")
-_protocol = _checked(lambda value: value == PROTOCOL and not isinstance(value, bool), f"{PROTOCOL}, the only version")
-_names = _checked(
-    lambda value: isinstance(value, list) and all(isinstance(name, str) for name in value), "a list of names"
-)
-
-
-def _text(value: object, where: str) -> str:
+def _text(value: object) -> str:
     if not isinstance(value, str):
-        raise _wrong(value, where, "a text")
+        raise ValueError("a text")  # noqa: TRY004 - turned into a sentence about the value
     return foreign_text(value, 200)
 
 
-def _name(value: object, where: str) -> str:
-    name = _text(value, where)
-    if not name:
-        raise InputError(f"{where} is empty; it must be a name")
-    return name
+def _name(value: object) -> str:
+    if not isinstance(value, str) or not value:
+        raise ValueError("a text that is not empty")
+    return _text(value)
 
 
-def _list(value: object, length: int, where: str, wanted: str) -> list[Any]:
-    if not isinstance(value, list) or len(value) != length:
-        raise _wrong(value, where, wanted)
-    return value
-
-
-def _number(value: object, where: str) -> float:
-    """A number of float64; integers are numbers, truth values are not."""
-    try:
-        if isinstance(value, (int, float)) and not isinstance(value, bool):
-            return float(value)
-    except OverflowError:
-        pass
-    raise InputError(f"{where} holds {_shown(value)}; it must be two numbers of float64")
-
-
-def _range(value: object, where: str) -> tuple[float, float]:
-    low, high = _list(value, 2, where, "two numbers, the least and the greatest")
-    return _number(low, where), _number(high, where)
-
-
-def _settings(value: object, where: str) -> tuple[rows.FixedSizes, ...]:
-    if not isinstance(value, list) or not value:
-        raise _wrong(value, where, "a list of mappings with sizes, and optionally x, y, z, axis")
-    return tuple(_setting(item, f"{where}[{place}]") for place, item in enumerate(value))
-
-
-def _setting(value: object, where: str) -> rows.FixedSizes:
-    content = object_of(value, where, ("sizes", *CENTER, "axis"), required=("sizes",))
-    listed = _list(content["sizes"], len(SIZES), f"{where}'s sizes", f"four numbers, {', '.join(SIZES)}")
-    alpha, gamma, b, d = (_number(size, f"{where}'s sizes") for size in listed)
-    for name, size in zip(SIZES, (alpha, gamma, b, d), strict=True):
-        trouble = trouble_with(name, size)
-        if trouble is not None:
-            raise InputError(f"{where}'s sizes: {trouble}")
-    spans = {key: _range(content[key], f"{where}'s {key}") for key in CENTER if key in content}
-    for key, (low, high) in spans.items():
-        if not low <= high:
-            raise InputError(f"{where}'s {key} is [{low}, {high}]; it must be two numbers, the least first")
-    return rows.FixedSizes((alpha, gamma, b, d), **spans, axis=_axis(content.get("axis"), f"{where}'s axis"))
-
-
-def _axis(value: object, where: str) -> tuple[float, float, float] | Literal["free"] | None:
-    if value is None or value == "free":
-        return "free" if value else None
-    x, y, z = (_number(number, where) for number in _list(value, len(AXIS), where, 'three numbers, or "free"'))
-    if not all(map(math.isfinite, (x, y, z))) or not (x or y or z):
-        raise _wrong(value, where, "three finite numbers, not all of them 0")
-    return x, y, z
-
-
-def _groups(value: object, where: str) -> tuple[str, ...]:
+def _groups(value: object) -> tuple[str, ...]:
     """Names of groups of columns, in any order."""
     names = value if isinstance(value, list) else [None]
     if len(set(map(str, names))) != len(names) or not all(isinstance(name, str) and name in GROUPS for name in names):
-        raise _wrong(value, where, f"a list of {', '.join(GROUPS)}, of none, some or all of them, each once")
+        raise ValueError(f"a list of {', '.join(GROUPS)}, of none, some or all of them, each once")
     return tuple(names)
 
 
-_DOMAIN_KEYS: Mapping[str, Callable[[object, str], Any]] = MappingProxyType(
-    {
-        "regimes": lambda value, where: tuple(_names(value, where)),
-        "ratio": _range,
-        "magnitude": _range,
-        "settings": _settings,
-    }
-)
+def _sizes(value: object) -> Sizes:
+    wanted = f"four numbers, {', '.join(SIZES)}"
+    alpha, gamma, b, d = strict.numbers_of(value, len(SIZES), wanted, infinite=True)
+    return alpha, gamma, b, d
 
 
-def domain_of(value: object, where: str) -> Domain:
-    """The domain in a mapping; raises InputError naming key and value."""
-    content = object_of(value, where, tuple(_DOMAIN_KEYS), required=())
-    return Domain(**{key: _DOMAIN_KEYS[key](item, f"{where}'s {key}") for key, item in content.items()})
+def _range(value: object) -> tuple[float, float]:
+    low, high = strict.numbers_of(value, 2, "two numbers, [least, greatest]", infinite=True)
+    return low, high
 
 
-_KEYS: Mapping[str, Callable[[object, str], object]] = MappingProxyType(
+def _span(value: object) -> tuple[float, float]:
+    low, high = _range(value)
+    if not low <= high:
+        raise ValueError("two numbers, [least, greatest], the least first")
+    return low, high
+
+
+def _axis(value: object) -> tuple[float, float, float] | Literal["free"] | None:
+    return None if value is None else _AXIS(value)
+
+
+_FREE: Literal["free"] = "free"
+_AXIS = strict.or_word(_FREE, strict.direction)
+
+DOMAIN_KEYS = ("regimes", "ratio", "magnitude", "settings")
+
+
+def _domain(table: StrictTable) -> Domain:
+    wanted = "a list of mappings with sizes, and optionally x, y, z, axis"
+    settings = table.tables("settings", ("sizes", *CENTER, "axis"), wanted, least=1)
+    return Domain(
+        regimes=table.optional("regimes", strict.texts("a list of names", least=0), ()),
+        ratio=table.optional("ratio", _range, None),
+        magnitude=table.optional("magnitude", _range, None),
+        settings=tuple(map(_setting, settings)),
+    )
+
+
+def _setting(table: StrictTable) -> rows.FixedSizes:
+    sizes = table.required("sizes", _sizes)
+    for name, size in zip(SIZES, sizes, strict=True):
+        trouble = trouble_with(name, size)
+        if trouble is not None:
+            table.refuse(f"{table.named('sizes')}: {trouble}", "sizes")
+    spans = table.present(dict.fromkeys(CENTER, _span))
+    return rows.FixedSizes(sizes, **spans, axis=table.optional("axis", _axis, None))
+
+
+_CHECKS: Mapping[str, Check[Any]] = MappingProxyType(
     {
         "protocol": _protocol,
         "name": _name,
         "version": _text,
         "language": _text,
-        "precision": _one_of(PRECISIONS),
-        "question": _one_of(QUESTIONS),
-        "domain": domain_of,
-        **dict.fromkeys(("refuses", "binary", "time", "tilt", "times"), _truth_value),
-        "takes": _groups,
+        "precision": strict.one_of(*PRECISIONS),
+        "question": strict.one_of(*QUESTIONS),
+        **dict.fromkeys(("refuses", "binary", "time", "tilt", "times"), strict.truth),
     }
 )
+_KEYS = (*_CHECKS, "domain", "takes")

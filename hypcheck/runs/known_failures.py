@@ -26,7 +26,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hypcheck import toml
+from hypcheck import strict, toml
 from hypcheck.errors import InputError
 from hypcheck.messages import suggestion
 from hypcheck.record import Record
@@ -34,8 +34,8 @@ from hypcheck.record.lines import CauseLine, DriftLine, GroupLine, Implementatio
 from hypcheck.runs.cases import frozen_vectors
 from hypcheck.runs.causes import AnsweredRows, Cause, Scope
 from hypcheck.runs.diagnosis import CAUSES
+from hypcheck.strict import StrictTable
 from hypcheck.tables.streams import replace_output
-from hypcheck.toml import TomlSource, TomlTable
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import family_of, parse_case_id
 from hypcheck.vectors.invalid_rows import INVALID_CONTENTS
@@ -92,15 +92,15 @@ def entries_about(
 def read_known_failures(path: Path) -> tuple[KnownFailure, ...]:
     """The entries of a file. Raises InputError naming the file, the line, the entry, and the allowed values."""
     try:
-        source = TomlSource(str(path), toml.text_of(str(path)))
+        text = toml.text_of(str(path))
     except FileNotFoundError:
         raise InputError(f"cannot read {path}: no such file or directory") from None
-    top = TomlTable(source, (), "the file", toml.parsed(source.text, source.name), ("known_failure",))
-    return tuple(map(_entry, top.tables("known_failure", _KEYS)))
+    top = strict.table_of(text, str(path), "the file", ("known_failure",))
+    return tuple(map(_entry, top.tables("known_failure", _KEYS, "an array of tables, [[known_failure]]")))
 
 
-def _entry(table: TomlTable) -> KnownFailure:
-    named = {key: table.optional(key, toml.text, None) for key in _SUBJECTS}
+def _entry(table: StrictTable) -> KnownFailure:
+    named = {key: table.optional(key, strict.text, None) for key in _SUBJECTS}
     subjects = [(key, name) for key, name in named.items() if name is not None]
     if len(subjects) != 1:
         table.refuse(f"{table.title} must name either a case or a family or a cause")
@@ -121,12 +121,7 @@ def _reason(value: object) -> str:
     return value
 
 
-def _units(value: object) -> float:
-    wanted = "a number of units u, 0 or more"
-    units = toml.number_of(value, wanted, infinite=True)
-    if units < 0:
-        raise ValueError(wanted)
-    return units
+_units = strict.number_with("a number of units u, 0 or more", 0, infinite=True)
 
 
 _FROZEN_ID = re.compile(r"(?P<family>.+)-\d+", re.ASCII)

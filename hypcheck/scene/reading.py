@@ -10,32 +10,31 @@ import math
 from collections.abc import Iterable
 from fractions import Fraction
 from importlib import resources
-from typing import Literal
 
-from hypcheck import toml
+from hypcheck import strict, toml
 from hypcheck.errors import InputError
 from hypcheck.messages import suggestion
 from hypcheck.scene import model
-from hypcheck.toml import TomlSource, TomlTable
+from hypcheck.strict import StrictTable
 
 _FLIGHT = ("distance", "straight", "vertical", "largest_turn", "refused_turn", "backward", "turn", "start")
 _START = ("z", "radius", "margin")
 _WALK = ("start", "heading", "steps", "step", "largest_turn", "refused_turn")
 
 
-def _flight(top: TomlTable) -> model.Flight | None:
+def _flight(top: StrictTable) -> model.Flight | None:
     """What [flight] says, None where it is not there. Raises InputError."""
     table = top.table("flight", _FLIGHT)
     if table is None:
         return None
     flight = model.Flight(
-        distance=table.required("distance", toml.positive),
+        distance=table.required("distance", strict.positive),
         straight=table.required("straight", _share),
         vertical=table.required("vertical", _share),
         largest_turn=table.required("largest_turn", _turn),
         refused_turn=table.required("refused_turn", _turn),
-        backward=table.required("backward", toml.truth),
-        turn=table.required("turn", toml.one_of(*model.TURNS)),
+        backward=table.required("backward", strict.truth),
+        turn=table.required("turn", strict.one_of(*model.TURNS)),
         start=_start(table),
     )
     moving = flight.straight + flight.vertical
@@ -46,30 +45,30 @@ def _flight(top: TomlTable) -> model.Flight | None:
     return flight
 
 
-def _start(flight: TomlTable) -> model.Start:
+def _start(flight: StrictTable) -> model.Start:
     table = flight.table("start", _START)
     if table is None:
         flight.refuse("[flight] has no start; it must be a table with z, and radius or margin")
     start = model.Start(
         z=table.required("z", _span_or_number),
-        radius=table.optional("radius", toml.not_negative, None),
-        margin=table.optional("margin", toml.not_negative, None),
+        radius=table.optional("radius", strict.not_negative, None),
+        margin=table.optional("margin", strict.not_negative, None),
     )
     if (start.radius is None) == (start.margin is None):
         table.refuse("[flight].start must have either a radius or a margin")
     return start
 
 
-def _walk(top: TomlTable) -> model.Walk | None:
+def _walk(top: StrictTable) -> model.Walk | None:
     """What [walk] says, None where it is not there. Raises InputError."""
     table = top.table("walk", _WALK)
     if table is None:
         return None
     return model.Walk(
-        start=table.required("start", _point),
+        start=table.required("start", strict.point),
         heading=table.required("heading", _turn),
-        steps=table.required("steps", toml.integer),
-        step=table.required("step", toml.positive),
+        steps=table.required("steps", strict.integer),
+        step=table.required("step", strict.positive),
         largest_turn=table.required("largest_turn", _turn),
         refused_turn=table.required("refused_turn", _turn),
     )
@@ -81,6 +80,7 @@ MOST_HYPERBOLOIDS = 20_000
 MOST_PARTS = 100
 """Of a file. A scene that is made in Python (hypcheck.scene.model) may have more hyperboloids."""
 
+_ARRAY = "an array of tables, [[{}]]"
 _SCENE = ("name", "question", "hyperboloid", "mover", "region", "flight", "walk")
 _HYPERBOLOID = ("name", "alpha", "gamma", "center", "height", "axis", "solid")
 _MOVER = ("b", "d", "part", "axis")
@@ -107,14 +107,14 @@ def shipped_text(name: str) -> str:
 def parse_scene(text: str, source: str = "the scene") -> model.SceneModel:
     """The scene that a TOML text describes; `source` names it in errors. Raises InputError naming key and line."""
     try:
-        return _scene(TomlTable(TomlSource(source, text), (), "the scene", toml.parsed(text, source), _SCENE))
+        return _scene(strict.table_of(text, source, "the scene", _SCENE))
     except RecursionError:
         raise InputError(f"{source}: cannot be read as TOML: it is nested too deeply") from None
 
 
-def _scene(top: TomlTable) -> model.SceneModel:
-    name = top.required("name", toml.text)
-    question = top.optional("question", toml.one_of(*model.QUESTIONS), "position")
+def _scene(top: StrictTable) -> model.SceneModel:
+    name = top.required("name", strict.text)
+    question = top.optional("question", strict.one_of(*model.QUESTIONS), "position")
     hyperboloids = _hyperboloids(top)
     scene = model.SceneModel(name, question, hyperboloids, _mover(top), _region(top), _flight(top), _walk(top))
     endless = any(body.height and math.inf in map(abs, body.height.ends) for body in hyperboloids)
@@ -142,22 +142,24 @@ def _file(name: str) -> tuple[str, str]:
         raise InputError(f"{name}: there is no such file; {meant}") from None
 
 
-def _hyperboloids(top: TomlTable) -> tuple[model.Hyperboloid, ...]:
+def _hyperboloids(top: StrictTable) -> tuple[model.Hyperboloid, ...]:
     numbers: dict[str, int] = {}
     result = []
-    for number, table in enumerate(top.tables("hyperboloid", _HYPERBOLOID, MOST_HYPERBOLOIDS), start=1):
+    for number, table in enumerate(
+        top.tables("hyperboloid", _HYPERBOLOID, _ARRAY.format("hyperboloid"), most=MOST_HYPERBOLOIDS), start=1
+    ):
         body = model.Hyperboloid(
-            name=table.optional("name", toml.text, f"hyperboloid {number}"),
-            alpha=table.required("alpha", toml.positive),
-            gamma=table.required("gamma", toml.positive),
-            center=table.optional("center", _point, (0.0, 0.0, 0.0)),
+            name=table.optional("name", strict.text, f"hyperboloid {number}"),
+            alpha=table.required("alpha", strict.positive),
+            gamma=table.required("gamma", strict.positive),
+            center=table.optional("center", strict.point, (0.0, 0.0, 0.0)),
             height=table.optional("height", _height, None),
-            axis=table.optional("axis", _axis, model.UPRIGHT),
-            solid=table.optional("solid", toml.truth, False),
+            axis=table.optional("axis", strict.direction, model.UPRIGHT),
+            solid=table.optional("solid", strict.truth, False),
         )
         first = numbers.setdefault(body.name, number)
         if first != number:
-            same = toml.shown(body.name)
+            same = table.origin.shown(body.name)
             table.refuse(f"hyperboloid {number} is called {same} as hyperboloid {first} is; names must differ", "name")
         result.append(body)
     if not result:
@@ -165,21 +167,21 @@ def _hyperboloids(top: TomlTable) -> tuple[model.Hyperboloid, ...]:
     return tuple(result)
 
 
-def _mover(top: TomlTable) -> model.Mover:
+def _mover(top: StrictTable) -> model.Mover:
     table = top.table("mover", _MOVER)
     if table is None:
         top.refuse("the scene has no [mover]; it must have one, with b and d")
-    b, d = (table.required(name, toml.positive) for name in ("b", "d"))
+    b, d = (table.required(name, strict.positive) for name in ("b", "d"))
     return model.Mover(b, d, tuple(_parts(table, b, d)), table.optional("axis", _axis_or_free, model.UPRIGHT))
 
 
-def _parts(mover: TomlTable, b: float, d: float) -> Iterable[model.MoverPart]:
-    for number, table in enumerate(mover.tables("part", _PART, MOST_PARTS), start=1):
+def _parts(mover: StrictTable, b: float, d: float) -> Iterable[model.MoverPart]:
+    for number, table in enumerate(mover.tables("part", _PART, _ARRAY.format("mover.part"), most=MOST_PARTS), start=1):
         part = model.MoverPart(
-            b=table.required("b", toml.positive),
-            d=table.required("d", toml.positive),
-            arm=table.required("arm", toml.not_negative),
-            angle=table.optional("angle", toml.number, 0.0),
+            b=table.required("b", strict.positive),
+            d=table.required("d", strict.positive),
+            arm=table.required("arm", strict.not_negative),
+            angle=table.optional("angle", strict.number, 0.0),
         )
         if not within(part, b, d):
             table.refuse(
@@ -204,46 +206,16 @@ def within(part: model.MoverPart, b: float, d: float) -> bool:
     return e * e + q * q + (e * p) ** 2 / bend <= 1
 
 
-def _region(top: TomlTable) -> model.Region:
+def _region(top: StrictTable) -> model.Region:
     table = top.table("region", _REGION)
     if table is None:
         return model.Region()
     return model.Region(*(table.optional(name, _span_or_number, None) for name in _REGION))
 
 
-_turn = toml.number_with("a number of degrees, from -180 to 180", -180, 180)
-_share = toml.number_with("a number from 0 to 1", 0, 1)
-
-
-def _point(value: object) -> model.Point:
-    """Three coordinates."""
-    return _three(value, "three finite numbers, [x, y, z]")
-
-
-def _axis(value: object) -> model.Point:
-    """A direction, of any length."""
-    wanted = "three finite numbers, [x, y, z], not all 0"
-    vector = _three(value, wanted)
-    if not any(vector):
-        raise ValueError(wanted)
-    return vector
-
-
-def _three(value: object, wanted: str) -> model.Point:
-    if not isinstance(value, list) or len(value) != 3:
-        raise ValueError(wanted)
-    x, y, z = (toml.number_of(part, wanted) for part in value)
-    return x, y, z
-
-
-def _axis_or_free(value: object) -> model.Point | Literal["free"]:
-    """A direction, or that each query names one."""
-    if value == model.FREE:
-        return model.FREE
-    try:
-        return _axis(value)
-    except ValueError as error:
-        raise ValueError(f'{error}, or "{model.FREE}"') from None
+_turn = strict.number_with("a number of degrees, from -180 to 180", -180, 180)
+_share = strict.number_with("a number from 0 to 1", 0, 1)
+_axis_or_free = strict.or_word(model.FREE, strict.direction)
 
 
 def _height(value: object) -> model.Span:
@@ -255,9 +227,7 @@ def _span(
     value: object, wanted: str = "two finite numbers, [low, high] with low < high", *, infinite: bool = False
 ) -> model.Span:
     """A range of more than one number."""
-    if not isinstance(value, list) or len(value) != 2:
-        raise ValueError(wanted)
-    low, high = (toml.number_of(end, wanted, infinite=infinite) for end in value)
+    low, high = strict.numbers_of(value, 2, wanted, infinite=infinite)
     if not low < high:
         raise ValueError(wanted)
     return model.Span(low, high)
@@ -267,5 +237,5 @@ def _span_or_number(value: object) -> model.Span:
     """A range, or a single number that fixes it."""
     if isinstance(value, list):
         return _span(value)
-    only = toml.number_of(value, "a finite number, or two, [low, high] with low < high")
+    only = strict.number_of(value, "a finite number, or two, [low, high] with low < high")
     return model.Span(only, only)

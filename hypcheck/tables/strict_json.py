@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, NoReturn
 
@@ -53,24 +53,6 @@ def _members(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     return members
 
 
-def object_of(
-    value: object, what: str, names: Sequence[str], required: Sequence[str] | None = None
-) -> Mapping[str, Any]:
-    """The value, if it is an object with the `required` members (None: all of `names`) and none but `names`.
-
-    Raises InputError, beginning with `what`, if it is not.
-    """
-    if not isinstance(value, Mapping):
-        raise InputError(f"{what} is {shown_json(value)}; it must be an object with {', '.join(names)}")
-    unknown = [name for name in value if name not in names]
-    if unknown:
-        raise InputError(f"{what} has the key {shown(str(unknown[0]))}; it may have {', '.join(names)}")
-    missing = [name for name in (names if required is None else required) if name not in value]
-    if missing:
-        raise InputError(f"{what} lacks {missing[0]}")
-    return value
-
-
 CASES = "cases"
 LARGEST = 256 << 20
 """Bytes of a document, which is held in memory: two hundred thousand cases."""
@@ -111,8 +93,13 @@ def read_document(path: str, largest: int = LARGEST) -> JsonDocument:
 
 def fields_of(value: Any, names: tuple[str, ...], place: JsonPlace, what: str) -> tuple[Any, ...]:  # noqa: ANN401 - JSON
     """The members of an object that has exactly `names`, in their order. Raises InputError."""
-    if not isinstance(value, dict) or value.keys() != set(names):
-        object_of(value, f"{place}: {what}", names)  # raises; to name the place of each object would take long
+    if not isinstance(value, dict):
+        raise InputError(f"{place}: {what} is {shown_json(value)}; it must be an object with {', '.join(names)}")
+    if value.keys() != set(names):
+        unknown = [name for name in value if name not in names]
+        if unknown:
+            raise InputError(f"{place}: {what} has the key {shown(unknown[0])}; it may have {', '.join(names)}")
+        raise InputError(f"{place}: {what} lacks {next(name for name in names if name not in value)}")
     return tuple(value[name] for name in names)
 
 

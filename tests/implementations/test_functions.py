@@ -248,7 +248,7 @@ def test_a_slow_function_gets_smaller_batches_and_no_timeout():
             function("fails_to_import"),
             r"raised ModuleNotFoundError: .*\(fails_to_import.py, line 3\)",
         ),
-        (function("misspelt"), "the description has the key 'presicion'; it may have protocol, name"),
+        (function("misspelt"), "the description has the key 'presicion', which is not known; did you mean precision"),
         (
             function("ends_when_loaded"),
             "while it was loaded it ended by itself with .* 4; stderr: licence expired",

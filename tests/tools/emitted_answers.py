@@ -50,7 +50,7 @@ def texts() -> Iterator[tuple[str, str, ScenePlan, str]]:
 
 def rows_of(plan: ScenePlan) -> list[np.ndarray]:
     """Rows for each pair of sizes."""
-    domain = domain_of(description(plan, "c")["domain"], "the domain")
+    domain = domain_of(description(plan, "c")["domain"])
     found = (family.rows(0, ROWS) for family in families_for(domain.settings))
     return [rows for rows in found if len(rows)]
 

@@ -167,7 +167,7 @@ def worst_error(asked_of, plan, count):
 
     All rows of one pair of sizes are asked at once: for some languages a question starts a process.
     """
-    domain = domain_of(description(plan, "c")["domain"], "the domain")
+    domain = domain_of(description(plan, "c")["domain"])
     criterion = judge.Criterion(plan.question, plan.format.name, Fraction(8))
     tables = defaultdict(list)
     for family in families_for(domain.settings):

@@ -105,7 +105,7 @@ def test_a_kernel_for_a_tilted_mover_compiled_with_fma_has_no_false_clear(tmp_pa
     """An FMA where a product is taken apart would lose its lower half; some of the answers +1 and -1 are wrong then."""
     options = ("-O3", "-march=native", "-ffp-contract=fast")
     library = built(tmp_path, tower(FREE), "c", "float64", *options)
-    (setting,) = domain_of(description(plan_of(tower(FREE)), "c")["domain"], "the domain").settings
+    (setting,) = domain_of(description(plan_of(tower(FREE)), "c")["domain"]).settings
     beside = next(family for family in fixed_sizes.families_for((setting,)) if family.name.startswith("leaning-beside"))
     rows = beside.rows(0, 3000)
     truth, found = judge.exact_positions(rows), answers(library, rows)

@@ -1,0 +1,313 @@
+"""Tables that users and foreign programs write, read strictly: each value is checked, and no key is left over.
+
+A check makes something of a value, or raises ValueError, whose text says what the value must be. The refusal of a value
+is one sentence: where it is, what it is, and what it must be. Scenes, settings and known failures in TOML, and the
+descriptions of implementations in JSON, are read so.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, NoReturn, TypeVar
+
+from hypcheck.errors import InputError
+from hypcheck.messages import suggestion
+from hypcheck.toml import Path, lines_of, nearest_line, parsed
+
+Value = TypeVar("Value")
+Other = TypeVar("Other")
+Check = Callable[[object], Value]
+"""From what a table holds to what is made of it; raises ValueError, whose text ends "it must be …".
+
+It may also raise InputError, whose text is then the whole sentence.
+"""
+
+
+@dataclass(frozen=True)
+class Origin:
+    """Where tables come from, and how messages name them and their values. `title` names the outermost table."""
+
+    title: str
+
+    table_kind = "an object"
+    """The noun for a table."""
+
+    def refuse(self, path: Path, sentence: str) -> NoReturn:  # noqa: ARG002 - where places have lines, they are named
+        """Raise InputError about the value at the path."""
+        raise InputError(sentence)
+
+    def named(self, path: Path) -> str:
+        """The table or the value at a path, as a sentence names it."""
+        if not path:
+            return self.title
+        *outer, last = path
+        return f"{self.named((*outer,))}[{last}]" if isinstance(last, int) else f"{self.named((*outer,))}'s {last}"
+
+    def named_value(self, path: Path) -> str:
+        """The value at a path, at the beginning of a sentence about what it is."""
+        return self.named(path)
+
+    def shown(self, value: object) -> str:
+        """A value on one line, short."""
+        raise NotImplementedError
+
+    def checked(self, path: Path, value: object, check: Check[Value]) -> Value:
+        """What the check makes of the value at the path. Raises InputError."""
+        try:
+            return check(value)
+        except ValueError as error:
+            self.refuse(path, f"{self.named_value(path)} is {self.shown(value)}; it must be {error}")
+        except InputError as error:
+            self.refuse(path, str(error))
+
+
+_LONGEST = 60
+"""Characters of a value that a message shows."""
+
+
+@dataclass(frozen=True)
+class TomlSource(Origin):
+    """A file's name and its text; messages name tables as the file writes them, and tables of arrays by number."""
+
+    name: str
+    text: str
+
+    table_kind = "a table"
+
+    @cached_property
+    def lines(self) -> dict[Path, int]:
+        """The line of each value; computed only for an error."""
+        return lines_of(self.text)
+
+    def refuse(self, path: Path, sentence: str) -> NoReturn:
+        """Raise InputError about the value at the path."""
+        line = nearest_line(self.lines, path)
+        raise InputError(f"{self.name}{'' if line is None else f', line {line}'}: {sentence}")
+
+    def named(self, path: Path) -> str:
+        """The table at a path: [mover], [flight].start, hyperboloid 3, [mover] part 1."""
+        if not path:
+            return self.title
+        *outer, last = path
+        if isinstance(last, int):
+            *outer, key = outer
+            return f"{f'{self.named((*outer,))} ' if outer else ''}{str(key).replace('_', ' ')} {last + 1}"
+        return f"{self.named((*outer,))}.{last}" if outer else f"[{last}]"
+
+    def named_value(self, path: Path) -> str:
+        """The value at a path: its key, after the name of its table unless that is the whole file."""
+        *outer, key = path
+        return f"{self.named((*outer,))}: {key}" if outer else f"{key}"
+
+    def shown(self, value: object) -> str:
+        """A value, short, and written as in the file if possible."""
+        shown = json.dumps(value, ensure_ascii=False, default=str).replace("NaN", "nan").replace("Infinity", "inf")
+        return shown if len(shown) <= _LONGEST else shown[:_LONGEST] + "…"
+
+
+class StrictTable:
+    """A table at a path, which may have these keys."""
+
+    def __init__(self, origin: Origin, path: Path, content: object, keys: Sequence[str]) -> None:
+        self.origin, self._path = origin, path
+        if not isinstance(content, Mapping):
+            shown = origin.shown(content)
+            self.refuse(f"{self.title} is {shown}; it must be {origin.table_kind} with {', '.join(keys)}")
+        self._content: Mapping[str, Any] = content
+        for key in content:
+            if key not in keys:
+                hint = suggestion(str(key), keys, most=1, otherwise="it may have")
+                self.refuse(f"{self.title} has the key {origin.shown(key)}, which is not known; {hint}", key)
+
+    @property
+    def title(self) -> str:
+        """The table, as messages name it."""
+        return self.origin.named(self._path)
+
+    def named(self, key: str) -> str:
+        """The value of a key, as messages name it."""
+        return self.origin.named_value((*self._path, key))
+
+    def refuse(self, sentence: str, *keys: str | int) -> NoReturn:
+        """Raise InputError about the table, or about a value in it."""
+        self.origin.refuse((*self._path, *keys), sentence)
+
+    def required(self, key: str, check: Check[Value]) -> Value:
+        """The checked value of a key that must be there."""
+        if key not in self._content:
+            self.refuse(f"{self.title} has no {key}; it must be {_wanted(check)}")
+        return self._checked(key, check)
+
+    def optional(self, key: str, check: Check[Value], default: Other) -> Value | Other:
+        """The checked value of a key, or the default if it is absent."""
+        return self._checked(key, check) if key in self._content else default
+
+    def present(self, checks: Mapping[str, Check[Any]]) -> dict[str, Any]:
+        """The checked value of each key that is there and has a check, in the order of the table."""
+        return {key: self._checked(key, checks[key]) for key in self._content if key in checks}
+
+    def table(self, key: str, keys: Sequence[str]) -> StrictTable | None:
+        """The table of that key; None if it is absent."""
+        if key not in self._content:
+            return None
+        return StrictTable(self.origin, (*self._path, key), self._content[key], keys)
+
+    def tables(
+        self, key: str, keys: Sequence[str], wanted: str, *, least: int = 0, most: int | None = None
+    ) -> list[StrictTable]:
+        """The array of tables of that key, from `least` to `most` of them; empty if the key is absent.
+
+        `wanted` says what the value must be.
+        """
+        if key not in self._content:
+            return []
+        array, path = self._content[key], (*self._path, key)
+        if not isinstance(array, list) or len(array) < least:
+            self.refuse(f"{self.named(key)} is {self.origin.shown(array)}; it must be {wanted}", key)
+        if most is not None and len(array) > most:
+            self.refuse(f"{self.title} has {len(array):,} tables {key}; a file may have {most:,} at most", key)
+        return [StrictTable(self.origin, (*path, place), content, keys) for place, content in enumerate(array)]
+
+    def _checked(self, key: str, check: Check[Value]) -> Value:
+        return self.origin.checked((*self._path, key), self._content[key], check)
+
+
+def _wanted(check: Check[Any]) -> str:
+    """The requirement of a check: the sentence with which it refuses None."""
+    try:
+        check(None)
+    except ValueError as error:
+        return str(error)
+    raise AssertionError("a check let nothing pass for something")
+
+
+def table_of(text: str, name: str, title: str, keys: Sequence[str]) -> StrictTable:
+    """The outermost table of a TOML text, which may have these keys; messages name the file `name`, the table `title`.
+
+    Raises InputError.
+    """
+    return StrictTable(TomlSource(title, name, text), (), parsed(text, name), keys)
+
+
+LONGEST_TEXT = 1000
+"""Characters of a text."""
+
+
+def text(value: object) -> str:
+    """A text with something in it."""
+    if not isinstance(value, str) or not value.strip() or len(value) > LONGEST_TEXT:
+        raise ValueError(f"a text that is not empty, of at most {LONGEST_TEXT:,} characters")
+    return value
+
+
+def one_of(*choices: str) -> Check[str]:
+    """One of some words."""
+
+    def check(value: object) -> str:
+        if not isinstance(value, str) or value not in choices:
+            raise ValueError(f"one of {', '.join(choices)}")
+        return value
+
+    return check
+
+
+def truth(value: object) -> bool:
+    """The value of a key that must be true or false."""
+    if not isinstance(value, bool):
+        raise ValueError("true or false")  # noqa: TRY004 - turned into a sentence about the value
+    return value
+
+
+def texts(wanted: str, *, least: int = 1) -> Check[tuple[str, ...]]:
+    """A check for a list of at least so many texts that are not empty; `wanted` ends the sentence of a refusal."""
+
+    def check(value: object) -> tuple[str, ...]:
+        if not isinstance(value, list) or len(value) < least:
+            raise ValueError(wanted)
+        if not all(isinstance(part, str) and part for part in value):
+            raise ValueError(wanted)
+        return tuple(value)
+
+    return check
+
+
+def integer(value: object) -> int:
+    """How many of something."""
+    if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value < 2**31:
+        raise ValueError("a whole number, 0 or more and below 2^31")
+    return value
+
+
+def number_of(value: object, wanted: str, *, infinite: bool = False) -> float:
+    """The number, as float64. Raises ValueError with the text `wanted` if it is not a number or not finite."""
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        raise ValueError(wanted)  # noqa: TRY004 - turned into a sentence about the value
+    try:
+        result = float(value) + 0.0  # + 0.0 turns −0.0 into 0.0
+    except OverflowError:
+        raise ValueError(f"{wanted} that float64 holds") from None
+    if math.isnan(result) or (math.isinf(result) and not infinite):
+        raise ValueError(wanted)
+    return result
+
+
+def number_with(
+    wanted: str, low: float = -math.inf, high: float = math.inf, *, above: bool = False, infinite: bool = False
+) -> Check[float]:
+    """A check for a number from `low` to `high`, or `above` low; `wanted` ends the sentence of a refusal."""
+
+    def check(value: object) -> float:
+        result = number_of(value, wanted, infinite=infinite)
+        if not low <= result <= high or (above and result == low):
+            raise ValueError(wanted)
+        return result
+
+    return check
+
+
+number = number_with("a finite number")
+positive = number_with("a finite number above 0", 0, above=True)
+"""A length of a body."""
+
+not_negative = number_with("a finite number, 0 or more", 0)
+"""A distance."""
+
+
+def numbers_of(value: object, count: int, wanted: str, *, infinite: bool = False) -> tuple[float, ...]:
+    """A list of so many numbers, as float64. Raises ValueError with the text `wanted` if it is not."""
+    if not isinstance(value, list) or len(value) != count:
+        raise ValueError(wanted)
+    return tuple(number_of(part, wanted, infinite=infinite) for part in value)
+
+
+def point(value: object, wanted: str = "three finite numbers, [x, y, z]") -> tuple[float, float, float]:
+    """Three coordinates."""
+    x, y, z = numbers_of(value, 3, wanted)
+    return x, y, z
+
+
+def direction(value: object) -> tuple[float, float, float]:
+    """A vector of any length but 0."""
+    wanted = "three finite numbers, [x, y, z], not all 0"
+    vector = point(value, wanted)
+    if not any(vector):
+        raise ValueError(wanted)
+    return vector
+
+
+def or_word(word: Other, check: Check[Value]) -> Check[Value | Other]:
+    """A check for one word, or for what the other check takes."""
+
+    def with_word(value: object) -> Value | Other:
+        if value == word:
+            return word
+        try:
+            return check(value)
+        except ValueError as error:
+            raise ValueError(f'{error}, or "{word}"') from None
+
+    return with_word
