@@ -7,6 +7,7 @@ from functools import partial
 import numpy as np
 import pytest
 
+from hypcheck import toml
 from hypcheck.bench import accuracy, run
 from hypcheck.bench.contender import Contender, InEngine, InPython, InScalars
 from hypcheck.bench.contenders import contenders
@@ -14,6 +15,7 @@ from hypcheck.bench.plan import QUICK, BenchPlan
 from hypcheck.bench.workloads import WORKLOADS
 from hypcheck.errors import Exit
 from hypcheck.geometry.rows import CANNOT_SAY
+from hypcheck.implementations import builtin
 from hypcheck.implementations.domain import Domain
 from hypcheck.implementations.meshes import FCL, scene_mesh
 from hypcheck.record import Recorder
@@ -94,6 +96,25 @@ def test_memory_line_reports_what_a_method_needs_beyond_its_rows():
     line = accuracy.memory_line(contender(load=partial(InPython, greedy)), TWO_SCENES)
     assert (line.method, line.rows) == ("mine", len(TWO_SCENES))
     assert 60e6 < line.peak_bytes < 90e6
+
+
+@pytest.mark.skipif(FCL.trouble() is not None, reason="python-fcl is not installed")
+def test_every_method_that_the_listing_names_is_built_in():
+    """Others are left out in silence, as those that do not run here are."""
+    listing = toml.shipped("hypcheck.bench", "contenders.toml")["contenders"]
+    known = {
+        "position": builtin.builtin_methods(),
+        "naive": builtin.builtin_methods(),
+        "tilted": builtin.tilted_methods(),
+        "passage": builtin.passage_methods() | builtin.passage_mesh_methods(),
+    }
+    named = {
+        subject: {entry.get("of", name.removesuffix("-c")) for entry in entries for name in entry["methods"]}
+        for subject, entries in listing.items()
+    }
+    assert named.keys() == known.keys()
+    elsewhere = {"table-2-longdouble"} if builtin.LONG_DOUBLE is None else set()
+    assert [names - set(known[subject]) - elsewhere for subject, names in named.items()] == [set()] * len(known)
 
 
 def test_what_is_missing_is_recorded_once():
