@@ -11,7 +11,14 @@ import pytest
 from hypcheck.cli.main import main
 
 LIBRARIES = ("msgspec", "numpy", "sympy", "mpmath", "fcl")
-HEAVY = (*LIBRARIES, "matplotlib", "jinja2", "distributed", "dask", "importlib.metadata")
+STUDIES = (
+    "hypcheck.engines",
+    "hypcheck.proofs",
+    "hypcheck.paper.forest",
+    "hypcheck.paper.ledger",
+    "hypcheck.paper.tower",
+)
+HEAVY = (*LIBRARIES, *STUDIES, "matplotlib", "jinja2", "distributed", "dask", "importlib.metadata")
 UNDRAWN = "sys.modules.update(matplotlib=None, jinja2=None)"
 """For runs whose reports are not tested: drawing them takes longer than the run."""
 
@@ -46,7 +53,7 @@ def test_classify_of_one_pair_loads_neither_numpy_nor_mpmath():
     ("commands", "allowed"),
     [
         ([["cases", "list"], ["emit", "--scene", "tower", "--language", "c"], ["plan", "tower"]], {"numpy"}),
-        ([["simulate", "forest", "--steps", "20"]], {"numpy", "mpmath"}),
+        ([["simulate", "forest", "--steps", "20"]], {"numpy", "mpmath", "hypcheck.paper.forest"}),
         (
             [
                 ["replay", "tower-body/1/1/3", "builtin:fast"],
@@ -62,8 +69,8 @@ def test_classify_of_one_pair_loads_neither_numpy_nor_mpmath():
         ),
     ],
 )
-def test_commands_load_only_libraries_that_they_use(commands, allowed, tmp_path, monkeypatch):
-    """A table of cases needs no oracle, a gate no derivation, and two oracles of four no mesh."""
+def test_commands_load_only_libraries_and_studies_that_they_use(commands, allowed, tmp_path, monkeypatch):
+    """A table of cases needs no oracle, a gate no derivation and no study, and two oracles of four no mesh."""
     monkeypatch.chdir(tmp_path)
     before = UNDRAWN if commands[-1][0] == "verify" else ""
     assert after(*commands, before=before) <= allowed | {"importlib.metadata"}
