@@ -14,9 +14,10 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NoReturn, TypeVar
 
+from hypcheck import toml
 from hypcheck.errors import InputError
 from hypcheck.messages import suggestion
-from hypcheck.toml import Path, lines_of, nearest_line, parsed
+from hypcheck.toml import Path
 
 Value = TypeVar("Value")
 Other = TypeVar("Other")
@@ -81,11 +82,11 @@ class TomlSource(Origin):
     @cached_property
     def lines(self) -> dict[Path, int]:
         """The line of each value; computed only for an error."""
-        return lines_of(self.text)
+        return toml.lines_of(self.text)
 
     def refuse(self, path: Path, sentence: str) -> NoReturn:
         """Raise InputError about the value at the path."""
-        line = nearest_line(self.lines, path)
+        line = toml.nearest_line(self.lines, path)
         raise InputError(f"{self.name}{'' if line is None else f', line {line}'}: {sentence}")
 
     def named(self, path: Path) -> str:
@@ -190,7 +191,7 @@ def table_of(text: str, name: str, title: str, keys: Sequence[str]) -> StrictTab
 
     Raises InputError.
     """
-    return StrictTable(TomlSource(title, name, text), (), parsed(text, name), keys)
+    return StrictTable(TomlSource(title, name, text), (), toml.parsed(text, name), keys)
 
 
 LONGEST_TEXT = 1000
