@@ -125,11 +125,14 @@ def settings_facts(settings: lines.SettingsPart | UnsetType | None) -> Iterator[
 
 
 def implementation_claims(
-    line: lines.ImplementationLine | lines.NotStartedLine, rows: Mapping[str, int] = MappingProxyType({})
+    line: lines.ImplementationLine | lines.NotStartedLine,
+    rows: Mapping[str, int] = MappingProxyType({}),
+    *,
+    left_out: bool = True,
 ) -> Iterator[str]:
     """Sentences without a full stop about an implementation; none if it did not start.
 
-    `rows` counts rows that were not tested, by reason.
+    `rows` counts rows that were not tested, by reason. `left_out`: with the sentence about what was not tested.
     """
     if isinstance(line, lines.NotStartedLine):
         return
@@ -138,9 +141,9 @@ def implementation_claims(
     yield f"declares {description_text(declared)}"
     if changed:
         yield f"judged as {listed([_declared_value(used, name) for name in changed])}, as the options say"
-    left_out = [text for text in (families_not_asked(line), rows_not_asked(rows)) if text]
-    if left_out:
-        yield f"not asked: {'; '.join(left_out)}"
+    not_asked = [text for text in (families_not_asked(line), rows_not_asked(rows)) if text]
+    if not_asked and left_out:
+        yield f"not asked: {'; '.join(not_asked)}"
     yield from spread(line)
     again, restarts = line.again, line.restarts
     other = again.within + again.beyond

@@ -13,7 +13,7 @@ from collections.abc import Iterator, Sequence
 from hypcheck.messages import counted
 from hypcheck.record import Record
 from hypcheck.record.lines import EquationLine, FindingLine, ProofLine
-from hypcheck.record.measurements import BoundingLine, KernelLine, SpeedLine, UnmeasuredLine
+from hypcheck.record.measurements import BoundingLine, SpeedLine, UnmeasuredLine
 from hypcheck.report import model
 from hypcheck.report.advice import IN_FLOATS
 from hypcheck.report.benchmark_facts import facts_of, sentences_of
@@ -21,19 +21,25 @@ from hypcheck.report.measured import NEAREST, MeasuredMethod, SweepTotal, measur
 from hypcheck.report.messages import figure, implementation_claims, listed, pace, tolerance_of
 
 
-def oracle_facts(record: Record) -> Iterator[str]:
-    """One sentence about the used oracles, one about the unavailable oracles."""
+def oracle_facts(record: Record, *, held: bool = False) -> Iterator[str]:
+    """One sentence about the used oracles, one about the unavailable oracles.
+
+    `held`: the verdict says already that no used oracle disagreed.
+    """
     totals = model.oracle_totals(record)
     agreements = [f"{total.name} {total.agreed:,} of {total.asked:,}" for total in totals if total.unavailable is None]
-    if agreements:
+    if agreements and not held:
         yield f"oracles in agreement: {', '.join(agreements)}"
     missing = [f"{total.name} ({total.unavailable})" for total in totals if total.unavailable is not None]
     if missing:
         yield f"oracles not available: {'; '.join(missing)}"
 
 
-def paper_facts(record: Record) -> Iterator[str]:
-    """The paper's equations, the proofs and the mathematical findings."""
+def paper_facts(record: Record, *, held: bool = False) -> Iterator[str]:
+    """The paper's equations, the proofs and the mathematical findings.
+
+    `held`: the verdict says already that all proofs hold.
+    """
     equations = record.of(EquationLine)
     if equations:
         numbers: dict[str, list[str]] = {}
@@ -43,7 +49,7 @@ def paper_facts(record: Record) -> Iterator[str]:
         wrong = "".join(f"; {name}: {listed(those)}" for name, those in numbers.items())
         yield f"equations of the paper: {holding} of {len(equations)} hold{wrong}"
     proofs = record.of(ProofLine)
-    if proofs:
+    if proofs and not held:
         yield f"proofs: {sum(line.holds for line in proofs)} of {len(proofs)} hold"
     findings = record.of(FindingLine)
     if findings:
@@ -80,12 +86,7 @@ def _farthest(methods: Sequence[model.ImplementationTotal]) -> str:
 
 
 def benchmark_facts(record: Record) -> Iterator[str]:
-    """Targets met, the price of other shapes, and the distances at which errors end."""
-    kernels = record.of(KernelLine)
-    if kernels:
-        missed = [line.name for line in kernels if not line.met]
-        named = f"; not met: {listed(missed)}" if missed else ""
-        yield f"targets of the kernels: {len(kernels) - len(missed)} of {len(kernels)} met{named}"
+    """The price of other shapes, and the distances at which errors end."""
     yield from sentences_of(record, BoundingLine)
     for method in sweep_totals(record):
         yield _sweep_fact(method)
@@ -135,13 +136,17 @@ def _end(distance: float) -> str:
     return "at exact tangencies alone" if distance <= NEAREST else f"errors end at {figure(distance)}"
 
 
-def tested_facts(record: Record) -> Iterator[str]:
-    """What gated implementations declare, the values that judged them, and facts that a failing verdict leaves out."""
+def tested_facts(record: Record, *, held: bool) -> Iterator[str]:
+    """What gated implementations declare and how they were asked.
+
+    `held`: the verdict says already what was not asked, and how many rows were fresh.
+    """
     for tested in model.under_test(record):
         counts: Counter[str] = sum((Counter(group.not_asked or {}) for group in tested.groups), Counter())
-        yield from (f"{tested.name}: {claim}" for claim in implementation_claims(tested.line, counts))
+        claims = implementation_claims(tested.line, counts, left_out=not held)
+        yield from (f"{tested.name}: {claim}" for claim in claims)
         fresh = sum(group.fresh or 0 for group in tested.groups)
-        if fresh:
+        if fresh and not held:
             yield f"{tested.name}: {counted(fresh, 'fresh row')}"
 
 
