@@ -118,7 +118,7 @@ def _answered(pair: Pair, margin: float | None, *, as_json: bool) -> str:
 
 
 def _margin(text: str, end: tuple[str, str, str] | None) -> float:
-    """The margin that the text writes. Raises InputError where it is no length, and for a sweep."""
+    """The margin in the text. Raises InputError if it is not a length, or if the question is a sweep."""
     if end is not None:
         raise InputError("--margin is for a position; with --end the question is a sweep, so leave one of them out")
     margin = _number("--", "margin", text)

@@ -122,7 +122,7 @@ class ShownPace:
         self._steps = self._units = self._waiting = 0
 
     def name(self, label: str, unit: str) -> None:
-        """Begin another stage, with its label and unit."""
+        """Begin another stage of the progress line, with its label and the unit that it counts."""
         self.unit = unit
         if self._bar is not None:
             self._bar.label = label

@@ -42,7 +42,7 @@ def float_arithmetic(format_name: str) -> Arithmetic:
     Raises ValueError where there is no such format.
     """
     if format_name not in FORMATS:
-        raise ValueError(f"{format_name!r} is none of the formats {', '.join(FORMATS)}")
+        raise ValueError(f"{format_name!r} is not one of the formats {', '.join(FORMATS)}")
     return Arithmetic(
         name=format_name,
         convert=partial(np.asarray, dtype=np.dtype(format_name)),

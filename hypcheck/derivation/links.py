@@ -50,10 +50,10 @@ def has_sign(
     """Whether the form of a rational expression shows that it is `relation` 0, its letters being > 0 or ≥ 0 as said.
 
     Of a letter that is in neither list nothing is known: it may be in even powers only. False where the form does not
-    tell. Raises ValueError for a relation that is none of RELATIONS.
+    tell. Raises ValueError for a relation that is not in RELATIONS.
     """
     if relation not in RELATIONS:
-        raise ValueError(f"{relation!r} is none of {', '.join(RELATIONS)}")
+        raise ValueError(f"{relation!r} is not one of {', '.join(RELATIONS)}")
     if relation in {"<", "≤"}:
         return has_sign(-expression, ">" if relation == "<" else "≥", positive, nonnegative)
     known, above = {*positive, *nonnegative}, set(positive)
@@ -267,7 +267,7 @@ class Chain:
 
     @property
     def holds(self) -> bool:
-        """Whether every link holds. The chains that it needs are asked on their own."""
+        """Whether every link holds; the chains that it needs are checked separately."""
         return bool(self.links) and all(link.holds for link in self.links)
 
 

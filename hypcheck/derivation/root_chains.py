@@ -2,7 +2,7 @@
 
 First come links about any cubic with real roots (Vieta's formulas, signs between roots, Δ), then the chain "roots":
 signs of g at three places and Vieta's product; then the chain "positions", from the rule to the roots, with the cases
-of Δ = 0 that are no contact.
+of Δ = 0 that are not contact.
 
 From these follow the propositions put right:
 

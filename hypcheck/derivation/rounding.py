@@ -50,7 +50,9 @@ class ErrorCounts:
 
 @dataclass(frozen=True, slots=True)
 class _Term:
-    """What is known about a value: k, where M is found, and the sign all its terms share (+1, −1), if they do.
+    """Facts about a value: its count of roundings k, the place of its magnitude M, and the common sign of its terms.
+
+    `sign` is +1 or −1, or None if the terms have no common sign that is known.
 
     `one_signed` without `sign` means that the terms share a sign that is not known beforehand, as in one coordinate.
     """

@@ -52,7 +52,7 @@ class Half:
 
     @property
     def reads(self) -> tuple[str, ...]:
-        """The pair."""
+        """The names that this part reads: that of its pair."""
         return (self.pair,)
 
 
@@ -69,7 +69,7 @@ class Stored:
 
     @property
     def reads(self) -> tuple[str, ...]:
-        """The number."""
+        """The names that this part reads: that of its number."""
         return (self.value,)
 
 
@@ -121,7 +121,7 @@ class Routine:
 
     `meaning` is a sentence about the result. Inputs are numbers, or `pairs`; those of `record` are given as one, a
     setting's constants, whose type is called `record_name`. `constants` are numbers that parts may read. Raises
-    ValueError on construction as Program does, and where a loop has no rounds, keeps what is no number, or a call
+    ValueError on construction as Program does, and where a loop has no rounds, keeps what is not a number, or a call
     gives another number of arguments than the routine takes.
     """
 
@@ -153,7 +153,7 @@ class Routine:
 
     @property
     def given(self) -> dict[str, str]:
-        """The kinds of what is there before the parts: inputs, the record, constants."""
+        """The kind of each name that is defined before the first part: inputs, fields of the record, constants."""
         names = (*self.inputs, *self.record, *self.constants)
         return {name: PAIR if name in self.pairs else NUMBER for name in names}
 
@@ -203,7 +203,7 @@ class Routine:
         for _, _, end in loop.kept:
             self._require_number(end, inside)
             if end in kinds:  # what a kept number becomes could be lost while the others are set
-                raise ValueError(f"routine {self.name}: a round ends with {end}, which its body does not make")
+                raise ValueError(f"routine {self.name}: the loop keeps {end}, which its body does not compute")
         if loop.until is not None and inside.get(loop.until) != BOOLEAN:
             raise ValueError(f"routine {self.name}: a loop ends by {loop.until}, which is not a condition")
 

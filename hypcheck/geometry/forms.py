@@ -225,7 +225,7 @@ def sizes_of(sizes: Argument) -> dict[str, Argument]:
 
 
 def named_points(subject: str, points: ArrayLike, names: Sequence[str] = CENTER) -> dict[str, Argument]:
-    """One point (3,), or points (n, 3), as values of three columns; an empty list is no points."""
+    """One point (3,), or points (n, 3), as values of three columns; an empty list has no points."""
     wanted = f"it must be three numbers, {', '.join(names)}, or an array (n, 3) of them"
     numbers = as_numbers(f"{subject} is", points, wanted)
     if numbers.shape == (0,) and names == CENTER:

@@ -159,7 +159,7 @@ class Pair:
 
     @property
     def lengths(self) -> Lengths:
-        """The same pair in integers: see Lengths."""
+        """The pair in integers, as Lengths describes."""
         return Lengths.of((*self._seven, *self.axis, *self.heights))
 
 

@@ -92,7 +92,7 @@ OFF = Means(missing=("--isolate is off",))
 
 
 def means_of(mode: str, here: Means | None = None) -> Means:
-    """What isolates programs in this mode, of the means that are here; None: those that this system has.
+    """The means by which programs are isolated in this mode; `here` are the available means, by default this system's.
 
     Raises NotIsolatedError if the mode is "on" and something is missing.
     """
@@ -234,7 +234,7 @@ THREADS = 1024
 DESCRIPTORS = 4096
 
 SCRATCH_BYTES = 256 << 20
-"""Bytes of the scratch folder, or, where it is no folder of its own in memory, of a file in it."""
+"""The size of the scratch folder in bytes; if it is not a separate folder in memory, of each file in it."""
 
 _END_S = 2.0
 

@@ -117,7 +117,7 @@ def _folder_of(path: str) -> str:
 
 
 def _installation(folder: str) -> tuple[str, ...]:
-    """The folder; for a folder named bin its parent, which has the libraries too."""
+    """The folders of an installation: the folder itself or, if it is named bin, its parent with the libraries."""
     outer = os.path.dirname(folder)
     if os.path.basename(folder) not in {"bin", "sbin", "shims"}:
         return (folder,)

@@ -38,14 +38,14 @@ def extension() -> ModuleType:
 
 
 def prepared(sizes: Sizes, like: Columns, axis: Axis | None = None) -> bytes:
-    """As classify.Kernel has it: a hypcheck_scene of core/parts/contract.h."""
+    """As in_use.Kernel has it: a hypcheck_scene of core/parts/contract.h."""
     columns = (np.require(column, np.float64, ["C", "A"]) for column in like)
     scene: bytes = extension().prepare(sizes, axis or UPRIGHT, *columns)
     return scene
 
 
 def answer_rows(rows: Rows, question: Question, threads: int | None = None) -> tuple[Positions, int]:
-    """As classify.Kernel has it."""
+    """As in_use.Kernel has it."""
     ask, number, answers = compiled().ask, NUMBER_OF[question], np.empty(len(rows), dtype=np.int8)
     return answers, _by_row(partial(ask, number), rows, (answers,), threads)
 
@@ -63,7 +63,7 @@ def _by_row(ask: Callable[..., int], rows: Rows, outputs: Sequence[NDArray[Any]]
 def answer_scene(
     sizes: Sizes, columns: Columns, question: Question, threads: int | None = None, axis: Axis | None = None
 ) -> tuple[Positions, int]:
-    """As classify.Kernel has it."""
+    """As in_use.Kernel has it."""
     answers = np.empty(len(columns[0]), dtype=np.int8)
     return answers, fill_scene(sizes, columns, answers, question, threads, axis)
 
@@ -111,14 +111,14 @@ def fill_valid_scene(
 
 
 def answer_sweeps(rows: Rows) -> tuple[Positions, Floats]:
-    """As classify.Kernel has it."""
+    """As in_use.Kernel has it."""
     hits, times = np.empty(len(rows), dtype=np.int8), np.empty(len(rows))
     _by_row(lambda *part: compiled().passage(*part) or 0, rows, (hits, times), None)
     return hits, times
 
 
 def answer_ended(rows: Rows, threads: int | None = None) -> Positions:
-    """As classify.Kernel has it."""
+    """As in_use.Kernel has it."""
     positions = np.empty(len(rows), dtype=np.int8)
     _by_row(lambda *part: compiled().classify_ended(*part) or 0, rows, (positions,), threads)
     return positions

@@ -14,7 +14,7 @@ from hypcheck.kernel.choice import Question, choice
 
 
 class Kernel(Protocol):
-    """The functions of a kernel. The first two return answers, 127 for invalid rows, and the number of invalid rows."""
+    """The functions of a kernel. answer_rows and answer_scene also return the number of invalid rows, answered 127."""
 
     def fill_valid_scene(
         self, sizes: Sizes, columns: Columns, out: Positions, threads: int | None = None, axis: Axis | None = None

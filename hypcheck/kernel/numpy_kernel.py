@@ -119,17 +119,17 @@ def fill_valid_scene(
     threads: int | None = None,  # noqa: ARG001
     axis: Axis | None = None,  # noqa: ARG001
 ) -> bool:
-    """As classify.Kernel has it; never, because nothing is gained here."""
+    """As in_use.Kernel has it; never, because nothing is gained here."""
     return False
 
 
 def prepared(sizes: Sizes, like: Columns, axis: Axis | None = None) -> bytes:  # noqa: ARG001
-    """As classify.Kernel has it; nothing is kept."""
+    """As in_use.Kernel has it; nothing is kept."""
     return b""
 
 
 def answer_rows(rows: Rows, question: Question, threads: int | None = None) -> tuple[Positions, int]:  # noqa: ARG001
-    """As classify.Kernel has it; always one thread."""
+    """As in_use.Kernel has it; always one thread."""
     return _answers(positions(rows), question)
 
 
@@ -140,12 +140,12 @@ def answer_scene(
     threads: int | None = None,  # noqa: ARG001 - numpy holds the interpreter too often for threads to pay
     axis: Axis | None = None,
 ) -> tuple[Positions, int]:
-    """As classify.Kernel has it; always one thread."""
+    """As in_use.Kernel has it; always one thread."""
     return _answers(positions_of_scene(sizes, *columns, axis), question)
 
 
 def answer_ended(rows: Rows, threads: int | None = None) -> Positions:
-    """As classify.Kernel has it: by the position without ends and the spheroid's greatest reach up and down.
+    """As in_use.Kernel has it: by the position without ends and the spheroid's greatest reach up and down.
 
     A difference that is rounded lies on the same side of r as the exact one, or is r, because r is a float64.
     """

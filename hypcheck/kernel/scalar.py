@@ -120,7 +120,7 @@ def _ended_position(
 
 
 def _valid_row(numbers: Sequence[float], axis: object) -> list[float]:
-    """The row of ten. Raises InputError where it is none."""
+    """The row of ten numbers. Raises InputError if it is not valid."""
     values = axis.tolist() if hasattr(axis, "tolist") else axis
     if not isinstance(values, (list, tuple)) or len(values) != len(AXIS):
         raise InputError(f"axis is {escaped(reprlib.repr(axis), 60)}; it must be three numbers: {', '.join(AXIS)}")

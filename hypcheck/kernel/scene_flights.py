@@ -233,7 +233,7 @@ class Asked(Protocol):
 
     @property
     def model(self) -> SceneModel:
-        """The content of the scene's file."""
+        """The scene as its file describes it."""
 
     def passage(
         self, start: ArrayLike, end: ArrayLike, heading: ArrayLike = 0.0, *, axis: ArrayLike | None = None
@@ -318,7 +318,7 @@ def _least_on(
 
 
 def _pieces(points: Floats, count: int) -> tuple[list[Floats], list[Indices], Floats]:
-    """The flight cut into pieces of one length: their points, the segments that these lie on, and the length flown."""
+    """The points and segments of each of `count` equally long pieces, and the length flown up to each point."""
     steps = np.sqrt((np.diff(points, axis=0) ** 2).sum(axis=1))
     flown = np.append(0.0, np.cumsum(steps))
     if flown[-1] == 0 or not np.isfinite(flown[-1]):

@@ -98,7 +98,7 @@ class _Pieces:
 
 @dataclass(frozen=True)
 class _Places:
-    """A place on each piece: its segment, time and centre, how long the piece is from there, and the rounding of it."""
+    """A place on each piece: its segment, time and centre, the length of the piece from there, the rounding error."""
 
     segment: Indices
     time: Floats

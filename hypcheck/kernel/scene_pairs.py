@@ -1,7 +1,7 @@
 """One mover beside one hyperboloid, both in the scene's coordinates: exact positions.
 
-A centre seen from another is x − x₀, and that is no float64 as a rule. Its rounding error, though, is one, and is known
-(TwoSum): where it is 0 the difference is exact and the fast path answers.
+A centre seen from another is x − x₀, which is usually not a float64. Its rounding error is one, and is known (TwoSum):
+where it is 0 the difference is exact and the fast path answers.
 
 **The hyperboloid is upright.** With the error e of the difference a spheroid whose semi-axes are ε = |e|/min(b, d)
 longer contains the true one, and one with semi-axes that much shorter lies in it. The larger clear is clear, the

@@ -100,7 +100,7 @@ class _State:
     idle: Counts
 
     def kept(self, those: Mask) -> _State:
-        """The state of only those flights."""
+        """The state reduced to the flights of the mask."""
         (x, y, z), (cosine, sine) = self.at, self.heading
         return _State(
             self.lane[those],

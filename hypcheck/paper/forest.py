@@ -70,7 +70,7 @@ class Trees:
 
     @cached_property
     def types(self) -> list[int]:
-        """1 for a trunk at least as wide as the walker, else 2 (the paper's Figure 1)."""
+        """The type of each tree in the paper's Figure 1: 1 if its trunk is at least as wide as the walker, else 2."""
         return [1 if tree.alpha >= self.scene.mover.b else 2 for tree in self.scene.hyperboloids]
 
     @cached_property

@@ -246,7 +246,7 @@ def require_counts(asked: int, wrong: int, where: str) -> None:
 
 
 def require_octaves(octaves: Mapping[str, object]) -> None:
-    """Raise ValueError if a key is no octave: a floor of log2, or an infinity."""
+    """Raise ValueError if a key is not an octave: a floor of log2, or an infinity."""
     for octave in octaves:
         if not _OCTAVE.fullmatch(octave):
             shown = shortened(repr(octave), 20)

@@ -325,7 +325,7 @@ def _escaped(text: str, escapes: Mapping[str, str]) -> str:
 
 
 def append_summary(record: Record, path: Path) -> str | None:
-    """Append the report to a step's summary; returns the reason if this fails, which is no failure of the run."""
+    """Append the report to a step's summary; returns the reason if this fails, which does not fail the run."""
     try:
         already = path.stat().st_size if path.exists() else 0
         with path.open("ab") as file:

@@ -291,7 +291,7 @@ def _timing_total(line: TimingLine, reference: list[float] | None) -> TimingTota
 
 
 def drawn_sweep(implementation: ImplementationTotal) -> WrongAnswer | None:
-    """The worst wrong answer about an upright spheroid's sweep, which the half plane can show; None if none."""
+    """The worst wrong answer about the sweep of an upright spheroid, which a picture can show; None without one."""
     if implementation.question != PASSAGE or not implementation.gated:
         return None
     return worst_case([case for group in implementation.groups for case in group.worst if case.axis is UNSET])

@@ -191,7 +191,7 @@ class Project:
         return written
 
     def filled(self, folder: str, name: str) -> str:
-        """A template with the values of @NAME@ and the like; that of the stub if it has one of its own."""
+        """A template with its marks such as @NAME@ filled in; if the stub has a template of its own, that one."""
         own = f"{folder}-{self.stub}"
         return filled(own if template(own, name).is_file() else folder, name, self._values, self.stub)
 

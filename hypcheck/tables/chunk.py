@@ -32,7 +32,9 @@ _ALSO_CALLED = {"α": "alpha", "γ": "gamma", "x0": "x", "y0": "y", "z0": "z", "
 
 
 def check_names(names: Sequence[str], where: str, noun: str = "column") -> None:
-    """Raise InputError, beginning with `where`, unless each column is there once (columns_of), and no added one.
+    """Raise InputError if a column of columns_of is missing or duplicate, or has the name of an added column.
+
+    The message begins with `where`.
 
     Other names are allowed and passed through; none but the empty one may occur twice.
     """
@@ -100,7 +102,7 @@ def first_double(names: Sequence[str]) -> str | None:
 
 
 def _advice(names: Sequence[str], missing: Sequence[str]) -> str:
-    """What would be right: the nearest name, if one is near."""
+    """Advice about missing columns, for a message: the name that is meant, if one is similar."""
     others = [name for name in names if name not in _GIVEN][:_MOST_COMPARED]
     for wanted in missing:
         for name in others:

@@ -132,7 +132,7 @@ def _chunks(reader: Reader, *, mark: bool) -> Iterator[UnreadChunk]:
 
 
 def _layout_of(text: str) -> Layout:
-    """The layout of the first row, which all have; of what is no row, of which its chunk says so, PAIRS."""
+    """The layout of the first row, which all rows have; PAIRS if it is not a row, which its chunk reports."""
     try:
         return layout_of(columns_of(_DECODER.decode(text)))
     except (ValueError, TypeError, AttributeError, RecursionError):

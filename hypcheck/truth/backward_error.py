@@ -191,7 +191,7 @@ def estimate(pair: Pair, truth: Decision, answer: Position) -> float:
 
 
 def exponent(pair: Pair, truth: Decision, answer: Position) -> float:
-    """log2 of the estimate; for an upright pair floor(log2) of the error, which takes a third of the decisions.
+    """log2 of the estimated backward error; for an upright pair floor(log2) of the exact one, which is cheaper.
 
     −inf for 0, inf for inf.
     """

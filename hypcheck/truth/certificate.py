@@ -305,7 +305,7 @@ class PassageCertificate:
 
 
 def place(row: Sequence[float], time: Fraction) -> PairAtTime:
-    """The pair of a row of ten or thirteen numbers at a time."""
+    """The pair at a time of the sweep in a row of ten or thirteen numbers."""
     numbers = [Fraction(number) for number in row]
     start, end = numbers[len(SIZES) : len(COLUMNS)], numbers[len(COLUMNS) : len(SWEEP_COLUMNS)]
     centre = [a + time * (b - a) for a, b in zip(start, end, strict=True)]

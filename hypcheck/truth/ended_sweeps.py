@@ -168,7 +168,7 @@ def grazes(sweep: StraightSweep) -> bool:
 
 
 def _is_deep(sweep: StraightSweep, time: Fraction) -> bool:
-    """Whether there is contact at a time that is no touch."""
+    """Whether there is contact at a time that is not a touch."""
     return sweep.position(time) is Position.CONTACT and not sweep.tangent(time)
 
 
@@ -203,7 +203,10 @@ def _gaps(clusters: Sequence[Interval]) -> list[Fraction | None]:
 
 
 def _first_of(sweep: EndedSweep, clusters: Sequence[Interval]) -> tuple[Interval | None, bool]:
-    """The first cluster with contact in it or after it, if the start is clear; and whether this is certain."""
+    """The first cluster of critical times that has contact in it or just after it, and whether the contact is certain.
+
+    None if there is no contact. The start of the sweep must be clear.
+    """
     for (low, high), behind in zip(clusters, _gaps(clusters)[1:], strict=True):
         if low == high:
             if sweep.meets(low):

@@ -282,7 +282,7 @@ def _clear(A: Floats, B: Floats, P: Floats, Q: Floats, at: Floats) -> Positions:
 
 
 def _shift(proved: Mask, position: Position) -> Positions:
-    """The number to add to UNDECIDED: at most one position of a row is proved, and a sum is faster than a choice."""
+    """The numbers that, added to UNDECIDED, give `position` where it is proved; a sum is faster than a choice."""
     return proved.view(np.int8) * np.int8(position - UNDECIDED)
 
 

@@ -95,7 +95,7 @@ class MeshScene:
         self.low, self.high = max(z - reach, ends[0]), min(z + reach, ends[1])
 
     def whole(self) -> Floats:
-        """Cells (n, 5) that cover all parts within reach: the number of the part, s or r from and to, θ from and to."""
+        """Cells (n, 5) that cover all parts within reach: part, least and greatest s or r, least and greatest θ."""
         parts = list(self._parts())
         turns = np.linspace(0, 2 * math.pi, _START + 1)
         rows = [(*part, *turn) for part in parts for turn in pairwise(turns.tolist())]

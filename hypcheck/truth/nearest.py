@@ -119,7 +119,10 @@ def multiplier(row: Sequence[float | Fraction]) -> Fraction:
 
 
 def _in_closed_form(lengths: Lengths) -> NearestPoint | None:
-    """The hard cases of an upright pair, where D is largest at an end: a centre on the axis, or in the waist plane."""
+    """The nearest point of an upright pair with its centre on the axis or in the waist plane, or None.
+
+    These are the pairs for which D can be largest at an end of its interval; None if it is not, or for another pair.
+    """
     if not lengths.is_upright or (lengths.z and (lengths.x or lengths.y)):
         return None
     p, q, s, t = lengths.alpha**2, lengths.b**2, lengths.gamma**2, lengths.d**2

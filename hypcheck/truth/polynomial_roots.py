@@ -42,7 +42,7 @@ def sturm_chain(f: Polynomial) -> tuple[Polynomial, ...]:
 
 
 def variations(chain: Sequence[Polynomial], x: Fraction) -> int:
-    """The changes of sign in the values of a Sturm chain at x, which is no root of its first polynomial."""
+    """The changes of sign in the values of a Sturm chain at x, which is not a root of its first polynomial."""
     return changes_of_sign(value(f, x) for f in chain)
 
 
@@ -134,9 +134,9 @@ def _away(f: Polynomial, low: Fraction, high: Fraction, met: Sequence[Fraction])
 
 
 def _no_root_between(f: Polynomial, low: Fraction, high: Fraction) -> Fraction:
-    """A number near the middle, or near the middle of their exponents, that is no root.
+    """A number near the middle, or near the middle of their exponents, that is not a root.
 
-    Among more numbers than f has roots, one is no root.
+    Among more numbers than f has roots, one is not a root.
     """
     middle = power_near(low, high) if 0 < 4 * low < high else (low + high) / 2
     step = min(middle - low, high - middle) / 16

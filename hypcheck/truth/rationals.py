@@ -101,7 +101,7 @@ def rounded_toward(number: Fraction, infinity: float) -> float:
 
 
 def fraction(number: mpf) -> Fraction:
-    """An mpf, exactly; its mantissa has no sign."""
+    """The exact value of a number of mpmath, whose mantissa is stored without its sign."""
     size = Fraction(int(number.man)) * power_of_two(int(number.exp))
     return -size if number < 0 else size
 

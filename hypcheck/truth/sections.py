@@ -204,7 +204,9 @@ class Sections:
         return squarefree(discriminant(self.cubic) if c0 or c1 else c2)
 
     def roots(self, chain: Sequence[Polynomial], low: Height | Fraction, high: Height | Fraction) -> int:
-        """The roots of f from `low` to `high` for the chain of (f, f′); for (f, f′ h) the sum of the signs of h there.
+        """The number of roots of f from `low` to `high`, by the Sturm chain of (f, f′).
+
+        For the chain of (f, f′ h) it is the sum of the signs of h at these roots.
 
         `low` itself is left out, f has simple roots. Where `low` or `high` is one of them, h must be > 0 there.
         """

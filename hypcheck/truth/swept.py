@@ -109,7 +109,7 @@ def _narrow(time: Fraction, contact: Fraction | None, bits: int | None) -> bool:
 
 
 def _crosses(sweep: StraightSweep, time: Fraction) -> bool:
-    """Whether there is contact at a time that is no tangency."""
+    """Whether there is contact at a time that is not a tangency."""
     return sweep.position(time) is Position.CONTACT and not sweep.tangent(time)
 
 
@@ -212,7 +212,7 @@ def passage(
 
 
 def passage_on(sweep: StraightSweep) -> Passage:
-    """The passage of a sweep."""
+    """The first contact of a sweep, if it has contact."""
     if sweep.start.has_ends:
         return beside_ends(sweep)
     return by_steps(sweep) or by_roots(sweep)

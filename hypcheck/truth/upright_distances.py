@@ -193,7 +193,7 @@ def _evaluate(scaled: ScaledArrays, tau: Floats, sigma: Floats) -> DualArrays:
 
 
 def _swapped(straight: Mask, first: DoubleDouble, second: DoubleDouble) -> tuple[DoubleDouble, DoubleDouble]:
-    """first and second, or second and first where not straight."""
+    """The two numbers, exchanged where `straight` is false."""
     return double_double.where(straight, first, second), double_double.where(straight, second, first)
 
 

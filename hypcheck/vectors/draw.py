@@ -67,7 +67,7 @@ class Draw:
         return words
 
     def places(self, n: int) -> Integers:
-        """0, 1, 2 … in each block; takes no words."""
+        """The place of each row in its block: 0, 1, 2 …; draws no random words."""
         return np.tile(np.arange(n // len(self._streams)), len(self._streams))
 
     def integers(self, n: int, low: int, high: int) -> Integers:

@@ -270,7 +270,7 @@ def _tilted_rows(setting: FixedSizes, draw: Draw, n: int, offset: Floats) -> Row
 
 
 def _held(setting: FixedSizes, rows: Rows) -> Rows:
-    """The rows with finite centres, their heights in the span."""
+    """The rows with each centre made finite and its height moved into the setting's span."""
     centre = np.where(np.abs(rows[:, 4:7]) <= FARTHEST, rows[:, 4:7], 0.0)
     rows[:, 4:7] = centre
     rows[:, 6] = np.clip(centre[:, 2], *_span_or(setting.z, FARTHEST))

@@ -371,7 +371,7 @@ tangent = gathered(lambda draw, n: double_roots(draw, n)[:2])
 """Exact tangencies."""
 
 crossing = gathered(lambda draw, n: double_roots(draw, n)[::2])
-"""Double roots that are no tangencies."""
+"""Double roots that are not tangencies."""
 
 
 def moved_by_ulps(draw: Draw, rows: Rows) -> Rows:

@@ -56,7 +56,7 @@ def looping(times=2, kept=(("k", "x", "y"),), body="y = k + 1", result="k"):
         (lambda: looping(kept=(("k", "z", "y"),)), "keeps z, which is not a number"),
         (lambda: looping(kept=(("x", "x", "y"),)), "x is defined twice"),
         (lambda: looping(body="y = k > 1"), "keeps y, which is not a number"),
-        (lambda: looping(kept=(("k", "x", "k"),)), "a round ends with k, which its body does not make"),
+        (lambda: looping(kept=(("k", "x", "k"),)), "the loop keeps k, which its body does not compute"),
         (lambda: looping(result="y"), "there is no y"),
         (lambda: Routine("r", "", ("x",), (Half("h", "x"),), "h"), "h: x is not a pair"),
         (lambda: Routine("r", "", ("x",), (Stored("s", "x"),), "s", pairs=frozenset("x")), "s: x is not a number"),

@@ -59,7 +59,7 @@ class Dialect:
         return statements_in(self.name, program, wanted, number=self.number_of(precision))
 
     def filled(self, name: str, parts: Mapping[str, str]) -> str:
-        """The language's template of that name with its marks filled in: what a part says is never taken for a mark.
+        """The language's template of that name with its marks filled in; text of a part that looks like a mark stays.
 
         Raises KeyError for a mark that has no part.
         """

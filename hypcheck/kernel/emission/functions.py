@@ -231,7 +231,7 @@ def batch_function(plan: ScenePlan, stages: Stages, place: int, dialect: Dialect
 
 
 class _Batch(_Statements):
-    """The bodies of the two loops of one setting."""
+    """The statements of one setting for many rows: a quick first loop, and a loop for the rows that it leaves open."""
 
     def code(self, value: int) -> str:
         """An answer, or OPEN, as a number: comparisons and selections of one type become vectors."""

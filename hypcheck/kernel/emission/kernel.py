@@ -183,7 +183,7 @@ def _axis_parts(plan: ScenePlan, dialect: Dialect) -> dict[str, str]:
 
 
 def _settings(plan: ScenePlan, dialect: Dialect) -> list[str]:
-    """The tables of constants that searches take."""
+    """The code of the tables of constants that the searches of a plan read."""
     texts = []
     for place, search in _searched(plan):
         if isinstance(search, TiltedSearch):
@@ -226,7 +226,7 @@ _PAIRS = {"c": "{{{0}, {1}}}", "cpp": "{{{0}, {1}}}", "rust": "Dd {{ hi: {0}, lo
 
 
 def _frame(of: TiltedSearch, place: int, dialect: Dialect) -> str:
-    """The constants of a setting: its frame, or what a free axis' frame is made of."""
+    """The code of a setting's constants: its frame or, if the axis is free, the sizes that a frame is computed from."""
     fields = [(name, _pair(value, dialect)) for name, value in of.constants.items()]
     fields += [(name, dialect.literal(value, "float64")) for name, value in (("most", of.most), ("omega", of.omega))]
     values = ",\n    ".join(dialect.say("field", name=name, value=value) for name, value in fields)

@@ -360,7 +360,7 @@ def _steps(stages: Stages, question: str) -> Iterator[str]:
 
 
 def _average(stages: Stages, question: str) -> float:
-    """Rounded operations a centre of the sample, the search left aside."""
+    """The mean number of rounded operations for a centre of the sample, without those of the search."""
     if not stages.searches:
         return operations_before(stages, question).rounded
     average = float(_of(stages.entry.steps) + sum(_of(line.program.steps) for line in stages.lines))

@@ -76,7 +76,7 @@ class _Printer:
         return self.say("record", record=self._type_of_record(routine), fields="\n".join(INDENT + one for one in lines))
 
     def tables(self, parts: Iterable[Part]) -> Iterator[str]:
-        """The tables that loops go over."""
+        """The code of the tables whose rows the loops of the parts read."""
         for part in parts:
             if isinstance(part, Loop):
                 if part.table is not None:

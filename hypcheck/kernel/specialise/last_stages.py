@@ -279,7 +279,7 @@ def _farthest(scaled: ScaledSetting, form: FloatFormat) -> tuple[Fraction, Fract
 
 
 def _root(value: Fraction, form: FloatFormat) -> float:
-    """√value within one u or so: of 2 bits + 8 more than the format has."""
+    """√value, rounded to the format, with an error of about one unit u at most."""
     shift = 2 * (form.bits + 64)
     exponent = (value.denominator.bit_length() - value.numerator.bit_length()) // 2 * 2 + shift
     whole = isqrt(int(value * Fraction(2) ** exponent))

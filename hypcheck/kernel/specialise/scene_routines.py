@@ -273,7 +273,7 @@ def position_routine(scene: SceneModel) -> Routine:
 
 
 def sweep_routine(scene: SceneModel) -> Routine:
-    """The first contact of a sweep in the scene, as FIRST_OF_SWEEP has it of one hyperboloid."""
+    """The routine that finds the first contact of a sweep in the scene; FIRST_OF_SWEEP does so for one hyperboloid."""
     arguments = _arguments(sweep=True)
     body: tuple[Part, ...] = (
         *steps_of(_AXIS_SIZES + _level("start") + _level("end") + _OF_SWEEP + _ENDS + _WINDOWS),

@@ -77,7 +77,7 @@ class LedgerEntry:
     def proved_by(self) -> tuple[str, ...]:
         """The means by which the verdict is proved: Coq, sympy, exhaustive, witness.
 
-        A search that finds nothing is no proof.
+        A search that finds nothing does not prove anything.
 
         A definition needs none.
         """
