@@ -149,7 +149,8 @@ Definition is_asked (p : option datum * datum) := fst p = Some (snd p).
 Lemma go_straight procedures f rest l : forall now values, all_new now l values = true -> Forall is_asked (asked_values now l values) ->
   go known procedures (List.length l + f) now (l ++ rest)%list = go known procedures f (after now l values) rest.
 Proof.
-  induction l as [| [t n e | | |] l IH]; intros now [| w values] N F; try discriminate; [reflexivity |].
+  induction l as [| s l IH]; intros now [| w values] N F; [reflexivity | discriminate | destruct s; discriminate |]; destruct s; try discriminate.
+  match goal with |- context [Set_ ?a ?b ?c :: l] => rename a into t, b into n, c into e end.
   cbn [all_new asked_values] in N, F; apply andb_prop in N as [N1 N2]; pose proof (Forall_inv F) as E; apply Forall_inv_tail in F.
   unfold is_asked in E; cbn [fst snd] in E; cbn [List.length Nat.add app after]; destruct (eval known now e) as [v |] eqn:V; [| discriminate].
   rewrite (go_put known procedures _ now t n e _ v w N1 V E); apply IH; assumption.
