@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NoReturn, TypeVar
@@ -28,25 +28,25 @@ It may also raise InputError, whose text is then the whole sentence.
 """
 
 
-@dataclass(frozen=True)
 class Origin:
     """Where tables come from, and how messages name them and their values. `title` names the outermost table."""
 
     title: str
-
     table_kind = "an object"
     """The noun for a table."""
 
-    def refuse(self, path: Path, sentence: str) -> NoReturn:  # noqa: ARG002 - where places have lines, they are named
+    def where(self, path: Path) -> str:  # noqa: ARG002 - most origins have places for paths
+        """The place of a value, before the sentence about it; empty if there is none to name."""
+        return ""
+
+    def refuse(self, path: Path, sentence: str) -> NoReturn:
         """Raise InputError about the value at the path."""
-        raise InputError(sentence)
+        where = self.where(path)
+        raise InputError(f"{where}: {sentence}" if where else sentence)
 
     def named(self, path: Path) -> str:
         """The table or the value at a path, as a sentence names it."""
-        if not path:
-            return self.title
-        *outer, last = path
-        return f"{self.named((*outer,))}[{last}]" if isinstance(last, int) else f"{self.named((*outer,))}'s {last}"
+        return dotted(path) or self.title
 
     def named_value(self, path: Path) -> str:
         """The value at a path, at the beginning of a sentence about what it is."""
@@ -66,6 +66,11 @@ class Origin:
             self.refuse(path, str(error))
 
 
+def dotted(path: Path) -> str:
+    """The path as programs write it: domain.settings[0].sizes."""
+    return "".join(f"[{key}]" if isinstance(key, int) else f".{key}" for key in path).removeprefix(".")
+
+
 _LONGEST = 60
 """Characters of a value that a message shows."""
 
@@ -74,6 +79,7 @@ _LONGEST = 60
 class TomlSource(Origin):
     """A file's name and its text; messages name tables as the file writes them, and tables of arrays by number."""
 
+    title: str
     name: str
     text: str
 
@@ -84,10 +90,10 @@ class TomlSource(Origin):
         """The line of each value; computed only for an error."""
         return toml.lines_of(self.text)
 
-    def refuse(self, path: Path, sentence: str) -> NoReturn:
-        """Raise InputError about the value at the path."""
+    def where(self, path: Path) -> str:
+        """The file and the line."""
         line = toml.nearest_line(self.lines, path)
-        raise InputError(f"{self.name}{'' if line is None else f', line {line}'}: {sentence}")
+        return self.name if line is None else f"{self.name}, line {line}"
 
     def named(self, path: Path) -> str:
         """The table at a path: [mover], [flight].start, hyperboloid 3, [mover] part 1."""
@@ -137,19 +143,29 @@ class StrictTable:
         """Raise InputError about the table, or about a value in it."""
         self.origin.refuse((*self._path, *keys), sentence)
 
+    def __len__(self) -> int:
+        return len(self._content)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._content)
+
+    def check(self, name: str, value: object, check: Check[Value]) -> Value:
+        """What the check makes of a part of the table, which messages name so. Raises InputError."""
+        return self.origin.checked((*self._path, name), value, check)
+
     def required(self, key: str, check: Check[Value]) -> Value:
         """The checked value of a key that must be there."""
         if key not in self._content:
             self.refuse(f"{self.title} has no {key}; it must be {_wanted(check)}")
-        return self._checked(key, check)
+        return self.check(key, self._content[key], check)
 
     def optional(self, key: str, check: Check[Value], default: Other) -> Value | Other:
         """The checked value of a key, or the default if it is absent."""
-        return self._checked(key, check) if key in self._content else default
+        return self.check(key, self._content[key], check) if key in self._content else default
 
     def present(self, checks: Mapping[str, Check[Any]]) -> dict[str, Any]:
         """The checked value of each key that is there and has a check, in the order of the table."""
-        return {key: self._checked(key, checks[key]) for key in self._content if key in checks}
+        return {key: self.check(key, value, checks[key]) for key, value in self._content.items() if key in checks}
 
     def table(self, key: str, keys: Sequence[str]) -> StrictTable | None:
         """The table of that key; None if it is absent."""
@@ -173,14 +189,28 @@ class StrictTable:
             self.refuse(f"{self.title} has {len(array):,} tables {key}; a file may have {most:,} at most", key)
         return [StrictTable(self.origin, (*path, place), content, keys) for place, content in enumerate(array)]
 
-    def _checked(self, key: str, check: Check[Value]) -> Value:
-        return self.origin.checked((*self._path, key), self._content[key], check)
+    def required_table(self, key: str, keys: Sequence[str]) -> StrictTable:
+        """The table of a key that must be there."""
+        table = self.table(key, keys)
+        if table is None:
+            self.refuse(f"{self.title} has no {key}; it must be {self.origin.table_kind} with {', '.join(keys)}")
+        return table
+
+    def listed(
+        self, key: str, check: Check[Value], wanted: str, least: int = 0, most: int | None = None
+    ) -> tuple[Value, ...]:
+        """The checked elements of the list of that key, from `least` to `most` of them; `wanted` says what it must be.
+
+        The key must be there.
+        """
+        values, path = self.required(key, list_with(wanted, least, most)), (*self._path, key)
+        return tuple(self.origin.checked((*path, place), value, check) for place, value in enumerate(values))
 
 
 def _wanted(check: Check[Any]) -> str:
-    """The requirement of a check: the sentence with which it refuses None."""
+    """The requirement of a check: the sentence with which it refuses what no file holds."""
     try:
-        check(None)
+        check(object())
     except ValueError as error:
         return str(error)
     raise AssertionError("a check let nothing pass for something")
@@ -207,10 +237,11 @@ def text(value: object) -> str:
 
 def one_of(*choices: str) -> Check[str]:
     """One of some words."""
+    wanted = choices[0] if len(choices) == 1 else f"one of {', '.join(choices)}"
 
     def check(value: object) -> str:
         if not isinstance(value, str) or value not in choices:
-            raise ValueError(f"one of {', '.join(choices)}")
+            raise ValueError(wanted)
         return value
 
     return check
@@ -223,15 +254,26 @@ def truth(value: object) -> bool:
     return value
 
 
+def list_with(wanted: str, least: int = 0, most: int | None = None) -> Check[list[Any]]:
+    """A check for a list of `least` to `most` values; `wanted` ends the sentence of a refusal."""
+
+    def check(value: object) -> list[Any]:
+        if not isinstance(value, list) or len(value) < least or (most is not None and len(value) > most):
+            raise ValueError(wanted)
+        return value
+
+    return check
+
+
 def texts(wanted: str, *, least: int = 1) -> Check[tuple[str, ...]]:
     """A check for a list of at least so many texts that are not empty; `wanted` ends the sentence of a refusal."""
+    listed = list_with(wanted, least)
 
     def check(value: object) -> tuple[str, ...]:
-        if not isinstance(value, list) or len(value) < least:
+        values = listed(value)
+        if not all(isinstance(part, str) and part for part in values):
             raise ValueError(wanted)
-        if not all(isinstance(part, str) and part for part in value):
-            raise ValueError(wanted)
-        return tuple(value)
+        return tuple(values)
 
     return check
 
@@ -280,9 +322,7 @@ not_negative = number_with("a finite number, 0 or more", 0)
 
 def numbers_of(value: object, count: int, wanted: str, *, infinite: bool = False) -> tuple[float, ...]:
     """A list of so many numbers, as float64. Raises ValueError with the text `wanted` if it is not."""
-    if not isinstance(value, list) or len(value) != count:
-        raise ValueError(wanted)
-    return tuple(number_of(part, wanted, infinite=infinite) for part in value)
+    return tuple(number_of(part, wanted, infinite=infinite) for part in list_with(wanted, count, count)(value))
 
 
 def point(value: object, wanted: str = "three finite numbers, [x, y, z]") -> tuple[float, float, float]:

@@ -17,8 +17,9 @@ from hypcheck.geometry import rows
 from hypcheck.geometry.pair import CENTER, GROUPS, HEIGHTS, SIZES, Position, Sizes, trouble_with
 from hypcheck.implementations.domain import ORDINARY, PRECISIONS, Domain
 from hypcheck.implementations.output import foreign_text
-from hypcheck.strict import Check, Origin, StrictTable
+from hypcheck.strict import Check, Origin, StrictTable, dotted
 from hypcheck.tables.strict_json import refused_constant, strict_decoder
+from hypcheck.toml import Path
 
 
 @dataclass(frozen=True, slots=True)
@@ -185,8 +186,15 @@ def _json(text: str | bytes, where: str) -> object:
         raise InputError(f"{where} is '{foreign_text(shown, 80)}'; it must be JSON ({why})") from None
 
 
+@dataclass(frozen=True)
 class _Foreign(Origin):
     """What foreign code says, whose texts may hold secrets and signs that a terminal obeys."""
+
+    title: str
+
+    def named(self, path: Path) -> str:
+        """The table or the value at a path: the description's domain.ratio."""
+        return f"{self.title}'s {dotted(path)}" if path else self.title
 
     def shown(self, value: object) -> str:
         """The value as Python writes it, short and masked."""

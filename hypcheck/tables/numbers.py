@@ -177,16 +177,16 @@ def is_shortest(number: float | int) -> bool:
 
 
 def rational_of(text: str) -> Fraction:
-    """The rational that `text` writes as "p" or "p/q" in lowest terms. Raises ValueError for any other text."""
+    """The rational that `text` writes as "p" or "p/q" in lowest terms. Raises ValueError, the end of a sentence."""
     if len(text) > _LONGEST_RATIONAL:
-        raise ValueError(f"must have at most {_LONGEST_RATIONAL} digits")
+        raise ValueError(f"a text of at most {_LONGEST_RATIONAL} digits")
     match = _RATIONAL.fullmatch(text)
     if match is None:
-        raise ValueError("must be an integer or p/q, such as -3/4")
+        raise ValueError("an integer or p/q, such as -3/4")
     sign, top, bottom = match.groups()
     numerator, denominator = _integer_of(top), _integer_of(bottom or "1")
     if math.gcd(numerator, denominator) != 1 or (bottom == "1") or (sign and not numerator):
-        raise ValueError("must be in lowest terms, such as -3/4")
+        raise ValueError("in lowest terms, such as -3/4")
     return Fraction(-numerator if sign else numerator, denominator)
 
 

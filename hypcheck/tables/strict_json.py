@@ -9,15 +9,17 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NoReturn
 
 from hypcheck.errors import InputError
 from hypcheck.messages import json_trouble
+from hypcheck.strict import Origin, StrictTable
 from hypcheck.tables.chunk import first_double
 from hypcheck.tables.numbers import Literal, shown, shown_json
 from hypcheck.tables.streams import BYTE_ORDER_MARK, Reader, TextLines, open_input
+from hypcheck.toml import Path, nearest_line
 
 _LONGEST_INTEGER = 400
 """Digits of an integer that is read as int; more are beyond float64, and beyond 4300 Python refuses them."""
@@ -60,25 +62,52 @@ LARGEST = 256 << 20
 _BLANKS = re.compile(r"[ \t\n\r]*")
 
 
-@dataclass(frozen=True, slots=True)
-class JsonPlace:
+@dataclass(frozen=True)
+class JsonPlace(Origin):
     """A place, as messages name it: a file, a line of it, and the id of a case."""
 
     file: str
     line: int
     case: str | None = None
 
+    title = "the case"
+
     def __str__(self) -> str:
         case = f", case {shown(self.case, quoted=False)}" if self.case is not None else ""
         return f"{self.file}, line {self.line}{case}"
 
+    def where(self, path: Path) -> str:  # noqa: ARG002 - a case is on one line
+        """The place."""
+        return str(self)
 
-@dataclass(frozen=True, slots=True)
-class JsonDocument:
-    """A document: its members except the cases, and the cases, each with its place."""
+    def shown(self, value: object) -> str:
+        """A value as JSON writes it, cut if it is long."""
+        return shown_json(value)
 
-    members: Mapping[str, tuple[JsonPlace, Any]]
+
+@dataclass(frozen=True)
+class JsonDocument(Origin):
+    """A document: its file, its members except the cases, the line of each, and the cases with their places."""
+
+    file: str
+    members: Mapping[str, Any]
+    lines: Mapping[Path, int]
     cases: tuple[tuple[JsonPlace, Any], ...]
+
+    title = "the document"
+
+    def where(self, path: Path) -> str:
+        """The file, and the line where the member begins."""
+        line = nearest_line(self.lines, path)
+        return self.file if line is None else f"{self.file}, line {line}"
+
+    def shown(self, value: object) -> str:
+        """A value as JSON writes it, cut if it is long."""
+        return shown_json(value)
+
+    def table(self, keys: Sequence[str]) -> StrictTable:
+        """The members, which must be among these keys. Raises InputError."""
+        return StrictTable(self, (), self.members, keys)
 
 
 def read_document(path: str, largest: int = LARGEST) -> JsonDocument:
@@ -89,18 +118,6 @@ def read_document(path: str, largest: int = LARGEST) -> JsonDocument:
     with open_input(path) as reader:
         text = "".join(_bounded(reader, largest))
         return _JsonScanner(text.removeprefix(BYTE_ORDER_MARK), reader.name).document()
-
-
-def fields_of(value: Any, names: tuple[str, ...], place: JsonPlace, what: str) -> tuple[Any, ...]:  # noqa: ANN401 - JSON
-    """The members of an object that has exactly `names`, in their order. Raises InputError."""
-    if not isinstance(value, dict):
-        raise InputError(f"{place}: {what} is {shown_json(value)}; it must be an object with {', '.join(names)}")
-    if value.keys() != set(names):
-        unknown = [name for name in value if name not in names]
-        if unknown:
-            raise InputError(f"{place}: {what} has the key {shown(unknown[0])}; it may have {', '.join(names)}")
-        raise InputError(f"{place}: {what} lacks {next(name for name in names if name not in value)}")
-    return tuple(value[name] for name in names)
 
 
 def _bounded(reader: Reader, largest: int) -> Iterator[str]:
@@ -122,7 +139,8 @@ class _JsonScanner:
         self._decoder = strict_decoder(_finite)
 
     def document(self) -> JsonDocument:
-        members: dict[str, tuple[JsonPlace, Any]] = {}
+        members: dict[str, Any] = {}
+        lines: dict[Path, int] = {}
         cases: tuple[tuple[JsonPlace, Any], ...] = ()
         self._expect("{", "the document must be one object")
         while not members or self._more("}"):
@@ -134,12 +152,13 @@ class _JsonScanner:
             self._expect(":", f"a colon must follow the key {shown(key)}")
             if key == CASES:
                 cases = self._elements()
-            members[key] = (place, None if key == CASES else self._value())
+            members[key], lines[key,] = None if key == CASES else self._value(), place.line
         if self._peek():
             raise InputError(f"{self._place()}: something follows the document; a file must hold one object")
-        if members.pop(CASES, None) is None:
+        if CASES not in members:
             raise InputError(f"{self._name}: the document has no {CASES!r}")
-        return JsonDocument(members, cases)
+        del members[CASES]
+        return JsonDocument(self._name, members, lines, cases)
 
     def _elements(self) -> tuple[tuple[JsonPlace, Any], ...]:
         self._expect("[", f"{CASES} must be a list")

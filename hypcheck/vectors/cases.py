@@ -6,16 +6,17 @@ file, and invalid_rows.py has the rows that must be refused.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any, cast
 
-from hypcheck.errors import InputError
+from hypcheck import strict
 from hypcheck.geometry.pair import Position
 from hypcheck.geometry.rows import PAIRS
-from hypcheck.tables.numbers import decimal_of, exact_text, hex_of, shown_json
-from hypcheck.tables.strict_json import JsonDocument, JsonPlace, fields_of, read_document
+from hypcheck.strict import Check, StrictTable
+from hypcheck.tables.numbers import decimal_of, exact_text, hex_of
+from hypcheck.tables.strict_json import JsonDocument, read_document
 from hypcheck.truth.backward_error import Bracket
 from hypcheck.truth.certificate import Certificate, PassageCertificate, Piece, place
 from hypcheck.truth.kinds import Kind
@@ -24,6 +25,9 @@ from hypcheck.vectors.flags import FlagFacts
 from hypcheck.vectors.format import (
     CaseFile,
     Content,
+    a_number,
+    a_rational,
+    a_text,
     check_hex,
     content_of,
     document_text,
@@ -31,13 +35,9 @@ from hypcheck.vectors.format import (
     flags_of_case,
     is_integer,
     json_text,
-    listed,
-    number_of,
     numbers_text,
     object_text,
-    rational_at,
     row_of,
-    text_of,
 )
 from hypcheck.vectors.invalid_rows import InvalidRow, invalid_row_text, invalid_rows_of
 
@@ -176,170 +176,152 @@ def read_cases(path: str, content: Content | None = None) -> CaseFile[Any]:
 
     Raises InputError if it does not conform to the schema.
     """
-    return cases_of(read_document(path), path, content)
+    return cases_of(read_document(path), content)
 
 
-def cases_of(document: JsonDocument, path: str, content: Content | None = None) -> CaseFile[Any]:
+def cases_of(document: JsonDocument, content: Content | None = None) -> CaseFile[Any]:
     """The vector file that a document is, as read_cases reads it. Raises InputError."""
-    actual = content_of(document, path)
+    actual = content_of(document)
     if content is not None and content is not actual:
-        location = document.members["content"][0]
         wanted = f"{content.name!r}, rows of {len(content.columns)} numbers"
-        raise InputError(f"{location}: content is {actual.name!r}; here it must be {wanted}")
+        document.refuse(("content",), f"content is {actual.name!r}; here it must be {wanted}")
     if actual.refused:
-        return invalid_rows_of(document, path)
-    return file_of(document, path, case_fields(actual), _sweep_case if actual.about_sweeps else _position_case)
+        return invalid_rows_of(document)
+    return file_of(document, case_fields(actual), _sweep_case if actual.about_sweeps else _position_case)
 
 
-def _position_case(at: JsonPlace, fields: dict[str, Any], content: Content, flags: Mapping[str, FlagFacts]) -> Vector:
-    position, tangent = _position(at, fields)
+def _position_case(name: str, table: StrictTable, content: Content, flags: Mapping[str, FlagFacts]) -> Vector:
+    fields, position = case_fields(content), table.required("position", _position)
     clearance = None
     if "clearance" in fields:
-        clearance = _measure(at, "clearance", fields["clearance"])
-        check_hex(at, "clearance_hex", fields["clearance_hex"], clearance)
+        clearance = table.required("clearance", _measure)
+        check_hex(table, "clearance_hex", table.required("clearance_hex", a_text), clearance)
     return Vector(
-        id=fields["id"],
-        row=row_of(at, fields["row"], fields["hex"], content),
+        id=name,
+        row=row_of(table, content),
         position=position,
-        tangent=tangent,
-        kind=_kind(at, fields["kind"]) if "kind" in fields else None,
+        tangent=table.required("tangent", strict.truth),
+        kind=table.required("kind", _kind) if "kind" in fields else None,
         clearance=clearance,
-        flips=_flips(at, fields["flips"], position, _bracket if content.tilted else _distance)
-        if "flips" in fields
-        else {},
-        witness=(_ended_certificate if content.ended else _certificate)(at, fields["certificate"]),
-        flags=flags_of_case(at, fields["flags"], flags) if "flags" in fields else (),
+        flips=_flips(table, position, _bracket if content.tilted else _distance) if "flips" in fields else {},
+        witness=_certificate(table, ended=content.ended),
+        flags=flags_of_case(table, flags) if "flags" in fields else (),
     )
 
 
-def _position(at: JsonPlace, fields: dict[str, Any]) -> tuple[Position, bool]:
-    position, tangent = fields["position"], fields["tangent"]
-    if not is_integer(position) or position not in (-1, 0, 1):
-        raise InputError(f"{at}: position is {shown_json(position)}; it must be 1, 0 or -1")
-    if not isinstance(tangent, bool):
-        raise InputError(f"{at}: tangent is {shown_json(tangent)}; it must be true or false")
-    return Position(position), tangent
+def _position(value: object) -> Position:
+    if not is_integer(value) or value not in (-1, 0, 1):
+        raise ValueError("1, 0 or -1")
+    return Position(value)
 
 
-def _ended_certificate(at: JsonPlace, value: Any) -> StoredCertificate:  # noqa: ANN401 - JSON
-    if value == {"rule": "height"}:
-        return StoredCertificate()
-    if not isinstance(value, dict) or set(value) != {"pieces"}:
-        return _certificate(at, value)
-    return StoredCertificate(pieces=tuple(_piece(at, piece) for piece in listed(at, "pieces", value["pieces"])))
-
-
-def _piece(at: JsonPlace, value: Any) -> Piece:  # noqa: ANN401 - JSON
-    low, high, *numbers = listed(at, "a piece", value, 4)
-    multiplier, plane = (rational_at(at, "a piece", number) for number in numbers)
-    bottom = None if low == "-inf" else rational_at(at, "a piece", low)
-    top = None if high == "inf" else rational_at(at, "a piece", high)
-    return Piece(bottom, top, multiplier, plane)
-
-
-def _kind(at: JsonPlace, value: Any) -> Kind:  # noqa: ANN401 - JSON
-    kind = _KINDS.get(text_of(at, "kind", value))
+def _kind(value: object) -> Kind:
+    kind = _KINDS.get(value) if isinstance(value, str) else None
     if kind is None:
-        raise InputError(f"{at}: there is no kind {shown_json(value)}; there are {', '.join(_KINDS)}")
+        raise ValueError(f"one of {', '.join(_KINDS)}")
     return kind
 
 
-def _measure(at: JsonPlace, what: str, value: Any) -> float:  # noqa: ANN401 - JSON
-    """A number, or inf. Raises InputError."""
-    return float("inf") if value == "inf" else number_of(at, what, value)
+def _measure(value: object) -> float:
+    """A number, or inf."""
+    return float("inf") if value == "inf" else a_number(value)
 
 
-def _flips(
-    at: JsonPlace,
-    value: Any,  # noqa: ANN401 - JSON
-    position: Position,
-    read: Callable[[JsonPlace, str, Any], Bracket],
-) -> Mapping[Position, Bracket]:
+def _flips(table: StrictTable, position: Position, read: Check[Bracket]) -> Mapping[Position, Bracket]:
     others = [other for other in Position if other is not position]
-    names = tuple(other.label for other in others)
-    distances = zip(others, fields_of(value, names, at, "flips"), strict=True)
-    return {other: read(at, f"the flip to {other.label}", distance) for other, distance in distances}
+    flips = table.required_table("flips", [other.label for other in others])
+    return {other: flips.required(other.label, read) for other in others}
 
 
-def _distance(at: JsonPlace, what: str, value: Any) -> Bracket:  # noqa: ANN401 - JSON
-    distance = _measure(at, what, value)
+def _distance(value: object) -> Bracket:
+    distance = _measure(value)
     if not (0 <= distance <= 1 or distance == float("inf")):
-        raise InputError(f'{at}: {what} is {distance!r}; it must be from 0 to 1, or "inf"')
+        raise ValueError('from 0 to 1, or "inf"')
     return Bracket(distance, distance)
 
 
-def _bracket(at: JsonPlace, what: str, value: Any) -> Bracket:  # noqa: ANN401 - JSON
-    lower, upper = (_measure(at, what, end) for end in listed(at, what, value, 2))
+def _bracket(value: object) -> Bracket:
+    wanted = 'a list of 2 numbers from 0 to 1, the lower first, or of "inf" twice'
+    lower, upper = map(_measure, strict.list_with(wanted, 2, 2)(value))
     if not (0 <= lower <= upper <= 1 or lower == upper == float("inf")):
-        raise InputError(
-            f'{at}: {what} is {shown_json(value)}; it must be two numbers from 0 to 1, the lower first, or "inf" twice'
-        )
+        raise ValueError(wanted)
     return Bracket(lower, upper)
 
 
-def _certificate(at: JsonPlace, value: Any) -> StoredCertificate:  # noqa: ANN401 - JSON
-    if not isinstance(value, dict) or len(value) != 1 or not set(value) <= set(_CERTIFICATES):
-        raise InputError(
-            f"{at}: certificate is {shown_json(value)}; it must be an object with one of {', '.join(_CERTIFICATES)}"
-        )
-    ((name, proof),) = value.items()
-    if name == "multiplier":
-        return StoredCertificate(multiplier=rational_at(at, name, proof))
-    if name == "double_root":
-        return StoredCertificate(double_root=rational_at(at, name, proof))
-    points = listed(at, "points", proof)
-    if not 1 <= len(points) <= 2:
-        raise InputError(f"{at}: points has {len(points)} points; it must have one or two")
-    return StoredCertificate(offsets=tuple(_offset(at, point) for point in points))
+def _certificate(table: StrictTable, *, ended: bool) -> StoredCertificate:
+    keys = (*_CERTIFICATES, "pieces", "rule") if ended else _CERTIFICATES
+    proof = table.required_table("certificate", keys)
+    if len(proof) != 1:
+        proof.refuse(f"certificate has {len(proof)} keys; it must be an object with one of {', '.join(keys)}")
+    proof.optional("rule", strict.one_of("height"), None)
+    return StoredCertificate(
+        multiplier=proof.optional("multiplier", a_rational, None),
+        offsets=proof.listed("points", _offset, "a list of one or two points", 1, 2) if "points" in proof else (),
+        double_root=proof.optional("double_root", a_rational, None),
+        pieces=proof.listed("pieces", _piece, "a list of pieces") if "pieces" in proof else (),
+    )
 
 
-def _offset(at: JsonPlace, value: Any) -> Offset:  # noqa: ANN401 - JSON
-    s, t, w = (rational_at(at, "a point", part) for part in listed(at, "a point", value, 3))
-    return (s, t, w)
+def _piece(value: object) -> Piece:
+    low, high, *numbers = strict.list_with("a list of 4", 4, 4)(value)
+    multiplier, plane = map(a_rational, numbers)
+    bottom, top = (None if end == word else a_rational(end) for end, word in ((low, "-inf"), (high, "inf")))
+    return Piece(bottom, top, multiplier, plane)
 
 
-def _sweep_case(at: JsonPlace, fields: dict[str, Any], content: Content, flags: Mapping[str, FlagFacts]) -> SweepVector:
-    row = row_of(at, fields["row"], fields["hex"], content)
-    first = _first(at, fields["first"], fields["first_hex"])
-    if fields["hit"] is not (first is not None):
-        raise InputError(
-            f"{at}: hit is {shown_json(fields['hit'])}; with first {shown_json(fields['first'])} it must be "
-            f"{json_text(first is not None)}"
-        )
-    if "certificate" not in fields:
-        return SweepVector(fields["id"], row, first, StoredCertificate())
-    witness = _passage(at, fields["certificate"])
-    return SweepVector(fields["id"], row, first, witness, flags_of_case(at, fields["flags"], flags))
+def _offset(value: object) -> Offset:
+    s, t, w = map(a_rational, strict.list_with("a list of 3", 3, 3)(value))
+    return s, t, w
 
 
-def _first(at: JsonPlace, value: Any, hexes: Any) -> Bounds | None:  # noqa: ANN401 - JSON
+def _sweep_case(name: str, table: StrictTable, content: Content, flags: Mapping[str, FlagFacts]) -> SweepVector:
+    row, first = row_of(table, content), table.required("first", _first)
+    wanted = {"hit": first is not None, "first_hex": None if first is None else list(map(hex_of, first))}
+    for key, right in wanted.items():
+        table.required(key, _equal_to(right))
+    if content.ended:
+        return SweepVector(name, row, first, StoredCertificate())
+    return SweepVector(name, row, first, _passage(table), flags_of_case(table, flags))
+
+
+def _equal_to(right: object) -> Check[object]:
+    """A check for what follows from the other fields."""
+
+    def check(value: object) -> object:
+        if value != right or type(value) is not type(right):
+            raise ValueError(f"{json_text(right)}, to agree with first")
+        return value
+
+    return check
+
+
+def _first(value: object) -> Bounds | None:
     if value is None:
-        if hexes is not None:
-            raise InputError(f"{at}: first_hex is {shown_json(hexes)}; it must be null, as first is")
         return None
-    lower, upper = (number_of(at, "first", end) for end in listed(at, "first", value, 2))
-    for end, text in zip((lower, upper), listed(at, "first_hex", hexes, 2), strict=True):
-        check_hex(at, "first_hex", text, end)
+    wanted = "null, or two times from 0 to 1, the lower first"
+    lower, upper = map(a_number, strict.list_with(wanted, 2, 2)(value))
     if not 0 <= lower <= upper <= 1:
-        raise InputError(f"{at}: first is {shown_json(value)}; it must be two times from 0 to 1, the lower first")
+        raise ValueError(wanted)
     return lower, upper
 
 
-def _passage(at: JsonPlace, value: Any) -> StoredCertificate:  # noqa: ANN401 - JSON
-    values = dict(zip(_PASSAGE_FIELDS, fields_of(value, _PASSAGE_FIELDS, at, "certificate"), strict=True))
-    pieces = []
-    for piece in listed(at, "pieces", values["pieces"]):
-        multiplier, end = (rational_at(at, "a piece", part) for part in listed(at, "a piece", piece, 2))
-        pieces.append((multiplier, end))
-    time, root = (
-        None if values[name] is None else rational_at(at, name, values[name]) for name in ("time", "double_root")
-    )
-    points = tuple(_offset(at, point) for point in listed(at, "points", values["points"]))
-    if len(points) > 2:
-        raise InputError(f"{at}: points has {len(points)} points; it may have two at most")
+def _passage(table: StrictTable) -> StoredCertificate:
+    proof = table.required_table("certificate", _PASSAGE_FIELDS)
+    steps = proof.listed("pieces", _step, "a list of pieces")
+    time, root = (proof.required(name, _rational_or_null) for name in ("time", "double_root"))
+    points = proof.listed("points", _offset, "a list of two points at most", 0, 2)
     if (time is None) != (not points and root is None) or (points and root is not None):
-        raise InputError(f"{at}: a certificate has a time with points or with a double_root, or none of these keys")
-    return StoredCertificate(offsets=points, double_root=root, steps=tuple(pieces), time=time)
+        table.refuse("a certificate has a time with points or with a double_root, or none of these keys")
+    return StoredCertificate(offsets=points, double_root=root, steps=steps, time=time)
+
+
+def _step(value: object) -> tuple[Fraction, Fraction]:
+    multiplier, end = map(a_rational, strict.list_with("a list of 2", 2, 2)(value))
+    return multiplier, end
+
+
+def _rational_or_null(value: object) -> Fraction | None:
+    return None if value is None else a_rational(value)
 
 
 def cases_text(file: CaseFile[Any]) -> str:

@@ -271,12 +271,12 @@ def examine(paths: Iterable[str]) -> Iterator[FileReport]:
     """
     for path in paths:
         document = read_document(path)
-        file = cases_of(document, path)
+        file = cases_of(document)
         if not file.cases:
             raise NothingJudgedError(f"{path} has no cases; nothing was checked")
         wrong = {"family": wrong_description(file.head), "flags": wrong_meanings(file.flags, file.content.flags)}
         head = [
-            MetadataFault(document.members[member][0].line, sentence)
+            MetadataFault(document.lines[member,], sentence)
             for member, sentences in wrong.items()
             for sentence in sentences
         ]

@@ -7,7 +7,6 @@ the content of a case, and invalid_rows.py the content of a row that must be ref
 from __future__ import annotations
 
 import json
-import math
 import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict, dataclass, field
@@ -16,11 +15,12 @@ from typing import Any, Generic, Protocol, TypeVar
 
 import numpy as np
 
-from hypcheck.errors import InputError
+from hypcheck import strict
 from hypcheck.geometry.pair import AXIS, ENDS, HEIGHTS, NO_DIRECTION, trouble_with, trouble_with_heights
 from hypcheck.geometry.rows import PAIRS, SWEEPS, Layout, Positions, Rows
+from hypcheck.strict import Check, StrictTable
 from hypcheck.tables.numbers import Literal, decimal_of, hex_of, is_shortest, rational_of, shown_json
-from hypcheck.tables.strict_json import JsonDocument, JsonPlace, fields_of
+from hypcheck.tables.strict_json import JsonDocument, JsonPlace
 from hypcheck.vectors.family import Metadata, Row
 from hypcheck.vectors.flags import FLAGS, SWEEP_FLAGS, TILTED_FLAGS, FlagFacts
 
@@ -159,181 +159,171 @@ HEAD_FIELDS = tuple(Metadata.__dataclass_fields__)
 _NAME = re.compile(r"[a-z0-9]+(-[a-z0-9]+)*(@[a-z0-9.,:=+-]+)?", re.ASCII)
 
 
-def content_of(document: JsonDocument, path: str) -> Content:
+_SCHEMAS = (
+    f"{SCHEMA!r}, {TILTED_SCHEMA!r} about tilted spheroids, {SWEEP_SCHEMA!r} about sweeps, {ENDED_SCHEMA!r} about "
+    f"hyperboloids that end, or {ENDED_SWEEP_SCHEMA!r} about sweeps beside these"
+)
+
+
+def content_of(document: JsonDocument) -> Content:
     """The content that the document declares, for its schema version. Raises InputError."""
-    for name in ("schema", "content"):
-        if name not in document.members:
-            raise InputError(f"{path}: the document lacks {name}")
-    place, version = document.members["schema"]
-    known = {name: content for name, content in CONTENTS.items() if content.schema == version}
-    if not known:
-        raise InputError(
-            f"{place}: schema is {shown_json(version)}; this program reads {SCHEMA!r}, "
-            f"{TILTED_SCHEMA!r} about tilted spheroids, {SWEEP_SCHEMA!r} about sweeps, {ENDED_SCHEMA!r} about "
-            f"hyperboloids that end and {ENDED_SWEEP_SCHEMA!r} about sweeps beside these"
-        )
-    place, content = document.members["content"]
-    if content not in tuple(known):
-        raise InputError(f"{place}: content is {shown_json(content)}; it must be {' or '.join(map(repr, known))}")
-    return known[content]
+    members = document.table(MEMBERS)
+    schema = members.required("schema", _schema)
+    known = {name: content for name, content in CONTENTS.items() if content.schema == schema}
+    return known[members.required("content", strict.one_of(*known))]
 
 
-def read_metadata(document: JsonDocument, path: str) -> tuple[Metadata, Mapping[str, FlagFacts]]:
+def _schema(value: object) -> str:
+    if not isinstance(value, str) or all(content.schema != value for content in CONTENTS.values()):
+        raise ValueError(f"one that this program reads: {_SCHEMAS}")
+    return value
+
+
+def read_metadata(document: JsonDocument) -> tuple[Metadata, Mapping[str, FlagFacts]]:
     """The family and the flags of a document, its members and count in order. Raises InputError."""
-    content = content_of(document, path)
-    wanted = tuple(name for name in MEMBERS if name != "flags" or content.flags)
-    for name, (place, _) in document.members.items():
-        if name not in wanted:
-            raise InputError(f"{place}: the document has the key {name!r}; it may have {', '.join(wanted)}")
-    for name in wanted:
-        if name not in document.members:
-            raise InputError(f"{path}: the document lacks {name}")
-    place, count = document.members["count"]
-    if not is_integer(count) or count != len(document.cases):
-        raise InputError(f"{place}: count is {shown_json(count)}, but there are {len(document.cases)} cases")
-    head = _metadata(*document.members["family"])
-    return head, _flags(*document.members["flags"], content.flags) if content.flags else {}
+    content = content_of(document)
+    members = document.table([name for name in MEMBERS if name != "flags" or content.flags])
+    family = members.required_table("family", HEAD_FIELDS)
+    head = Metadata(**{name: family.required(name, _HEAD_CHECKS.get(name, a_text)) for name in HEAD_FIELDS})
+    flags = _flags(members.required_table("flags", tuple(content.flags))) if content.flags else {}
+    members.required("count", _count(len(document.cases)))
+    return head, flags
 
 
-ReadCase = Callable[[JsonPlace, dict[str, Any], Content, Mapping[str, FlagFacts]], Case]
-"""What makes a case of its fields, checked but for what it holds. Raises InputError."""
+def _count(cases: int) -> Check[int]:
+    def check(value: object) -> int:
+        if not is_integer(value) or value != cases:
+            raise ValueError(f"{cases}, the number of cases")
+        return cases
+
+    return check
 
 
-def file_of(document: JsonDocument, path: str, names: tuple[str, ...], read: ReadCase[Case]) -> CaseFile[Case]:
+def _name(value: object) -> str:
+    if not _NAME.fullmatch(a_text(value)):
+        raise ValueError("lower case, with hyphens, as in ring")
+    return a_text(value)
+
+
+def _version(value: object) -> int:
+    if not isinstance(value, int) or isinstance(value, bool) or value < 1:
+        raise ValueError("a whole number from 1")
+    return value
+
+
+_HEAD_CHECKS: Mapping[str, Check[Any]] = {"name": _name, "version": _version, "extreme": strict.truth}
+"""The checks of what is no text."""
+
+
+def _flags(table: StrictTable) -> Mapping[str, FlagFacts]:
+    facts = {name: table.required_table(name, ("meaning", "bug_type")) for name in table}
+    return {
+        name: FlagFacts(about.required("meaning", a_text), about.required("bug_type", a_text))
+        for name, about in facts.items()
+    }
+
+
+ReadCase = Callable[[str, StrictTable, Content, Mapping[str, FlagFacts]], Case]
+"""What makes a case of its id and its fields. Raises InputError."""
+
+
+def file_of(document: JsonDocument, names: tuple[str, ...], read: ReadCase[Case]) -> CaseFile[Case]:
     """The file of a document whose cases have these fields. Raises InputError."""
-    content = content_of(document, path)
-    head, flags = read_metadata(document, path)
+    content = content_of(document)
+    head, flags = read_metadata(document)
+    check_id = _id_of(head.name)
     seen: dict[str, int] = {}
     cases = []
     for place, value in document.cases:
         name = value.get("id") if isinstance(value, dict) else None
-        at = JsonPlace(path, place.line, name if isinstance(name, str) else None)
-        fields = dict(zip(names, fields_of(value, names, at, "the case"), strict=True))
-        _check_id(at, fields["id"], head.name)
-        if fields["id"] in seen:
-            raise InputError(f"{at}: duplicate id; it is first on line {seen[fields['id']]}")
-        seen[fields["id"]] = place.line
-        cases.append(read(at, fields, content, flags))
+        at = JsonPlace(place.file, place.line, name if isinstance(name, str) else None)
+        table = StrictTable(at, (), value, names)
+        identity = table.required("id", check_id)
+        if identity in seen:
+            table.refuse(f"duplicate id; it is first on line {seen[identity]}")
+        seen[identity] = place.line
+        cases.append(read(identity, table, content, flags))
     return CaseFile(head, content, tuple(cases), flags, tuple(place.line for place, _ in document.cases))
 
 
-def listed(place: JsonPlace, what: str, value: Any, length: int | None = None) -> list[Any]:  # noqa: ANN401 - JSON
-    """A list, of the given length if there is one. Raises InputError."""
-    if not isinstance(value, list) or (length is not None and len(value) != length):
-        wanted = "a list" if length is None else f"a list of {length}"
-        raise InputError(f"{place}: {what} is {shown_json(value)}; it must be {wanted}")
+def _id_of(family: str) -> Check[str]:
+    """A frozen case is family-0001, a generated one family/version/seed/index."""
+    wanted = re.compile(re.escape(family) + r"(-[0-9]{4,}|(/(0|[1-9][0-9]*)){3})", re.ASCII)
+
+    def check(value: object) -> str:
+        if not isinstance(value, str) or not wanted.fullmatch(value):
+            raise ValueError(f"{family}-NNNN or {family}/VERSION/SEED/INDEX")
+        return value
+
+    return check
+
+
+def a_text(value: object) -> str:
+    """A text that is not empty, of any length."""
+    if not isinstance(value, str) or not value.strip():
+        raise ValueError("a text")
     return value
 
 
-def number_of(place: JsonPlace, what: str, value: Any) -> float:  # noqa: ANN401 - JSON
-    """A finite number that is written as the shortest decimal of its float64. Raises InputError."""
+def a_number(value: object) -> float:
+    """A finite number that is written as the shortest decimal of its float64."""
     if isinstance(value, Literal) and value.text == repr(value):  # the text that hypcheck writes
         return float(value)
     if isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise InputError(f"{place}: {what} is {shown_json(value)}; it must be a number")
+        raise ValueError("a number")  # noqa: TRY004 - turned into a sentence about the value
     if not is_shortest(value):
-        raise InputError(
-            f"{place}: {what} is {shown_json(value)}, which does not round-trip; it must be the shortest decimal that "
-            "float64 reads back as itself"
-        )
+        raise ValueError("the shortest decimal that float64 reads back as itself: it does not round-trip")
     return float(value)
 
 
-def text_of(place: JsonPlace, what: str, value: Any) -> str:  # noqa: ANN401 - JSON
-    """A string that is not empty. Raises InputError."""
-    if not isinstance(value, str) or not value.strip():
-        raise InputError(f"{place}: {what} is {shown_json(value)}; it must be a text")
-    return value
+def a_rational(value: object) -> Fraction:
+    """A fraction in lowest terms, as a text."""
+    return rational_of(a_text(value))
 
 
-def _metadata(place: JsonPlace, value: Any) -> Metadata:  # noqa: ANN401 - JSON
-    fields = dict(zip(HEAD_FIELDS, fields_of(value, HEAD_FIELDS, place, "family"), strict=True))
-    for name in HEAD_FIELDS:
-        if name not in ("version", "extreme"):
-            text_of(place, f"family.{name}", fields[name])
-    if not _NAME.fullmatch(fields["name"]):
-        raise InputError(f"{place}: family.name is {fields['name']!r}; it must be lower case, with hyphens, as in ring")
-    if not is_integer(fields["version"]) or fields["version"] < 1:
-        raise InputError(
-            f"{place}: family.version is {shown_json(fields['version'])}; it must be a whole number from 1"
-        )
-    if not isinstance(fields["extreme"], bool):
-        raise InputError(f"{place}: family.extreme is {shown_json(fields['extreme'])}; it must be true or false")
-    return Metadata(**fields)
-
-
-def _flags(place: JsonPlace, value: Any, known: Mapping[str, FlagFacts]) -> Mapping[str, FlagFacts]:  # noqa: ANN401 - JSON
-    if not isinstance(value, dict):
-        raise InputError(f"{place}: flags is {shown_json(value)}; it must be an object with what each flag means")
-    flags = {}
-    for name, facts in value.items():
-        if name not in known:
-            raise InputError(f"{place}: there is no flag {shown_json(name)}; there are {', '.join(known)}")
-        meaning, bug_type = fields_of(facts, ("meaning", "bug_type"), place, f"flag {name}")
-        flags[name] = FlagFacts(
-            text_of(place, f"{name}.meaning", meaning), text_of(place, f"{name}.bug_type", bug_type)
-        )
-    return flags
-
-
-def _check_id(place: JsonPlace, name: Any, family: str) -> None:  # noqa: ANN401 - JSON
-    """A frozen case is family-0001, a generated one family/version/seed/index."""
-    number = re.escape(family) + r"(-[0-9]{4,}|(/(0|[1-9][0-9]*)){3})"
-    if not isinstance(name, str) or not re.fullmatch(number, name, re.ASCII):
-        raise InputError(f"{place}: id is {shown_json(name)}; it must be {family}-NNNN or {family}/VERSION/SEED/INDEX")
-
-
-def row_of(place: JsonPlace, numbers: Any, hexes: Any, content: Content) -> Row:  # noqa: ANN401 - JSON
+def row_of(table: StrictTable, content: Content) -> Row:
     """The numbers of a valid row, and their hexadecimal forms. Raises InputError."""
     columns = content.columns
-    row, count = [], len(columns)
-    for name, value, text in zip(
-        columns, listed(place, "row", numbers, count), listed(place, "hex", hexes, count), strict=True
-    ):
-        number = _height_of(value) if name in ENDS and isinstance(value, str) else number_of(place, name, value)
-        if number is None:
-            raise InputError(f'{place}: {name} is {shown_json(value)}; it must be a number, "inf" or "-inf"')
-        trouble = None if name in HEIGHTS else trouble_with(name, number)
+    wanted = strict.list_with(f"a list of {len(columns)}", len(columns), len(columns))
+    row = []
+    for name, value, text in zip(columns, table.required("row", wanted), table.required("hex", wanted), strict=True):
+        row.append(table.check(name, value, _height if name in ENDS else a_number))
+        trouble = None if name in HEIGHTS else trouble_with(name, row[-1])
         if trouble is not None:
-            raise InputError(f"{place}: {trouble}")
-        check_hex(place, f"the hex of {name}", text, number)
-        row.append(number)
+            table.refuse(trouble)
+        check_hex(table, f"the hex of {name}", text, row[-1])
     others = row[len(content.layout.upright) :]
     if content.tilted and not any(others[: len(AXIS)]):
-        raise InputError(f"{place}: {NO_DIRECTION}")
+        table.refuse(NO_DIRECTION)
     trouble = trouble_with_heights(others[len(AXIS) :]) if content.ended else None
     if trouble is not None:
-        raise InputError(f"{place}: {trouble}")
+        table.refuse(trouble)
     return tuple(row)
 
 
-def _height_of(text: str) -> float | None:
-    return {"inf": math.inf, "-inf": -math.inf}.get(text)
+def _height(value: object) -> float:
+    if value in ("inf", "-inf"):
+        return float(str(value))
+    try:
+        return a_number(value)
+    except ValueError as error:
+        raise ValueError(f'{error}, "inf" or "-inf"') from None
 
 
-def check_hex(place: JsonPlace, what: str, text: Any, number: float) -> None:  # noqa: ANN401 - JSON
+def check_hex(table: StrictTable, what: str, text: object, number: float) -> None:
     """Raise InputError unless the text is the hexadecimal form of the number."""
     if text != hex_of(number):
-        raise InputError(f"{place}: {what} is {shown_json(text)}; of {number!r} it must be {hex_of(number)!r}")
+        table.refuse(f"{what} is {shown_json(text)}; of {number!r} it must be {hex_of(number)!r}")
 
 
-def rational_at(place: JsonPlace, what: str, value: Any) -> Fraction:  # noqa: ANN401 - JSON
-    """A fraction in lowest terms, as a text. Raises InputError."""
-    text = text_of(place, what, value)
-    try:
-        return rational_of(text)
-    except ValueError as error:
-        raise InputError(f"{place}: {what} is {shown_json(text)}; it {error}") from None
-
-
-def flags_of_case(place: JsonPlace, value: Any, known: Mapping[str, FlagFacts]) -> tuple[str, ...]:  # noqa: ANN401 - JSON
+def flags_of_case(table: StrictTable, known: Mapping[str, FlagFacts]) -> tuple[str, ...]:
     """The flags of a case, each described in the file. Raises InputError."""
-    flags = listed(place, "flags", value)
+    flags = table.required("flags", strict.list_with("a list"))
     for flag in flags:
         if not isinstance(flag, str) or flag not in known:
-            raise InputError(f"{place}: the flag {shown_json(flag)} is not among those that the file describes")
+            table.refuse(f"the flag {shown_json(flag)} is not among those that the file describes")
     if len(set(flags)) < len(flags):
-        raise InputError(f"{place}: duplicate flag")
+        table.refuse("duplicate flag")
     return tuple(flags)
 
 

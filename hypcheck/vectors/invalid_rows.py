@@ -7,25 +7,24 @@ import re
 import sys
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
-from hypcheck.errors import InputError
+from hypcheck import strict
 from hypcheck.geometry.pair import AXIS, ENDS, HEIGHTS, REFUSED, SIZES, trouble_with
 from hypcheck.geometry.rows import PAIRS, SWEEPS, Layout, Rows
+from hypcheck.strict import StrictTable
 from hypcheck.tables.numbers import shown_json
-from hypcheck.tables.strict_json import JsonDocument, JsonPlace
+from hypcheck.tables.strict_json import JsonDocument
 from hypcheck.vectors.family import Row, described
 from hypcheck.vectors.flags import FlagFacts
 from hypcheck.vectors.format import (
     CaseFile,
     Content,
+    a_number,
     content_with,
     file_of,
     json_text,
-    listed,
-    number_of,
     numbers_text,
     object_text,
 )
@@ -256,32 +255,29 @@ def invalid_row_text(case: InvalidRow) -> str:
     )
 
 
-def invalid_rows_of(document: JsonDocument, path: str) -> InvalidRowFile:
+def invalid_rows_of(document: JsonDocument) -> InvalidRowFile:
     """The file of invalid rows of a document. Raises InputError if it is not such a document."""
-    file = file_of(document, path, _FIELDS, _invalid_row)
+    file = file_of(document, _FIELDS, _invalid_row)
     return InvalidRowFile(file.head, file.content, file.cases, file.flags, file.lines)
 
 
-def _invalid_row(
-    place: JsonPlace, fields: dict[str, Any], content: Content, _flags: Mapping[str, FlagFacts]
-) -> InvalidRow:
+def _invalid_row(name: str, table: StrictTable, content: Content, _flags: Mapping[str, FlagFacts]) -> InvalidRow:
     names = content.columns
-    if fields["expected"] != EXPECTED:
-        raise InputError(f"{place}: expected is {shown_json(fields['expected'])}; it must be {EXPECTED!r}")
-    columns = listed(place, "columns", fields["columns"])
-    if not columns or columns != [name for name in names if name in columns]:
-        raise InputError(f"{place}: columns is {shown_json(columns)}; it must name one or more of {', '.join(names)}")
-    numbers = listed(place, "row", fields["row"], len(names))
-    words = listed(place, "bits", fields["bits"], len(names))
-    bits = tuple(_checked_bits(place, *number) for number in zip(names, numbers, words, strict=True))
-    return InvalidRow(fields["id"], bits, tuple(columns))
+    table.required("expected", strict.one_of(EXPECTED))
+    columns = table.required("columns", strict.list_with("a list"))
+    if not columns or columns != [column for column in names if column in columns]:
+        table.refuse(f"columns is {shown_json(columns)}; it must name one or more of {', '.join(names)}")
+    wanted = strict.list_with(f"a list of {len(names)}", len(names), len(names))
+    values, words = table.required("row", wanted), table.required("bits", wanted)
+    bits = tuple(_checked_bits(table, *column) for column in zip(names, values, words, strict=True))
+    return InvalidRow(name, bits, tuple(columns))
 
 
-def _checked_bits(place: JsonPlace, name: str, value: Any, word: Any) -> int:  # noqa: ANN401 - JSON
-    number = _WORDS[value] if isinstance(value, str) and value in _WORDS else number_of(place, name, value)
+def _checked_bits(table: StrictTable, name: str, value: object, word: object) -> int:
+    number = _WORDS[value] if isinstance(value, str) and value in _WORDS else table.check(name, value, a_number)
     if not isinstance(word, str) or not _BITS.fullmatch(word):
-        raise InputError(f"{place}: the bits of {name} are {shown_json(word)}; they must be 16 hexadecimal digits")
+        table.refuse(f"the bits of {name} are {shown_json(word)}; they must be 16 hexadecimal digits")
     bits = int(word, 16)
     if (bits & ~_SIGN <= _word(math.inf)) if math.isnan(number) else (bits != _word(number)):
-        raise InputError(f"{place}: the bits of {name} are {word}, which is not {shown_json(value)}")
+        table.refuse(f"the bits of {name} are {word}, which is not {shown_json(value)}")
     return bits

@@ -37,7 +37,7 @@ def list_lines() -> Iterator[str]:
     for name in ALL_NAMES:
         path = str(frozen.path_of(name))
         document = read_document(path)  # only the number of cases is needed
-        head, _ = read_metadata(document, path)
+        head, _ = read_metadata(document)
         together += len(document.cases)
         mark = " (extreme: taken when asked for)" if head.extreme else ""
         yield f"{name:{width}}  {len(document.cases):4}  {head.title}{mark}"

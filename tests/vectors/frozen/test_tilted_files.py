@@ -146,7 +146,7 @@ FIRST = SOUND.index('"cases": [') + 1
         (lambda case: case["flips"].update(contact=0.5), "a list of 2"),
         (lambda case: case["flips"].update(contact=[0.5, 0.25]), "the lower first"),
         (lambda case: case["flips"].update(contact=[0.5, 1.5]), "from 0 to 1"),
-        (lambda case: case["flips"].pop("contact") and None, "lacks contact"),
+        (lambda case: case["flips"].pop("contact") and None, "flips has no contact"),
         (lambda case: case.update(flags=["ring"]), "not among those"),
     ],
 )
@@ -171,7 +171,7 @@ def test_a_file_with_another_content_than_the_wanted_one_is_refused(tmp_path):
         read_cases(str(frozen.path_of("tilted-ring")), content_with(refused=True))
     path = tmp_path / "mine.json"
     path.write_text(text_of("tilted-ring").replace("1.1.0", "1.0.0", 1), encoding="utf-8")
-    with pytest.raises(InputError, match="it must be 'positions' or 'refusals'"):
+    with pytest.raises(InputError, match="it must be one of positions, refusals"):
         read_cases(str(path))
 
 

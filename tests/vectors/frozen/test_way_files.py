@@ -130,8 +130,12 @@ def test_wrong_labels_of_a_way_are_found():
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ('"hit":true', '"hit":false', "hit is false; with first"),
-        ('"schema": "1.2.0"', '"schema": "1.5.0"', "schema is \"1.5.0\"; this program reads '1.0.0'"),
+        ('"hit":true', '"hit":false', "hit is false; it must be true, to agree with first"),
+        (
+            '"schema": "1.2.0"',
+            '"schema": "1.5.0"',
+            "schema is \"1.5.0\"; it must be one that this program reads: '1.0.0'",
+        ),
         ('"content": "ways"', '"content": "tilted-ways"', "row is .* it must be a list of 13"),
         ('"time":"', '"time":"x', 'time is "x'),
         ('"double_root":"', '"double_root":null,"other":"', "other"),
@@ -173,12 +177,15 @@ POINT = ["0", "0", "0"]
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        (lambda case: case.update(hit=False, first=None), "first_hex is .*; it must be null, as first is"),
+        (lambda case: case.update(hit=False, first=None), "first_hex is .*; it must be null, to agree with first"),
         (
             lambda case: case.update(first=[0.5, 0.25], first_hex=["0x1p-1", "0x1p-2"]),
-            r"first is \[0.5, 0.25\]; it must be two times from 0 to 1, the lower first",
+            r"first is \[0.5, 0.25\]; it must be null, or two times from 0 to 1, the lower first",
         ),
-        (lambda case: case["certificate"].update(points=[POINT] * 3), "points has 3 points; it may have two at most"),
+        (
+            lambda case: case["certificate"].update(points=[POINT] * 3),
+            "certificate.points is .*; it must be a list of two points at most",
+        ),
         (lambda case: case["certificate"].update(points=[POINT]), "a certificate has a time with points or with a"),
         (lambda case: case["certificate"].update(time=None), "a certificate has a time with points or with a"),
     ],
