@@ -231,26 +231,26 @@ _TURNS = np.linspace(0, 2 * np.pi, 33)[:-1]
 def plot_of(model: SceneModel, flight: ShownFlight | None) -> Figure:
     """The figure. Raises UnavailableError where matplotlib is missing."""
     try:
-        from matplotlib.collections import PolyCollection  # noqa: PLC0415 - an extra, which takes half a second
-        from matplotlib.figure import Figure  # noqa: PLC0415
+        from matplotlib import collections, figure  # noqa: PLC0415 - an extra, which takes half a second
     except ModuleNotFoundError:
         raise UnavailableError("a plot needs matplotlib; install it, or hypcheck with its extra [report]") from None
     bodies = drawn_bodies(model, flight)
     middle = bodies[:, 4:7].mean(axis=0) if flight is None else flight.points.mean(axis=0)
     near = np.argsort(((bodies[:, 4:6] - middle[:2]) ** 2).sum(axis=1), kind="stable")[:_MOST]
     rings = [_rings(body, 12 if len(near) <= 40 else 3) for body in bodies[near]]
-    figure = Figure(figsize=(11, 5), layout="constrained")
-    axes = figure.subplots(1, 2)
+    drawn = figure.Figure(figsize=(11, 5), layout="constrained")
+    axes = drawn.subplots(1, 2)
     for panel, (title, across, up, x, y) in zip(axes, _VIEWS, strict=True):
         for touched, colour in ((0, "#8a9a7b"), (1, "#c2161d")):
             chosen = [ring for place, ring in zip(near, rings, strict=True) if bodies[place, 11] == touched]
             slices = [hull for ring in chosen for hull in _hulls(ring[:, :, [across, up]])]
-            panel.add_collection(PolyCollection(slices, facecolors=colour, edgecolors="none", alpha=0.55, zorder=1))
+            hulls = collections.PolyCollection(slices, facecolors=colour, edgecolors="none", alpha=0.55, zorder=1)
+            panel.add_collection(hulls)
         if flight is not None:
-            _draw_flight(panel, PolyCollection, model.mover, flight, (across, up))
+            _draw_flight(panel, collections.PolyCollection, model.mover, flight, (across, up))
         panel.set(title=title, xlabel=x, ylabel=y, aspect="equal")
         panel.autoscale_view()
-    return figure
+    return drawn
 
 
 def _draw_flight(axes: Any, collection: Any, mover: Mover, flight: ShownFlight, columns: tuple[int, int]) -> None:  # noqa: ANN401 - matplotlib's

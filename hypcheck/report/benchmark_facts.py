@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, TypeVar
 
 from msgspec.structs import asdict
@@ -109,6 +109,13 @@ class RefusedFacts(TimedFacts[measurements.RefusedLine]):
 class ComparisonFacts(TimedFacts[measurements.ComparisonLine]):
     """A ratio compared with the baseline's; a gating method that is slower, or too noisy to tell, fails the run."""
 
+    @classmethod
+    def clause(cls, together: Sequence[measurements.ComparisonLine]) -> str:
+        held = [line for line in together if line.gates]
+        slower = sum(line.verdict == SLOWER for line in held)
+        compared = f"{counted(len(held), 'ratio')} held to the baseline's, {slower:,} of them slower than allowed"
+        return compared if held else ""
+
     def measurements(self) -> Iterator[Measurement]:
         line, where = self.line, (self.line.method, self.line.workload, self.line.mode)
         yield *where, "change", line.change, *(line.ci95 or ())
@@ -134,6 +141,10 @@ class ComparisonFacts(TimedFacts[measurements.ComparisonLine]):
 class SceneFacts(LineFacts[measurements.SceneLine]):
     """The kernel of a scene, timed relative to Table 2; a wrong answer fails the run."""
 
+    @classmethod
+    def clause(cls, together: Sequence[measurements.SceneLine]) -> str:
+        return f"{counted(len(together), 'scene')} timed against Table 2"
+
     @property
     def name(self) -> str:
         return self.line.scene
@@ -155,12 +166,19 @@ class SceneFacts(LineFacts[measurements.SceneLine]):
             yield Failure(MEASUREMENT, line.scene, "scene", "wrong", message)
 
     def sentences(self) -> Iterator[str]:
-        ratios = (figure(times.by_printed or 0.0) for times in (self.line.batch, self.line.single))
-        yield f"{' in a batch and '.join(ratios)} one by one times Table 2's time, {self.line.wrong:,} wrong"
+        for mode, times in (("in a batch", self.line.batch), ("one by one", self.line.single)):
+            if times.by_printed:
+                yield f"{mode}: {pace(times.by_printed, 'Table 2', times.by_printed_ci95)}"
+        yield f"{self.line.wrong:,} wrong"
 
 
 class ForestFacts(LineFacts[measurements.ForestLine]):
     """A method for a walker among trees; a wrong answer of one that promises to be exact fails the run."""
+
+    @classmethod
+    def clause(cls, together: Sequence[measurements.ForestLine]) -> str:
+        trees = {line.trees for line in together}
+        return f"a walker's step timed in {counted(len(trees), 'forest')} of up to {max(trees):,} trees"
 
     @property
     def name(self) -> str:
@@ -190,6 +208,11 @@ class ForestFacts(LineFacts[measurements.ForestLine]):
 
 class KernelFacts(LineFacts[measurements.KernelLine]):
     """A target of a kernel's speed, which fails the run if it is missed, certainly or within the noise."""
+
+    @classmethod
+    def clause(cls, together: Sequence[measurements.KernelLine]) -> str:
+        met = sum(line.met for line in together)
+        return f"{met:,} of {counted(len(together), 'target')} of the kernels met"
 
     @property
     def name(self) -> str:
@@ -295,10 +318,6 @@ class CostFacts(LineFacts[measurements.CostLine]):
 class AbsentFacts(LineFacts[measurements.AbsentLine]):
     """A program or package that is not installed."""
 
-    @property
-    def name(self) -> str:
-        return self.line.what
-
     def sentences(self) -> Iterator[str]:
         yield f"left out: {self.line.reason}"
 
@@ -353,6 +372,15 @@ def failures_of(record: Record, *kinds: type[RecordLine]) -> list[Failure]:
 def sentences_of(record: Record, *kinds: type[RecordLine]) -> Iterator[str]:
     """The sentences of all lines of these types."""
     return (sentence for line_facts in facts_of(record, *kinds) for sentence in line_facts.sentences())
+
+
+def clauses_of(record: Record, *kinds: type[RecordLine]) -> Iterator[str]:
+    """A clause of the verdict on a passing run for each of these types of lines that the record has."""
+    for kind in kinds:
+        together = record.of(kind)
+        clause = FACTS[kind].clause(together) if together else ""
+        if clause:
+            yield clause
 
 
 def benchmark_failures(record: Record) -> Iterator[Failure]:

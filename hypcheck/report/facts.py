@@ -7,7 +7,7 @@ which also has the table of all types of lines.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Generic, TypeVar
@@ -107,6 +107,11 @@ class LineFacts(Generic[Line]):
         """One sentence for all failures of the line together; "" if their messages are enough."""
         return ""
 
+    @classmethod
+    def clause(cls, together: Sequence[Line]) -> str:  # noqa: ARG003 - a type that has a clause reads them
+        """What the verdict of a passing run says about all lines of this type; "" if it says nothing."""
+        return ""
+
     def not_judged(self) -> NotJudged | None:
         """Why the line has no result; None if it has one."""
         return None
@@ -141,6 +146,10 @@ class ProofFacts(LineFacts[lines.ProofLine]):
 
     def headline(self) -> str:
         return f"not proved: {self.line.statement}"
+
+    @classmethod
+    def clause(cls, together: Sequence[lines.ProofLine]) -> str:
+        return f"{counted(len(together), 'proof')} {'holds' if len(together) == 1 else 'hold'}"
 
     def sentences(self) -> Iterator[str]:
         if self.line.holds:

@@ -23,7 +23,7 @@ from hypcheck.record import Record
 from hypcheck.record.lines import DriftLine, GroupLine, ImplementationLine, NotStartedLine, OracleLine, ProofLine
 from hypcheck.record.measurements import ComparisonLine, ForestLine, KernelLine, SceneLine
 from hypcheck.report import messages, model
-from hypcheck.report.benchmark_facts import SLOWER, benchmark_failures, failures_of
+from hypcheck.report.benchmark_facts import benchmark_failures, clauses_of, failures_of
 from hypcheck.report.document import Code, Column, Row, Strong, TableBlock, TableCell, number, plain, table
 from hypcheck.report.facts import Failure
 from hypcheck.report.measured import by_ratio, measured_methods, reference, reference_in_words, timed_workloads
@@ -54,24 +54,7 @@ def _method_clauses(record: Record) -> Iterator[str]:
     if exact:
         which = exact[0].name if len(exact) == 1 else f"each of the {len(exact):,} that promise to be exact"
         yield f"{which} was right on every row"
-    held = [line for line in record.of(ComparisonLine) if line.gates]
-    if held:
-        slower = sum(line.verdict == SLOWER for line in held)
-        yield f"{counted(len(held), 'ratio')} held to the baseline's, {slower:,} of them slower than allowed"
-
-
-def _other_clauses(record: Record) -> Iterator[str]:
-    """Clauses about measurements other than the comparison of methods on rows."""
-    targets = record.of(KernelLine)
-    if targets:
-        met = sum(line.met for line in targets)
-        yield f"{met:,} of {counted(len(targets), 'target')} of the kernels met"
-    forests = record.of(ForestLine)
-    if forests:
-        trees = {line.trees for line in forests}
-        yield f"a walker's step timed in {counted(len(trees), 'forest')} of up to {max(trees):,} trees"
-    if record.of(SceneLine):
-        yield f"{counted(len(record.of(SceneLine)), 'scene')} timed against Table 2"
+    yield from clauses_of(record, ComparisonLine)
 
 
 MEANINGS = {
@@ -219,14 +202,13 @@ def _passed(record: Record) -> Verdict:
         and not any(isinstance(line, WITHOUT_COMPARISON) for line in record.lines)
     ):
         return Verdict(False, "NOTHING was asked and nothing was judged: this is not a pass.")
-    proofs = len(record.of(ProofLine))
     clauses = [
         *([_oracle_clause(totals)] if totals else []),
-        *([f"{counted(proofs, 'proof')} {'holds' if proofs == 1 else 'hold'}"] if proofs else []),
+        *clauses_of(record, ProofLine),
         *(f"{method.name} right on all {counted(method.asked, 'case')}" for method in tested if method.exact),
         *(_gated_clause(method, record) for method in tested if method.gated),
         *_method_clauses(record),
-        *_other_clauses(record),
+        *clauses_of(record, *WITHOUT_COMPARISON),
     ]
     return Verdict(True, f"HELD: {'; '.join(clauses)}." if clauses else "HELD: nothing failed.")
 
