@@ -1,8 +1,8 @@
 """Tables that users and foreign programs write, read strictly: each value is checked, and no key is left over.
 
 A check makes something of a value, or raises ValueError, whose text says what the value must be. The refusal of a value
-is one sentence: where it is, what it is, and what it must be. So are read scenes, settings and known failures in TOML,
-and vector files and descriptions of implementations in JSON.
+is one sentence: where it is, what it is, and what it must be. Scenes, settings and known failures in TOML are read so,
+and vector files and the descriptions of implementations in JSON.
 """
 
 from __future__ import annotations
