@@ -68,21 +68,32 @@ class KernelTarget:
             says=says,
         )
 
+    def against(self, mine: timing.Samples, other: timing.Samples, says: str) -> KernelLine:
+        """The line about how many times as fast as the other mine is; as long, if the target is an upper bound."""
+        return self.line((timing.times_as_long if self.at_most else timing.times_as_fast)(mine, other), says)
 
-def _listed() -> dict[str, Any]:
+
+def listed() -> dict[str, Any]:
+    """The content of targets.toml; it must not be changed."""
     return toml.shipped("hypcheck.bench", "targets.toml")
 
 
 def target(name: str) -> KernelTarget:
     """The target of that name; it must be listed in targets.toml."""
-    entry = _listed()["targets"][name]
+    entry = listed()["targets"][name]
     at_most = "at_most" in entry
     return KernelTarget(name, entry["text"], entry["at_most" if at_most else "at_least"], at_most)
 
 
+def most_times(subject: str) -> Mapping[str, float]:
+    """How many times as long as the first form the other forms of a call about many rows may take, by name."""
+    times: Mapping[str, float] = listed()["many"][subject]
+    return times
+
+
 def forms(call: str) -> Mapping[str, Form]:
     """The forms in which a call may be written, by name; the first is the cheapest."""
-    return {name: (text, times) for name, (text, times) in _listed()["forms"][call].items()}
+    return {name: (text, times) for name, (text, times) in listed()["forms"][call].items()}
 
 
 SEED = 1
@@ -137,12 +148,11 @@ def from_memory(folder: Path, rounds: int) -> Iterator[KernelLine]:
     samples = timing.measured_samples(entries, rounds)
     one, plain = samples["one"], _fastest(samples)
     beside = f"{timing.rate_text(one)} on {choice().level}"
-    yield target("memory speed").line(
-        timing.times_as_fast(one, samples["read"]),
-        f"{beside}; reading x, y and z alone: {timing.rate_text(samples['read'])}",
+    yield target("memory speed").against(
+        one, samples["read"], f"{beside}; reading x, y and z alone: {timing.rate_text(samples['read'])}"
     )
-    yield target("plain C, from memory").line(
-        timing.times_as_fast(one, plain), f"{beside}; Table 2 in C, {plain.name}: {timing.rate_text(plain)}"
+    yield target("plain C, from memory").against(
+        one, plain, f"{beside}; Table 2 in C, {plain.name}: {timing.rate_text(plain)}"
     )
     yield target("two threads").line(
         *_gain(*(samples[f"{name} by the clock"] for name in ("one", "two", "read", "read on two")))
@@ -172,7 +182,7 @@ def in_cache(folder: Path, rounds: int) -> Iterator[KernelLine]:
     says = (
         f"{timing.rate_text(samples['one'])} on {choice().level}; Table 2 in C, {plain.name}: {timing.rate_text(plain)}"
     )
-    yield target("plain C, in cache").line(timing.times_as_fast(samples["one"], plain), says)
+    yield target("plain C, in cache").against(samples["one"], plain, says)
 
 
 def threads_in_cache(folder: Path, rounds: int) -> Iterator[KernelLine]:
@@ -226,7 +236,7 @@ def near_contact(folder: Path, rounds: int) -> Iterator[KernelLine]:
     says = (
         f"{timing.rate_text(touching)}; fixed point decides nearly all of them; a product: {product.median_ns:.3g} ns"
     )
-    yield target("near contact").line(timing.times_as_long(touching, product), says)
+    yield target("near contact").against(touching, product, says)
 
 
 SLOW_FAMILIES = (
@@ -392,7 +402,7 @@ def one_orientation(rounds: int) -> Iterator[KernelLine]:
         ]
         samples = timing.measured_samples(entries, more * rounds)
         says = f"{timing.rate_text(samples['tilted'])}; upright: {timing.rate_text(samples['upright'])}"
-        yield target(name).line(timing.times_as_fast(samples["tilted"], samples["upright"]), says)
+        yield target(name).against(samples["tilted"], samples["upright"], says)
 
 
 def axis_along_z(rounds: int) -> Iterator[KernelLine]:
@@ -423,6 +433,6 @@ def an_axis_each(folder: Path, rounds: int) -> Iterator[KernelLine]:
     ]
     samples = timing.measured_samples(entries, rounds)
     says = f"{timing.rate_text(samples['rows'])}; numpy: {timing.rate_text(samples['eigh'])}"
-    yield target("numpy.linalg.eigh").line(timing.times_as_fast(samples["rows"], samples["eigh"]), says)
+    yield target("numpy.linalg.eigh").against(samples["rows"], samples["eigh"], says)
     says = f"{timing.rate_text(samples['touching'])}; a product: {samples['product'].median_ns:.3g} ns"
-    yield target("near contact, tilted").line(timing.times_as_long(samples["touching"], samples["product"]), says)
+    yield target("near contact, tilted").against(samples["touching"], samples["product"], says)

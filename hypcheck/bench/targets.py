@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 import hypcheck
 from hypcheck.bench import call_targets, compiled_targets
 from hypcheck.bench.c_library import TOWER_SIZES, c_baselines
-from hypcheck.bench.compiled_targets import KernelTarget, target, tower_rows, uniform_columns
+from hypcheck.bench.compiled_targets import KernelTarget, listed, target, tower_rows, uniform_columns
 from hypcheck.errors import UnavailableError
 from hypcheck.geometry.pair import Sizes
 from hypcheck.geometry.rows import CANNOT_SAY, Columns, Floats, Positions, Rows
@@ -69,7 +69,7 @@ def paces(rounds: int) -> Iterator[KernelLine]:
         samples = timing.measured_samples(entries, rounds)
         for name, text in (("far", "ends far away"), ("near", "ends near the rim")):
             says = f"{timing.rate_text(samples[name])}; without ends {timing.rate_text(samples['whole'])}"
-            yield target(f"{text}, {kind}").line(timing.times_as_long(samples[name], samples["whole"]), says)
+            yield target(f"{text}, {kind}").against(samples[name], samples["whole"], says)
 
 
 def _answered(rows: Rows) -> Positions:
@@ -161,10 +161,9 @@ class TimesAsFast:
         return KernelTarget(f"{self.name}, {expression}", text, 1.0).line(reached, words)
 
 
-TARGETS = (
-    TimesAsFast("kernel", "numpy", "classify_scene, one thread", 30.0, "reading", 0.75),
-    TimesAsFast("fallback", "fallback", "the numpy kernel", 8.0, "copying", 0.35),
-)
+def numpy_targets() -> tuple[TimesAsFast, ...]:
+    """The targets against numpy expressions that targets.toml lists."""
+    return tuple(TimesAsFast(**entry) for entry in listed()["times_as_fast"])
 
 
 def against_numpy(folder: Path, rounds: int) -> Iterator[KernelLine]:
@@ -183,7 +182,7 @@ def against_numpy(folder: Path, rounds: int) -> Iterator[KernelLine]:
         entries.append(timing.TimingEntry("reading", MANY, c_baselines(folder)[0].read(columns), loops=1))
     entries += [timing.TimingEntry(name, MANY, timing.thread_clocked(call), loops=1) for name, call in work.items()]
     samples = timing.measured_samples(entries, rounds)
-    for times in TARGETS:
+    for times in numpy_targets():
         for expression in EXPRESSIONS:
             if times.mine in samples:
                 yield times.line(expression, samples, f"; {large_pages()}")
@@ -231,7 +230,7 @@ def against_others(rounds: int) -> Iterator[KernelLine]:
     for name in ("numpy.roots", "FCL"):
         if (other := samples.get(name)) is not None:
             says = f"{timing.rate_text(samples['kernel'])} on {choice().kernel}; {name}: {timing.rate_text(other)}"
-            yield target(name).line(timing.times_as_fast(samples["kernel"], other), says)
+            yield target(name).against(samples["kernel"], other, says)
 
 
 def _queries(mesh: SceneMesh, rows: Rows) -> timing.Clocked:
