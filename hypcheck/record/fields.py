@@ -82,9 +82,7 @@ def plain(value: Any) -> Any:  # noqa: ANN401  any value that a line holds
         return value if math.isfinite(value) else str(value)
     if isinstance(value, Mapping):
         return {str(key): plain(item) for key, item in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [plain(item) for item in value]
-    return value
+    return [plain(item) for item in value]
 
 
 def _custom(kind: type, value: object) -> object:
