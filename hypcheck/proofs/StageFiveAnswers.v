@@ -33,13 +33,15 @@ Definition parts_of_double zeros m e := [("sign", Of Int (Z.sgn m)); ("exponent"
 Definition in_room k z := provided (Z.abs z <? 2 ^ k) (Whole z).
 Definition filling f (given : list datum) := match given with [Room k; Whole a; Whole c] => in_room k (f a c) | _ => None end.
 Definition in_units s e a unit := s * (a * 2 ^ (e - unit)).
+(** A sign, and for a number other than 0 a word that is not 0. *)
+Definition are_parts s a := (s =? 0) || (Z.abs s =? 1) && (0 <? a) && (a <? 2 ^ 64).
 Definition of_integers zeros : list (string * (list datum -> option datum)) := [
   ("HC_INTEGER", fun given => match given with [Of Int k] => Some (Room k) | _ => None end);
   ("hc_add", filling Z.add); ("hc_subtract", filling Z.sub); ("hc_multiply", filling Z.mul);
   ("hc_scale", fun given => match given with [Room k; Of Int c; Whole a] => if 0 <? c then in_room k (c * a) else None | _ => None end);
   ("hc_in_units", fun given => match given with
     | [Room k; Rec [(_, Of Int s); (_, Of Int e); (_, Of U64 a)]; Of Int unit] =>
-      if (s =? 0) || (unit <=? e) then in_room k (in_units s e a unit) else None
+      if are_parts s a && ((s =? 0) || (unit <=? e)) then in_room k (in_units s e a unit) else None
     | _ => None end);
   ("hc_parts_of", fun given => match given with [Double m e] => Some (Rec (parts_of_double zeros m e)) | _ => None end);
   ("hc_least", ints Z.min)].
@@ -136,7 +138,7 @@ Let axial := Z.min (Z.min (exponent "gamma") (exponent "d")) (exponent "z").
 Definition unit_of n := if is_in n ["gamma"; "d"; "z"] then axial else radial.
 Definition length_of n := in_units (Z.sgn (m n)) (exponent n) (mantissa_of zeros (m n)) (unit_of n).
 Hypotheses (Begins : forall n, In n lengths -> v n = length_of n) (Right : Forall (is_right v) C_integers)
-  (Fits : forall n, In n lengths -> Z.abs (v n) < 2 ^ 2098).
+  (Fits : forall n, In n lengths -> Z.abs (v n) < 2 ^ 2098) (Parts : forall n, In n lengths -> are_parts (Z.sgn (m n)) (mantissa_of zeros (m n)) = true).
 
 Lemma all_fit : Forall (fun s => Z.abs (v (name s)) < 2 ^ room_of s) C_fillings.
 Proof.
@@ -157,10 +159,10 @@ Definition answer_by_signs := exact_answer (sign "delta") (sign "n2") (sign "n1"
   (sign "slope_at_A") (sign "z") (sign "ring_excess").
 
 Let known := of_integers zeros.
-Lemma length_is n : In n lengths -> (if (Z.sgn (m n) =? 0) || (unit_of n <=? exponent n) then in_room 2098 (length_of n) else None) = Some (Whole (v n)).
+Lemma length_is n : In n lengths -> (if are_parts (Z.sgn (m n)) (mantissa_of zeros (m n)) && ((Z.sgn (m n) =? 0) || (unit_of n <=? exponent n)) then in_room 2098 (length_of n) else None) = Some (Whole (v n)).
 Proof.
-  intros I; replace (unit_of n <=? exponent n) with true.
-  - rewrite orb_true_r, <- Begins, in_room_is by auto; reflexivity.
+  intros I; rewrite Parts by exact I; replace (unit_of n <=? exponent n) with true.
+  - cbn [andb]; rewrite orb_true_r, <- Begins, in_room_is by auto; reflexivity.
   - symmetry; apply Z.leb_le; destruct I as [<- | [<- | [<- | [<- | [<- | [<- | [<- | []]]]]]]]; unfold unit_of; cbn [is_in existsb String.eqb Ascii.eqb Bool.eqb orb];
       unfold axial, radial; lia.
 Qed.
@@ -195,7 +197,7 @@ Definition begun := with_lengths (bound "axial_unit" (Of Int axial) (bound "radi
   (fold_left (fun now n => bound (n ++ "_parts") (Rec (parts_of_double zeros (m n) (e n))) now) lengths
     (match bound_all [Named "row"] [row m e] constants with Some now => now | None => [] end)))).
 
-Ltac open text := eval cbv -[Z.min Z.sgn Z.eqb Z.leb exponent_of mantissa_of in_room in_units provided said most_grown W] in text.
+Ltac open text := eval cbv -[Z.min Z.sgn Z.eqb Z.leb exponent_of mantissa_of in_room in_units are_parts provided said most_grown W] in text.
 Ltac of_length n := exact (length_is n ltac:(cbn; tauto)).
 Ltac next := erewrite go_put; [| reflexivity | lazymatch goal with |- ?text = _ => let v := open text in change text with v end;
   first [reflexivity | of_length "alpha" | of_length "b" | of_length "x" | of_length "y" | of_length "gamma" | of_length "d" | of_length "z"]
@@ -352,6 +354,17 @@ Proof.
     fold (exponent "alpha") (exponent "gamma") (exponent "b") (exponent "d") (exponent "x") (exponent "y") (exponent "z"); clearbody exponent; lia.
 Qed.
 
+Lemma are_parts_all n : In n lengths -> are_parts (Z.sgn (m n)) (mantissa_of zeros (m n)) = true.
+Proof.
+  intros I; unfold are_parts; destruct (Z.eqb_spec (m n) 0) as [E | E]; [rewrite E; reflexivity |].
+  destruct Zeros as [C]; destruct (C _ E) as [Z0 Z1]; pose proof (Mantissas n I) as M; pose proof (Z.pow_pos_nonneg 2 (zeros (m n)) ltac:(lia) Z0) as P.
+  assert (A : 0 < mantissa_of zeros (m n)).
+  { apply Z.div_str_pos; split; [exact P | apply Z.divide_pos_le; [lia | apply Z.divide_abs_r; exact Z1]]. }
+  assert (L : mantissa_of zeros (m n) <= Z.abs (m n)) by (apply Z.div_le_upper_bound; [exact P | nia]).
+  rewrite (proj2 (Z.ltb_lt _ _) A), (proj2 (Z.ltb_lt (mantissa_of zeros (m n)) (2 ^ 64))) by (apply Z.le_lt_trans with (Z.abs (m n)); [exact L | apply Z.lt_trans with (2 ^ 53); [exact M | reflexivity]]).
+  destruct (m n); [congruence | reflexivity | reflexivity].
+Qed.
+
 Lemma lengths_fit n : In n lengths -> Z.abs (v n) < 2 ^ 2098.
 Proof.
   intros I; rewrite begins by exact I; unfold length_of, in_units; destruct (Z.eqb_spec (m n) 0) as [E | E].
@@ -392,7 +405,7 @@ Let p := upright (value_of m e "alpha") (value_of m e "gamma") (value_of m e "b"
 Definition answer_of_integers := called_within functions (of_integers zeros) [] "hc_position_by_integers" [row m e].
 Theorem text_answers_by_integers : exists a, answer_of_integers = Some (Of Int (code (Some a))) /\ is_position p a.
 Proof.
-  eexists; split; [exact (tree_text m e zeros v begins right_integers lengths_fit) |].
+  eexists; split; [exact (tree_text m e zeros v begins right_integers lengths_fit are_parts_all) |].
   assert (pos : forall n, In n ["alpha"; "gamma"; "b"; "d"] -> 0 < v n).
   { intros n I; assert (J : In n lengths) by (clear - I; destruct I as [<- | [<- | [<- | [<- | []]]]]; cbn; tauto); apply lt_IZR; apply Rmult_lt_reg_r with (power (unit_of m e zeros n)); [apply power_positive |].
     rewrite Rmult_0_l, value_is by exact J; apply Rmult_lt_0_compat; [apply IZR_lt, Sizes, I | apply power_positive]. }

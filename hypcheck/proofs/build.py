@@ -59,14 +59,15 @@ COMPOSED = (
     *("Trees", "Computed", "StageThreeRuns", "StageThreeAnswers", "StageThreeNumbers", "StageThreePosition"),
     *("StageFourSteps", "StageFourPlane"),
     *("LongIntegers", "LongRuns", "LongSums", "LongProducts", "LongUnits"),
-    *("StageFiveAnswers", "StagesRuns"),
+    *("StageFiveAnswers", "StageFiveLimbs", "StageFiveIntegers", "StagesRuns", "Doubles", "StagesOnDoubles"),
 )
 """All stages in one theorem, Stages.whatever_stage_answers; from a stage's numbers to the position; the C of words; the
 functions of the C that decide; the C of long integers."""
 
 OF_STAGES = (
     *("Stages", "StageTwoAnswers", "StageThree", "StageThreePosition"),
-    *("StageFive", "StageFiveAnswers", "StageFour", "StageFourPlane", "StagesRuns"),
+    *("StageFive", "StageFiveAnswers", "StageFiveIntegers", "StageFour", "StageFourPlane", "StagesRuns"),
+    "StagesOnDoubles",
 )
 """The files whose theorems say that what a stage answers is the position."""
 
@@ -326,7 +327,11 @@ def changed_functions() -> tuple[Weakened, ...]:
 @cache
 def changed_decisions() -> tuple[Weakened, ...]:
     """The file that runs a function that decides, with one change of that function; each must be refused."""
-    changes = (("deciding", printed_c.deciding_changes()), ("beside_tangency", printed_c.tangency_changes()))
+    changes = (
+        ("deciding", printed_c.deciding_changes()),
+        ("beside_tangency", printed_c.tangency_changes()),
+        ("of_doubles", printed_c.double_changes()),
+    )
     return tuple(
         Weakened(printed_c.PROVED_IN[name], f"HeaderText.{texts}", new, what)
         for texts, found in changes
@@ -336,7 +341,7 @@ def changed_decisions() -> tuple[Weakened, ...]:
 
 @cache
 def changed_integers() -> tuple[Weakened, ...]:
-    """LongSums.v, LongProducts.v or LongUnits.v with one change of a function of theirs; each must be refused."""
+    """The file that runs a function of long integers, with one change of that function; each must be refused."""
     changes = printed_c.integer_changes()
     return tuple(Weakened(printed_c.PROVED_IN[name], "HeaderText.integers", new, what) for name, new, what in changes)
 

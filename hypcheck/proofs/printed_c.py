@@ -44,6 +44,12 @@ _PRODUCTS = ("hc_add_row", "hc_multiply", "hc_scale")
 INTEGERS = (*_SIZES, *_PRODUCTS, "hc_in_units")
 """The functions of the header that compute with long integers."""
 
+ROOM = "HC_INTEGER"
+"""The macro that declares a long integer: how many limbs it has room for is read as a function of its bits."""
+
+OF_DOUBLES = ("hc_parts_of", "hc_fixed_parts_of", "hc_valid")
+"""The functions of the header that read the bits of doubles."""
+
 BESIDE_TANGENCY = ("hc_position_in_plane",)
 """The functions of the header that decide beside an exact tangency."""
 
@@ -60,6 +66,8 @@ PROVED_IN = {
     **dict.fromkeys(_SIZES, "LongSums"),
     **dict.fromkeys(_PRODUCTS, "LongProducts"),
     "hc_in_units": "LongUnits",
+    ROOM: "StageFiveLimbs",
+    **dict.fromkeys(OF_DOUBLES, "Doubles"),
     "hc_position_in_plane": "StageFourPlane",
 }
 """The Coq file that says what each of them computes."""
@@ -140,6 +148,13 @@ def beside_tangency(header: str) -> list[str]:
     return [text.replace("HC_NAMED_LENGTHS(lengths)", lengths) for text in _texts(BESIDE_TANGENCY, header)]
 
 
+def integers(header: str) -> list[str]:
+    """The texts of the functions that compute with long integers, and of the room that one is declared with."""
+    room = re.search(rf"^#define {ROOM}\(name, bits\)\s+\\\n +hc_limb name##_limbs\[(.*)\]; \\$", header, re.MULTILINE)
+    declared = [f"static int {ROOM}(int bits) {{ return {room[1]}; }}"] if room else []
+    return [*_texts(INTEGERS, header), *declared]
+
+
 def _texts(names: tuple[str, ...], header: str) -> list[str]:
     found = [re.search(_FUNCTION.format(name), header, re.MULTILINE | re.DOTALL) for name in names]
     return [text[0] for text in found if text]
@@ -150,9 +165,9 @@ def header_text() -> str:
     text = HEADER.read_text(encoding="utf-8")
     rows = ";\n".join(f"  ({_quoted(name)}, {_quoted(part)}%text)" for name, part in parts(text))
     bounds = "; ".join(f'("{name.lower()}", {value})' for name, value in _BOUND.findall(text))
-    words, trees, beside, long = (
+    words, trees, beside, long, doubles = (
         ";\n".join(f"  {_quoted(function)}%text" for function in found)
-        for found in (functions(text), deciding(text), beside_tangency(text), _texts(INTEGERS, text))
+        for found in (functions(text), deciding(text), beside_tangency(text), integers(text), _texts(OF_DOUBLES, text))
     )
     return (
         f"From Hypcheck Require Import Steps.\n{_HEAD}Definition fixed_bounds : list (string * Z) := [{bounds}]%Z.\n"
@@ -161,6 +176,7 @@ def header_text() -> str:
         f"Definition deciding : list text := [\n{trees}].\n"
         f"Definition beside_tangency : list text := [\n{beside}].\n"
         f"Definition integers : list text := [\n{long}].\n"
+        f"Definition of_doubles : list text := [\n{doubles}].\n"
         "Definition parts := map (fun part => (fst part, string_of (snd part))) texts.\n"
     )
 
@@ -203,8 +219,13 @@ def tangency_changes() -> Iterator[tuple[str, str, str]]:
 
 
 def integer_changes() -> Iterator[tuple[str, str, str]]:
-    """The same of the functions that compute with long integers."""
-    yield from _changes_of(INTEGERS, _texts(INTEGERS, HEADER.read_text(encoding="utf-8")))
+    """The same of the functions that compute with long integers, and of the room of one."""
+    yield from _changes_of((*INTEGERS, ROOM), integers(HEADER.read_text(encoding="utf-8")))
+
+
+def double_changes() -> Iterator[tuple[str, str, str]]:
+    """The same of the functions that read the bits of doubles."""
+    yield from _changes_of(OF_DOUBLES, _texts(OF_DOUBLES, HEADER.read_text(encoding="utf-8")))
 
 
 def _changes_of(names: tuple[str, ...], texts: list[str]) -> Iterator[tuple[str, str, str]]:
