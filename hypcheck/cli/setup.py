@@ -32,7 +32,7 @@ _DEFAULT_NAME = "predicate"
     type=click.Choice(STUBS),
     default=STUBS[0],
     show_default=True,
-    help="What the stub answers: the position of a spheroid, or whether it meets contact on a way.",
+    help="What the stub answers: the position of a spheroid, or whether it meets contact on a sweep.",
 )
 @click.option("--name", help="The name of the implementation in reports; by default that of the directory.")
 @click.option(

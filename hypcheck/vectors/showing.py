@@ -22,6 +22,7 @@ from hypcheck.vectors.cases import AnyVector, SweepVector, Vector, case_text
 from hypcheck.vectors.families import ALL, EXTREME, case_id, family_of, select
 from hypcheck.vectors.family import Family, Metadata
 from hypcheck.vectors.format import Content, read_metadata
+from hypcheck.vectors.freezing import generated_case, generated_text
 from hypcheck.vectors.frozen import ALL_NAMES
 from hypcheck.vectors.invalid_rows import EXPECTED, InvalidRow
 
@@ -117,8 +118,6 @@ def _distance(distance: Bracket) -> str:
 def case_named(name: str) -> tuple[AnyVector | InvalidRow, Content]:
     """The case with that id, frozen or generated, and the content of its file. Raises InputError if there is none."""
     if "/" in name:
-        from hypcheck.vectors.freezing import generated_case  # noqa: PLC0415 - frozen cases need no oracles
-
         return generated_case(name)
     family = _family_of(name)
     if family in ALL and family not in ALL_NAMES:
@@ -232,8 +231,6 @@ def _family_to_generate(name: str) -> Family:
 
 def as_json(family: Family, seed: int, count: int) -> bytes:
     """A vector file whose cases have generated ids."""
-    from hypcheck.vectors.freezing import generated_text  # noqa: PLC0415 - bare rows need no oracles
-
     return generated_text(family, seed, count).encode()
 
 
