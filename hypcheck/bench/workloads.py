@@ -184,7 +184,8 @@ def _frozen_sweeps(_seed: int, count: int, *, tilted: bool) -> Rows:
 @cache
 def frozen_sweeps(tilted: bool) -> Rows:
     """The frozen sweeps of upright or of tilted spheroids, all families in turn."""
-    families = [frozen.load(name).rows for name in frozen.SWEEP_NAMES if SWEEP_FAMILIES[name].tilted == tilted]
+    groups = frozenset({"end", "axis"} if tilted else {"end"})
+    families = [frozen.load(name).rows for name in frozen.SWEEP_NAMES if SWEEP_FAMILIES[name].groups == groups]
     places = np.concatenate([np.arange(len(rows)) for rows in families])
     return np.concatenate(families)[np.argsort(places, kind="stable")]
 

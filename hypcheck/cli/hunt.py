@@ -143,8 +143,7 @@ def hunt(
         if out is not None:
             from hypcheck.vectors.freezing import require_keepable
 
-            used = target.implementation.description
-            require_keepable(str(out), tilted=used.tilt, ended=used.heights, layout=target.layout)
+            require_keepable(str(out), target.implementation.description.groups)
         run = Hunt(target, plan)
         try:
             _hunt_with_bar(run)
@@ -187,7 +186,7 @@ def _print_findings(run: Hunt, show: int, out: Path | None) -> None:
             rows = [row if layout.has_axis(row) else (*row, *UPRIGHT) for row in rows]
         if used.heights:
             rows = [row if layout.has_heights(row) else (*row, *WITHOUT_ENDS) for row in rows]
-        added = keep_rows(str(out), rows, made_by, tilted=used.tilt, ended=used.heights, layout=layout)
+        added = keep_rows(str(out), rows, made_by, used.groups)
         there = "" if added == len(rows) else ", the others were there already"
         click.echo(f"\n{printable(out)}: {counted(added, 'row')} added{there}")
 
@@ -247,7 +246,7 @@ def minimise(spec: str, case: str, **subject: Any) -> None:  # noqa: ANN401
     row = run.last.case.row
     if run.target.layout.has_end:
         click.echo("\nthe right answer")
-        content = content_with(SWEEPS, ended=SWEEPS.has_heights(row))
+        content = content_with(SWEEPS.groups(row))
         click.echo("\n".join(sweep_answer_lines(*labelled(content, [("", row)]))))
     else:
         click.echo(f"\nthe right answer: {answer_as_text(answer(Pair.from_row(row)))}")

@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import AXIS, CENTER, END, HEIGHTS, SIZES, START, WITHOUT_ENDS, trouble_with_row
+from hypcheck.geometry.pair import ALL_GROUPS, AXIS, CENTER, END, HEIGHTS, SIZES, START, WITHOUT_ENDS, trouble_with_row
 from hypcheck.geometry.rows import PAIRS, Layout, Rows, as_numbers, as_rows, names_of, require_valid
 from hypcheck.messages import counted, escaped
 
@@ -99,7 +99,7 @@ class Questions:
         """The rows, float64, of any width that the layout has. Raises InputError; their values are not checked."""
         if self.given is not None:
             return self.given
-        return as_rows(self.columns, tilted=True, heights=True, layout=self.form.layout)
+        return as_rows(self.columns, ALL_GROUPS, self.form.layout)
 
     def require_valid(self, rows: Rows) -> None:
         """Raise InputError about the first invalid row; for a single question the message has no index."""
@@ -204,9 +204,9 @@ def _whole(value: Argument, form: CallForm) -> dict[str, Argument]:
     if flat and len(value):
         wanted = f"it must be {len(layout.upright)} numbers, {', '.join(layout.upright)}, or rows of them"
         row = as_numbers("the row is", value, wanted)
-        rows = as_rows(row[None], tilted=True, heights=True, layout=layout)
+        rows = as_rows(row[None], ALL_GROUPS, layout)
         return dict(zip(layout.columns(rows.shape[1]), rows[0].tolist(), strict=True))
-    return {"rows": as_rows(value, tilted=True, heights=True, layout=layout)}
+    return {"rows": as_rows(value, ALL_GROUPS, layout)}
 
 
 def sizes_of(sizes: Argument) -> dict[str, Argument]:

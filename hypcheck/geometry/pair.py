@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from enum import IntEnum
 from fractions import Fraction
 from types import MappingProxyType
-from typing import Any
+from typing import Any, TypeAlias
 
 from hypcheck.errors import InputError
 
@@ -39,6 +39,12 @@ HEIGHTS = (*ENDS, "solid")
 
 GROUPS: Mapping[str, tuple[str, ...]] = MappingProxyType({"end": END, "axis": AXIS, "heights": HEIGHTS})
 """What a row can ask besides the seven numbers, by name, in the order in which the columns stand."""
+
+Groups: TypeAlias = frozenset[str]
+"""Names out of GROUPS."""
+
+NO_GROUPS: Groups = frozenset()
+ALL_GROUPS: Groups = frozenset(GROUPS)
 
 UPRIGHT = (0.0, 0.0, 1.0)
 """The axis of an upright spheroid, where rows have the columns of an axis."""

@@ -25,11 +25,13 @@ from hypcheck.geometry.pair import (
     COLUMNS,
     END,
     HEIGHTS,
+    NO_GROUPS,
     SIZES,
     SWEEP_COLUMNS,
     TILTED_COLUMNS,
     UPRIGHT,
     WITHOUT_ENDS,
+    Groups,
     Sizes,
     trouble_with_row,
 )
@@ -68,13 +70,14 @@ class Layout:
         """How many numbers rows have: of upright spheroids, with an axis, with an axis and heights."""
         return len(self.upright), len(self.tilted), len(self.ended)
 
-    def groups(self, rows: Rows | Sequence[object]) -> int:
-        """How many groups of columns the rows, or one row, have besides: 0, 1 with an axis, 2 with heights too."""
-        return self.has_axis(rows) + self.has_heights(rows)
+    def groups(self, rows: Rows | Sequence[object]) -> Groups:
+        """The groups of columns that the rows, or one row, have."""
+        there = {"end": self.has_end, "axis": self.has_axis(rows), "heights": self.has_heights(rows)}
+        return frozenset(name for name, has in there.items() if has)
 
     def subject(self, rows: Rows | Sequence[object]) -> str:
         """The subject of the rows, or of one row."""
-        return self.subjects[self.groups(rows)]
+        return self.subjects[self.has_axis(rows) + self.has_heights(rows)]
 
     @property
     def has_end(self) -> bool:
@@ -95,10 +98,6 @@ class Layout:
     def ended(self) -> tuple[str, ...]:
         """The names of the columns of rows whose hyperboloids end."""
         return self.tilted + HEIGHTS
-
-    def columns_with(self, *, axis: bool, heights: bool) -> tuple[str, ...]:
-        """The names of the columns of rows with these groups; where heights are, an axis is."""
-        return self.ended if heights else self.tilted if axis else self.upright
 
     def columns(self, width: int) -> tuple[str, ...]:
         """The names of the columns of a row with that many numbers."""
@@ -129,17 +128,33 @@ SWEEPS = Layout(SWEEP_COLUMNS, ("way", "way", "way"))
 """The sweep between two positions of a spheroid: (n, 10), or (n, 13) with its axis."""
 
 
-def as_rows(values: Table | ArrayLike, *, tilted: bool = False, heights: bool = False, layout: Layout = PAIRS) -> Rows:
-    """`values` as a float64 array (n, 7), or where `tilted` also (n, 10); contiguous float64 input is not copied.
+def layout_with(groups: Groups) -> Layout:
+    """The layout of rows with these groups."""
+    return SWEEPS if "end" in groups else PAIRS
 
-    Where `heights`, also (n, 13). With another layout, the widths are those of its columns. `values` may also be a
-    table of the columns by name: a dict, a data frame, a structured array, or whatever else has names and gives a
+
+def columns_with(groups: Groups) -> tuple[str, ...]:
+    """The names of the columns of rows with these groups; where heights are, an axis is."""
+    layout = layout_with(groups)
+    return layout.ended if "heights" in groups else layout.tilted if "axis" in groups else layout.upright
+
+
+def fits(groups: Groups, taken: Groups) -> bool:
+    """Whether rows with these groups can be asked where others are taken: all of them are, and an end if one is."""
+    return groups <= taken and layout_with(groups) == layout_with(taken)
+
+
+def as_rows(values: Table | ArrayLike, taken: Groups = NO_GROUPS, layout: Layout = PAIRS) -> Rows:
+    """`values` as a float64 array (n, 7), also (n, 10) where an axis is taken; contiguous float64 input is not copied.
+
+    Where heights are taken, also (n, 13). With another layout, the widths are those of its columns. `values` may also
+    be a table of the columns by name: a dict, a data frame, a structured array, or whatever else has names and gives a
     column for each; columns and numbers are broadcast, and where heights are given what is missing of them and of an
     axis is filled in. Raises InputError if the shape or the type is another, a name is unknown or missing, or values
     are masked. It does not check the values.
     """
-    wide = (layout.tilted,) * tilted + (layout.ended,) * heights
-    allowed = (layout.upright, *wide)
+    wide = {"axis": layout.tilted, "heights": layout.ended}
+    allowed = (layout.upright, *(columns for name, columns in wide.items() if name in taken))
     table_names = names_of(values)
     if table_names is not None:
         return _rows_of_table(cast("Table", values), table_names, layout, allowed[-1])

@@ -14,7 +14,7 @@ from typing import Any, Literal
 from hypcheck import strict
 from hypcheck.errors import InputError
 from hypcheck.geometry import rows
-from hypcheck.geometry.pair import CENTER, GROUPS, HEIGHTS, SIZES, Position, Sizes, trouble_with
+from hypcheck.geometry.pair import CENTER, GROUPS, HEIGHTS, SIZES, Groups, Position, Sizes, trouble_with
 from hypcheck.implementations.domain import ORDINARY, PRECISIONS, Domain
 from hypcheck.implementations.output import foreign_text
 from hypcheck.strict import Check, Origin, StrictTable, dotted
@@ -95,6 +95,12 @@ class Description:
     def asked(self) -> Question:
         """The question."""
         return QUESTIONS[self.question]
+
+    @property
+    def groups(self) -> Groups:
+        """The groups of columns that it takes."""
+        takes = {"end": self.asked.layout.has_end, "axis": self.tilt, "heights": self.heights}
+        return frozenset(name for name, taken in takes.items() if taken)
 
     @property
     def columns(self) -> tuple[str, ...]:

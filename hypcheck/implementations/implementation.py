@@ -191,7 +191,7 @@ class Implementation:
     def _rows(self, rows: Rows) -> Rows:
         """The rows as it is asked them; raises InputError where they are none, or have what it does not take."""
         tilt, layout = self.description.tilt, self.description.asked.layout
-        rows = as_rows(rows, tilted=tilt, heights=self.description.heights, layout=layout)
+        rows = as_rows(rows, self.description.groups, layout)
         if not tilt and layout.has_heights(rows) and parts_of(rows, layout)[1][:, :2].any():  # the length is free
             raise InputError(f"{self.spec} takes no axis, and not all of the rows are upright")
         return with_axis(rows, layout) if tilt else rows

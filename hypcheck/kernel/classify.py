@@ -193,7 +193,7 @@ def _of_scene(
     sizes, center = (tuple(columns[name] for name in names) for names in (pair.SIZES, pair.CENTER))
     axis = [columns[name] for name in pair.AXIS if name in columns]
     if len(axis) not in (0, len(pair.AXIS)):
-        as_rows(columns, tilted=True, heights=True)  # which says what is missing
+        as_rows(columns, pair.ALL_GROUPS)  # which says what is missing
     if axis and any(map(np.ndim, axis)):
         return _answered(_sizes(sizes), center, (*axis,), out, (on_invalid, question, threads))
     x, y, z = center

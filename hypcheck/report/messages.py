@@ -157,7 +157,7 @@ def spread(line: lines.ImplementationLine) -> Iterator[str]:
     """Sentences without a full stop: the width of a fault that the run could miss, and the tested coincidences."""
     for family, slices in (line.slices or {}).items():
         if family in SEARCHED:
-            yield from _searched(slices, tilted=SEARCHED[family].tilted)
+            yield from _searched(slices, tilted="axis" in SEARCHED[family].groups)
             continue
         where = f"near contact of {'tilted' if family.startswith('tilted') else 'upright'} spheroids"
         names = listed(slices.coordinates, "or")

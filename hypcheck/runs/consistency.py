@@ -34,7 +34,7 @@ from hypcheck.runs.tally import UNANSWERED_KEPT, WORST_KEPT
 from hypcheck.vectors.border_lines import SEARCHED
 from hypcheck.vectors.families import ALL, family_of
 from hypcheck.vectors.family import MARK
-from hypcheck.vectors.invalid_rows import INVALID_CONTENTS, INVALID_NAMES
+from hypcheck.vectors.invalid_rows import INVALID_CONTENTS
 
 _OFF = (Status.WRONG, Status.TOLERATED, Status.UNDECIDED, Status.EXCUSED)
 _ENDED_AS = tuple(outcome for outcome in Outcome if outcome is not Outcome.ANSWERED)
@@ -66,7 +66,7 @@ def require_lines(lines: Sequence[RecordLine], whole: ImplementationLine, plan: 
     fixed_sizes = {family: plan.count for family in tallied if MARK in family and not plan.filtered}
     without_search = {family: 0 for family in SEARCHED if whole.used.domain.settings}
     question = whole.used.question
-    refuses = INVALID_NAMES[QUESTIONS[question].layout][0] in tallied
+    refuses = not tallied.keys().isdisjoint(INVALID_CONTENTS)
     tilt, heights = whole.used.tilt is True, whole.used.heights is True
     used = Description(whole.used.name, question=question, refuses=refuses, tilt=tilt, heights=heights)
     planned = planned_cases(plan, used)

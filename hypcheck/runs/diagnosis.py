@@ -24,6 +24,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from msgspec import structs
 
+from hypcheck.geometry.pair import Groups
 from hypcheck.geometry.rows import Layout, Positions, Rows
 from hypcheck.implementations.description import QUESTIONS
 from hypcheck.implementations.domain import Domain, claimed
@@ -286,7 +287,7 @@ def causes_of(
 def _right_answers(clean: Sequence[str], criterion: Criterion, domain: Domain) -> Iterator[AnsweredRows]:
     """The frozen vectors of these families that lie in the domain, with the right answers as the given ones."""
     layout = QUESTIONS[criterion.question].layout
-    by_groups: dict[int, list[tuple[Rows, Positions]]] = {}
+    by_groups: dict[Groups, list[tuple[Rows, Positions]]] = {}
     for family in clean:
         if family in INVALID_CONTENTS or family not in frozen.ALL_NAMES:
             continue

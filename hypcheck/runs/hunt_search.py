@@ -27,8 +27,20 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck.geometry.pair import COLUMNS, HEIGHTS
-from hypcheck.geometry.rows import PAIRS, SWEEPS, FixedSizes, Floats, Layout, Mask, Positions, Rows, as_wide, invalid
+from hypcheck.geometry.pair import COLUMNS, HEIGHTS, NO_GROUPS, Groups
+from hypcheck.geometry.rows import (
+    PAIRS,
+    SWEEPS,
+    FixedSizes,
+    Floats,
+    Layout,
+    Mask,
+    Positions,
+    Rows,
+    as_wide,
+    fits,
+    invalid,
+)
 from hypcheck.runs.hunt import ClusterKey, Hunt
 from hypcheck.runs.judge import truth_of
 from hypcheck.vectors.draw import Draw, Integers, ldexp, stepped
@@ -156,22 +168,21 @@ class HuntStratum:
     rows: Callable[[int, int], Rows]
 
 
-def strata(
-    settings: tuple[FixedSizes, ...] = (), *, tilt: bool = False, heights: bool = False, layout: Layout = PAIRS
-) -> tuple[HuntStratum, ...]:
-    """All strata, families of vectors first. For fixed sizes and for sweeps there are only the families for them.
+_FAMILIES = ENDED_SWEEP_FAMILIES | SWEEP_FAMILIES | ENDED_FAMILIES | TILTED_FAMILIES | FAMILIES
 
-    Strata with tilted spheroids need `tilt`; strata with hyperboloids that end need `heights`.
+
+def strata(settings: tuple[FixedSizes, ...] = (), taken: Groups = NO_GROUPS) -> tuple[HuntStratum, ...]:
+    """All strata where these groups are taken, families of vectors first.
+
+    For fixed sizes and for sweeps there are only the families for them.
     """
-    if layout.has_end:
-        sweeps = (ENDED_SWEEP_FAMILIES | SWEEP_FAMILIES if heights else SWEEP_FAMILIES).values()
-        return tuple(_of_sweeps(family) for family in sweeps if tilt or not family.tilted)
+    families = [family for family in _FAMILIES.values() if fits(family.groups, taken)]
+    if "end" in taken:
+        return tuple(map(_of_sweeps, families))
     if settings:
         return tuple(map(_of_family, families_for(settings)))
     crossings = [names for size in (1, 2, 3) for names in combinations(SURFACES, size) if _movers(names)]
-    ended = [family for family in ENDED_FAMILIES.values() if heights and (tilt or not family.tilted)]
-    tilted = TILTED_FAMILIES.values() if tilt else ()
-    return (*map(_of_family, (*ended, *tilted, *FAMILIES.values())), *map(_of_crossing, crossings))
+    return (*map(_of_family, families), *map(_of_crossing, crossings))
 
 
 def _of_family(family: Family) -> HuntStratum:
@@ -236,21 +247,26 @@ Row = tuple[float, ...]
 FIRST_STEP = 0.5
 LAST_STEP = 2.0**-44
 
-_WAY_MOVES = [(0,), (1,), (2,), (3,), SIZE, (4, 5), (6,), (7, 8), (9,), (4, 5, 7, 8), (6, 9)]
+_SWEEP_MOVES = [(0,), (1,), (2,), (3,), SIZE, (4, 5), (6,), (7, 8), (9,), (4, 5, 7, 8), (6, 9)]
 
-_MOVES: dict[Layout, tuple[list[tuple[int, ...]], ...]] = {
-    PAIRS: (
-        [(0,), (1,), (2,), (3,), (4, 5), (6,), (0, 2, 4, 5), (1, 3, 6)],
-        [*((column,) for column in range(10)), (0, 1, 2, 3, 4, 5, 6), (7, 8, 9)],
-        [*((column,) for column in range(12)), (0, 2, 4, 5), (1, 3, 6, 10, 11), (7, 8, 9), (6, 10), (6, 11)],
-    ),
-    SWEEPS: (
-        [*_WAY_MOVES, (0, 2, 4, 5, 7, 8), (1, 3, 6, 9)],
-        [*_WAY_MOVES, tuple(range(10)), (10,), (11,), (12,), (10, 11, 12)],
-        [*_WAY_MOVES, (0, 2, 4, 5, 7, 8), (1, 3, 6, 9, 13, 14), (10,), (11,), (12,), (13,), (14,)],
-    ),
+_MOVES: dict[Groups, list[tuple[int, ...]]] = {
+    frozenset(groups): moves
+    for groups, moves in (
+        ((), [(0,), (1,), (2,), (3,), (4, 5), (6,), (0, 2, 4, 5), (1, 3, 6)]),
+        (("axis",), [*((column,) for column in range(10)), (0, 1, 2, 3, 4, 5, 6), (7, 8, 9)]),
+        (
+            ("axis", "heights"),
+            [*((column,) for column in range(12)), (0, 2, 4, 5), (1, 3, 6, 10, 11), (7, 8, 9), (6, 10), (6, 11)],
+        ),
+        (("end",), [*_SWEEP_MOVES, (0, 2, 4, 5, 7, 8), (1, 3, 6, 9)]),
+        (("end", "axis"), [*_SWEEP_MOVES, tuple(range(10)), (10,), (11,), (12,), (10, 11, 12)]),
+        (
+            ("end", "axis", "heights"),
+            [*_SWEEP_MOVES, (0, 2, 4, 5, 7, 8), (1, 3, 6, 9, 13, 14), (10,), (11,), (12,), (13,), (14,)],
+        ),
+    )
 }
-"""Columns that are multiplied together, of upright spheroids, of tilted ones, and where the hyperboloid ends.
+"""Columns that are multiplied together, by the groups of a row.
 
 Where they are all of a unit of length, or an axis, only the rounding changes.
 """
@@ -320,7 +336,7 @@ def _borders(draw: Draw, rows: Rows, layout: Layout) -> tuple[Mask, Floats]:
 def _around(climber: Climber, layout: Layout) -> Rows:
     """The row itself, its neighbours one step away, and special rows beside it."""
     row, step = climber.row, climber.step
-    moves = _MOVES[layout][layout.groups(row)]
+    moves = _MOVES[layout.groups(row)]
     rows = np.repeat(np.array([row]), 1 + 2 * len(moves), axis=0)
     for number, columns in enumerate(moves):
         rows[1 + 2 * number, columns] *= 1 + step
@@ -394,8 +410,7 @@ def run_hunt(run: Hunt, progress: Progress = lambda _: None, everywhere: Sequenc
 def strata_of(run: Hunt) -> tuple[HuntStratum, ...]:
     """All strata with rows that the target of a hunt can take."""
     target = run.target
-    used = target.implementation.description
-    return strata(target.domain.settings, tilt=used.tilt, heights=used.heights, layout=target.layout)
+    return strata(target.domain.settings, target.implementation.description.groups)
 
 
 def _look(run: Hunt, everywhere: Sequence[HuntStratum]) -> Iterator[None]:

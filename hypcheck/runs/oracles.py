@@ -164,13 +164,14 @@ TILTED_ROOTS = 10
 
 def shares(plan: SelfCheckPlan, family: Family, families: Sequence[Family]) -> dict[str, int]:
     """The number of a family's cases that each oracle of the plan decides in a run of `families`."""
-    with_roots = sum(not other.ended for other in families)
-    roots = 0 if family.ended else -(-plan.roots // (with_roots * (TILTED_ROOTS if family.tilted else 1)))
+    tilted, ended = "axis" in family.groups, "heights" in family.groups
+    with_roots = sum("heights" not in other.groups for other in families)
+    roots = 0 if ended else -(-plan.roots // (with_roots * (TILTED_ROOTS if tilted else 1)))
     every = {
         "exact": plan.count,
         "nearest": plan.count,
         "roots": roots,
-        "heights": min(roots, plan.count) if family.tilted and not family.ended else plan.count,
+        "heights": min(roots, plan.count) if tilted and not ended else plan.count,
         "mesh": -(-plan.meshes // len(families)),
     }
     return {name: every[name] for name in plan.oracles}

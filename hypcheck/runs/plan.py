@@ -10,7 +10,7 @@ from fractions import Fraction
 from pathlib import Path
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.rows import PAIRS, SWEEPS, Rows
+from hypcheck.geometry.rows import PAIRS, SWEEPS, Rows, fits
 from hypcheck.implementations import domain
 from hypcheck.implementations.description import Description
 from hypcheck.implementations.domain import Domain
@@ -36,7 +36,7 @@ from hypcheck.vectors import fixed_sizes
 from hypcheck.vectors.border_lines import SEARCHED
 from hypcheck.vectors.families import ALL, select
 from hypcheck.vectors.family import BLOCK, Family
-from hypcheck.vectors.invalid_rows import ENDED_INVALID, INVALID_NAMES
+from hypcheck.vectors.invalid_rows import INVALID_CONTENTS
 
 FAIL_ON = ("wrong", "false-clear")
 
@@ -144,38 +144,33 @@ def searches(plan: ConformancePlan, used: Description) -> tuple[SearchStep, ...]
     return tuple(
         SearchStep(family.name, seed, min(plan.count * family.times, border_search.MOST))
         for family in SEARCHED.values()
-        if used.tilt or not family.tilted
+        if family.groups <= used.groups
     )
 
 
 def invalid_rows(used: Description) -> tuple[InvalidRows, ...]:
-    """The invalid rows for an implementation: also with an axis if it takes tilt; none if it does not refuse them.
+    """The invalid rows for an implementation, with groups that it takes; none if it does not refuse them.
 
     Invalid rows with heights also have an axis, so they need an implementation that takes both.
     """
-    names = INVALID_NAMES[used.asked.layout][: 1 + used.tilt]
-    if used.heights and used.tilt:
-        names = (*names, ENDED_INVALID[used.asked.layout])
+    names = [name for name, content in INVALID_CONTENTS.items() if fits(content.groups, used.groups)]
     return tuple(map(InvalidRows, names)) if used.refuses else ()
 
 
 def chosen_families(plan: ConformancePlan, used: Description) -> tuple[Family, ...]:
     """The families of the plan that an implementation with this description can answer.
 
-    Their rows have its layout, an axis only if it takes tilt, and heights only if it takes heights. Raises InputError
-    naming a family that does not exist.
+    Raises InputError naming a family that does not exist.
     """
-    named = select(plan.families, tilted=True, ended=True, layout=None)
-    return tuple(family for family in named if not _lacking(used, family))
+    return tuple(family for family in select(plan.families, None) if fits(family.groups, used.groups))
 
 
 def _lacking(used: Description, family: Family) -> str:
     """The key of domain.FAMILIES for what an implementation lacks to answer a family; "" if it lacks nothing."""
     if family.layout != used.asked.layout:
         return "question"
-    if family.ended and not used.heights:
-        return "heights"
-    return "tilt" if family.tilted and not used.tilt else ""
+    more = family.groups - used.groups
+    return "heights" if "heights" in more else "tilt" if more else ""
 
 
 def planned_size(plan: ConformancePlan) -> int:
@@ -185,7 +180,7 @@ def planned_size(plan: ConformancePlan) -> int:
     more or fewer cases, known after they send their descriptions.
     """
     if plan.filtered:
-        return sum(_cases_of(plan, select(plan.families, tilted=True, ended=True, layout=None)).values())
+        return sum(_cases_of(plan, select(plan.families, None)).values())
     return sum(planned_cases(plan, Description("")).values())
 
 
@@ -203,7 +198,7 @@ def known_failures_of(plan: ConformancePlan) -> tuple[KnownFailure, ...]:
 def families_not_asked(plan: ConformancePlan, used: Description) -> dict[str, dict[str, int]]:
     """The families of which an implementation gets no row, with their numbers of rows, by key of domain.FAMILIES."""
     planned, by_reason = planned_cases(plan, used), {reason: dict[str, int]() for reason in domain.FAMILIES}
-    chosen = {family.name for family in select(plan.families, tilted=True, ended=True, layout=None)}
+    chosen = {family.name for family in select(plan.families, None)}
     for name, cases in _cases_of(plan, ALL.values()).items():
         if name in planned or not cases:
             continue

@@ -24,7 +24,7 @@ from hypcheck.geometry.pair import (
     Position,
     trouble_with_row,
 )
-from hypcheck.geometry.rows import CANNOT_SAY, PAIRS, SWEEPS, Layout
+from hypcheck.geometry.rows import CANNOT_SAY, PAIRS, SWEEPS, Layout, layout_with
 from hypcheck.implementations.description import Description
 from hypcheck.implementations.domain import representable
 from hypcheck.implementations.implementation import Implementation
@@ -87,7 +87,7 @@ def case_of(text: str) -> ReplayCase:
         case = parse_case_id(text)
         return ReplayCase(text, case.family.row(case.seed, case.index), case.family.layout)
     vector, content = case_named(text)
-    return ReplayCase(text, vector.row, content.layout)
+    return ReplayCase(text, vector.row, layout_with(content.groups))
 
 
 def _from_record(path: Path, number: int) -> ReplayCase:

@@ -103,7 +103,7 @@ def slices_of(plan: ConformancePlan, used: Description, rules: JudgingRules) -> 
                 beside = beside_border(steps[family.name], first)
                 rows = np.concatenate([rows, _asked(rules, steps[family.name].family, beside)])
             if len(rows):
-                slices[family.name] = evenness(rows, tuple(COORDINATES) if family.tilted else UPRIGHT)
+                slices[family.name] = evenness(rows, tuple(COORDINATES) if "axis" in family.groups else UPRIGHT)
     for step in steps.values():
         numbers = far_numbers(step, first)
         inside = rules.asked_of(step.family, rows_at(step.family, step.seed, numbers))[0]

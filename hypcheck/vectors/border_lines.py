@@ -175,7 +175,7 @@ class LineFamily(Family):
 
     def rungs(self, seed: int, lattice: int, lines: Integers, rungs: Integers) -> Rows:
         """The rows of these lines of a lattice, (n,), at these rungs, (n,)."""
-        rows, jitter = _lines(self.name, self.version, seed, lattice, self.tilted)
+        rows, jitter = _lines(self.name, self.version, seed, lattice)
         return _resized(rows[lines], _changes(rungs, jitter[lines]))
 
     def _blocks(self, seed: int, first: int, last: int) -> Rows:
@@ -193,16 +193,16 @@ def _not_alone(draw: Draw, n: int) -> Rows:
 
 SEARCHED = {
     "search": LineFamily("search", _not_alone, times=10),
-    "tilted-search": LineFamily("tilted-search", _not_alone, times=10, tilted=True),
+    "tilted-search": LineFamily("tilted-search", _not_alone, times=10, groups=frozenset({"axis"})),
 }
 """The families whose rows a directed search chooses, by name; `times` counts the rows that it asks."""
 
 
 @lru_cache(8)
-def _lines(name: str, version: int, seed: int, number: int, tilted: bool) -> tuple[Rows, Floats]:
+def _lines(name: str, version: int, seed: int, number: int) -> tuple[Rows, Floats]:
     """The lines of a lattice: rows that are just clear, and the share of a rung by which their rungs are shifted."""
     points = lattice(Draw(name, version, seed, number), LINES)
-    rows = (tilted_at if tilted else upright_at)(points, np.zeros(LINES))
+    rows = (tilted_at if "axis" in SEARCHED[name].groups else upright_at)(points, np.zeros(LINES))
     return _resized(rows, _touch(rows) - 1), points[6]
 
 
@@ -242,6 +242,6 @@ def octaves_of(name: str, seed: int, lines: Integers, rungs: Integers) -> Floats
     family, shares = SEARCHED[name], np.empty(len(lines))
     for lattice in sorted({*(lines // LINES).tolist()}):
         some = lines // LINES == lattice
-        _, jitter = _lines(name, family.version, seed, lattice, family.tilted)
+        _, jitter = _lines(name, family.version, seed, lattice)
         shares[some] = _share(rungs[some], jitter[lines[some] % LINES])
     return shares

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.rows import PAIRS, SWEEPS, Layout
+from hypcheck.geometry.pair import NO_GROUPS, Groups
+from hypcheck.geometry.rows import fits
 from hypcheck.messages import suggestion
 from hypcheck.vectors import (
     border_lines,
@@ -27,8 +28,9 @@ from hypcheck.vectors.family import MARK, Family
 from hypcheck.vectors.fixed_sizes import family_at
 
 
-def _table(*families: Family) -> dict[str, Family]:
-    return {family.name: family for family in families}
+def _table(*families: Family, groups: Sequence[str] = ()) -> dict[str, Family]:
+    """The families by name, with these groups."""
+    return {family.name: replace(family, groups=frozenset(groups)) for family in families}
 
 
 FAMILIES = _table(
@@ -79,97 +81,91 @@ FAMILIES = _table(
 """The families of upright spheroids."""
 
 TILTED_FAMILIES = _table(
-    Family("tilted-uniform", tilted.uniform, 160, tilted=True),
-    Family("tilted-tower", tilted.tower, 160, tilted=True),
-    Family("tilted-near-contact", tilted.near_contact, 200, tilted=True),
-    Family("tilted-tangent", tilted.tangent, 200, tilted=True),
-    Family("tilted-near-tangent", tilted.near_tangent, 240, tilted=True),
-    Family("tilted-crossing", tilted.crossing, 120, tilted=True),
-    Family("tilted-symmetric", tilted.symmetric, 200, tilted=True),
-    Family("tilted-sphere", tilted.spheres, 120, tilted=True),
-    Family("tilted-upright", tilted.upright, 120, tilted=True),
-    Family("tilted-slight", tilted.slight, 180, tilted=True),
-    Family("tilted-twins", tilted.twins, 180, tilted=True),
-    Family("tilted-ring", tilted.ring, 200, tilted=True),
-    Family("tilted-stiff", tilted.stiff, 180, tilted=True),
-    Family("tilted-axis-length", tilted.any_length, 160, tilted=True),
-    Family("tilted-small-integers", tilted.small_integers, 200, tilted=True),
-    Family("tilted-coincidences", crossed.crossed("tilted-coincidences"), 370, tilted=True, times=2),
-    Family("tilted-strata", border_lines.tilted, 200, tilted=True, times=10),
-    Family("tilted-one-number-changed", tilted.one_number_changed, tilted=True),
-    Family("tilted-nearly-zero", together.tilted_nearly_zero, tilted=True),
-    Family("tilted-whole-domain", together.tilted_domain, tilted=True),
-    Family("extreme-tilted", tilted.whole_domain, 120, tilted=True, extreme=True),
+    Family("tilted-uniform", tilted.uniform, 160),
+    Family("tilted-tower", tilted.tower, 160),
+    Family("tilted-near-contact", tilted.near_contact, 200),
+    Family("tilted-tangent", tilted.tangent, 200),
+    Family("tilted-near-tangent", tilted.near_tangent, 240),
+    Family("tilted-crossing", tilted.crossing, 120),
+    Family("tilted-symmetric", tilted.symmetric, 200),
+    Family("tilted-sphere", tilted.spheres, 120),
+    Family("tilted-upright", tilted.upright, 120),
+    Family("tilted-slight", tilted.slight, 180),
+    Family("tilted-twins", tilted.twins, 180),
+    Family("tilted-ring", tilted.ring, 200),
+    Family("tilted-stiff", tilted.stiff, 180),
+    Family("tilted-axis-length", tilted.any_length, 160),
+    Family("tilted-small-integers", tilted.small_integers, 200),
+    Family("tilted-coincidences", crossed.crossed("tilted-coincidences"), 370, times=2),
+    Family("tilted-strata", border_lines.tilted, 200, times=10),
+    Family("tilted-one-number-changed", tilted.one_number_changed),
+    Family("tilted-nearly-zero", together.tilted_nearly_zero),
+    Family("tilted-whole-domain", together.tilted_domain),
+    Family("extreme-tilted", tilted.whole_domain, 120, extreme=True),
+    groups=("axis",),
 )
 """Those of spheroids whose axis may point anywhere: rows of ten numbers."""
 
 SWEEP_FAMILIES = _table(
-    Family("way-anywhere", sweeps.anywhere, 108, layout=SWEEPS),
-    Family("way-tunnelling", sweeps.tunnelling, 108, layout=SWEEPS),
-    Family("way-uniform", sweeps.uniform, 108, layout=SWEEPS),
-    Family("way-tower", sweeps.tower, 108, layout=SWEEPS),
-    Family("way-across", sweeps.across, 108, layout=SWEEPS),
-    Family("way-grazing", sweeps.grazing, 108, layout=SWEEPS),
-    Family("way-near-graze", sweeps.near_graze, 108, layout=SWEEPS),
-    Family("way-ring", sweeps.ring, 108, layout=SWEEPS),
-    Family("way-end", sweeps.at_an_end, 108, layout=SWEEPS),
-    Family("way-begun-in-contact", sweeps.begun_in_contact, 108, layout=SWEEPS),
-    Family("way-still", sweeps.still, 108, layout=SWEEPS),
-    Family("way-along-a-line", sweeps.along_a_line, 108, layout=SWEEPS),
-    Family("way-vertical", sweeps.vertical, 108, layout=SWEEPS),
-    Family("way-horizontal", sweeps.horizontal, 108, layout=SWEEPS),
-    Family("way-long", sweeps.very_long, 108, layout=SWEEPS),
-    Family("way-short", sweeps.very_short, 108, layout=SWEEPS),
-    Family("way-stiff", sweeps.stiff, 108, layout=SWEEPS),
-    Family("way-small-integers", sweeps.small_integers, 108, layout=SWEEPS),
-    Family("way-one-number-changed", sweeps.one_number_changed(sweeps.at_an_end, 10), layout=SWEEPS),
-    Family("way-nearly-zero", together.sweep_nearly_zero, layout=SWEEPS),
-    Family("way-whole-domain", together.sweep_domain, layout=SWEEPS),
-    Family("way-coincidences", crossed.crossed("way-coincidences"), 353, layout=SWEEPS),
-    Family("tilted-way-uniform", sweeps.tilted_uniform, 40, layout=SWEEPS, tilted=True),
-    Family("tilted-way-end", sweeps.tilted_end, 40, layout=SWEEPS, tilted=True),
-    Family("tilted-way-ring", sweeps.tilted_ring, 40, layout=SWEEPS, tilted=True),
-    Family("tilted-way-small-integers", sweeps.tilted_integers, 40, layout=SWEEPS, tilted=True),
-    Family(
-        "tilted-way-one-number-changed",
-        sweeps.one_number_changed(sweeps.tilted_end, 13),
-        layout=SWEEPS,
-        tilted=True,
-    ),
-    Family("tilted-way-traps", together.sweep_tilts, layout=SWEEPS, tilted=True),
-    Family(
-        "tilted-way-coincidences", crossed.crossed("tilted-way-coincidences"), 80, layout=SWEEPS, tilted=True, times=3
-    ),
+    Family("way-anywhere", sweeps.anywhere, 108),
+    Family("way-tunnelling", sweeps.tunnelling, 108),
+    Family("way-uniform", sweeps.uniform, 108),
+    Family("way-tower", sweeps.tower, 108),
+    Family("way-across", sweeps.across, 108),
+    Family("way-grazing", sweeps.grazing, 108),
+    Family("way-near-graze", sweeps.near_graze, 108),
+    Family("way-ring", sweeps.ring, 108),
+    Family("way-end", sweeps.at_an_end, 108),
+    Family("way-begun-in-contact", sweeps.begun_in_contact, 108),
+    Family("way-still", sweeps.still, 108),
+    Family("way-along-a-line", sweeps.along_a_line, 108),
+    Family("way-vertical", sweeps.vertical, 108),
+    Family("way-horizontal", sweeps.horizontal, 108),
+    Family("way-long", sweeps.very_long, 108),
+    Family("way-short", sweeps.very_short, 108),
+    Family("way-stiff", sweeps.stiff, 108),
+    Family("way-small-integers", sweeps.small_integers, 108),
+    Family("way-one-number-changed", sweeps.one_number_changed(sweeps.at_an_end, 10)),
+    Family("way-nearly-zero", together.sweep_nearly_zero),
+    Family("way-whole-domain", together.sweep_domain),
+    Family("way-coincidences", crossed.crossed("way-coincidences"), 353),
+    groups=("end",),
+) | _table(
+    Family("tilted-way-uniform", sweeps.tilted_uniform, 40),
+    Family("tilted-way-end", sweeps.tilted_end, 40),
+    Family("tilted-way-ring", sweeps.tilted_ring, 40),
+    Family("tilted-way-small-integers", sweeps.tilted_integers, 40),
+    Family("tilted-way-one-number-changed", sweeps.one_number_changed(sweeps.tilted_end, 13)),
+    Family("tilted-way-traps", together.sweep_tilts),
+    Family("tilted-way-coincidences", crossed.crossed("tilted-way-coincidences"), 80, times=3),
+    groups=("end", "axis"),
 )
 """Those of sweeps between two positions: rows as geometry.rows.SWEEPS has them, upright or tilted."""
 
 ENDED_FAMILIES = _table(
-    *(Family(name, make, frozen, ended=True) for name, (make, frozen) in ended.FAMILIES.items()),
-    Family("ended-nearly-zero", together.ended_nearly_zero, ended=True),
-    Family("ended-whole-domain", together.ended_domain, ended=True),
-    *(Family(name, make, frozen, tilted=True, ended=True) for name, (make, frozen) in ended.TILTED.items()),
-    Family("tilted-ended-nearly-zero", together.tilted_ended_nearly_zero, tilted=True, ended=True),
-    Family("tilted-ended-traps", together.ended_tilts, tilted=True, ended=True, times=2),
-    Family("tilted-ended-coincidences", together.ended_coincidences, tilted=True, ended=True),
+    *(Family(name, make, frozen) for name, (make, frozen) in ended.FAMILIES.items()),
+    Family("ended-nearly-zero", together.ended_nearly_zero),
+    Family("ended-whole-domain", together.ended_domain),
+    groups=("heights",),
+) | _table(
+    *(Family(name, make, frozen) for name, (make, frozen) in ended.TILTED.items()),
+    Family("tilted-ended-nearly-zero", together.tilted_ended_nearly_zero),
+    Family("tilted-ended-traps", together.ended_tilts, times=2),
+    Family("tilted-ended-coincidences", together.ended_coincidences),
+    groups=("axis", "heights"),
 )
 """Those of hyperboloids that end: rows of thirteen numbers, of upright spheroids and of tilted ones."""
 
 ENDED_SWEEP_FAMILIES = _table(
-    *(Family(name, make, frozen, ended=True, layout=SWEEPS) for name, (make, frozen) in ended_sweeps.FAMILIES.items()),
-    Family("ended-way-lengths", together.ended_lengths, ended=True, layout=SWEEPS),
-    Family("ended-way-coincidences", together.ended_sweep_coincidences, ended=True, layout=SWEEPS),
-    *(
-        Family(name, make, frozen, tilted=True, ended=True, layout=SWEEPS)
-        for name, (make, frozen) in ended_sweeps.TILTED.items()
-    ),
-    Family("tilted-ended-way-traps", together.ended_sweep_tilts, tilted=True, ended=True, layout=SWEEPS),
-    Family(
-        "tilted-ended-way-coincidences",
-        together.ended_tilted_sweep_coincidences,
-        tilted=True,
-        ended=True,
-        layout=SWEEPS,
-    ),
+    *(Family(name, make, frozen) for name, (make, frozen) in ended_sweeps.FAMILIES.items()),
+    Family("ended-way-lengths", together.ended_lengths),
+    Family("ended-way-coincidences", together.ended_sweep_coincidences),
+    groups=("end", "heights"),
+) | _table(
+    *(Family(name, make, frozen) for name, (make, frozen) in ended_sweeps.TILTED.items()),
+    Family("tilted-ended-way-traps", together.ended_sweep_tilts),
+    Family("tilted-ended-way-coincidences", together.ended_tilted_sweep_coincidences),
+    groups=("end", "axis", "heights"),
 )
 """Those of sweeps beside hyperboloids that end: rows of sixteen numbers, of upright spheroids and of tilted ones."""
 
@@ -194,21 +190,15 @@ class CaseId:
     index: int
 
 
-def select(
-    patterns: Sequence[str] = (), *, tilted: bool = False, ended: bool = False, layout: Layout | None = PAIRS
-) -> tuple[Family, ...]:
+def select(patterns: Sequence[str] = (), taken: Groups | None = NO_GROUPS) -> tuple[Family, ...]:
     """The families of these names and globs in the order of the tables; without patterns all but the extreme ones.
 
-    Only families whose rows have this layout are selected, or any layout if it is None. Families of tilted spheroids
-    need `tilted`, families of hyperboloids that end need `ended`. A glob selects every family whose name it matches,
-    extreme ones too: "*" selects all families, "extreme" all extreme ones. Raises InputError for a pattern that matches
-    no family, with the most similar names, or that matches only tilted spheroids without `tilted`.
+    Only families whose rows can be asked where these groups are taken are selected, or all if it is None. A glob
+    selects every family whose name it matches, extreme ones too: "*" selects all families, "extreme" all extreme ones.
+    Raises InputError for a pattern that matches no family, with the most similar names, or that matches only families
+    with other groups.
     """
-    known = {
-        name: family
-        for name, family in ALL.items()
-        if (tilted or not family.tilted) and (ended or not family.ended) and layout in (None, family.layout)
-    }
+    known = {name: family for name, family in ALL.items() if taken is None or fits(family.groups, taken)}
     if not patterns:
         return tuple(family for family in known.values() if not family.extreme)
     chosen: set[str] = set()

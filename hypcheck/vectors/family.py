@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from hypcheck import toml
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import COLUMNS
-from hypcheck.geometry.rows import PAIRS, Layout, Rows
+from hypcheck.geometry.pair import COLUMNS, NO_GROUPS, Groups
+from hypcheck.geometry.rows import Layout, Rows, columns_with, layout_with
 from hypcheck.vectors.draw import Draw, Maker
 
 MARK = "@"
@@ -70,10 +70,10 @@ class Family:
     if rows matter in their order alone or are made of those of other families.
     `extreme`: lengths are near the limits of a float format, so the family is used only on request. `by_place`: the
     generator works place by place, so that it can make several blocks at one go. `movement`: the number of consecutive
-    rows that follow one object from moment to moment; 1 if none do. `layout` is the layout of rows, of a position or a
-    sweep. `tilted`: rows have three numbers more, the axis of the spheroid, after the others. `ended`: the hyperboloid
-    ends, and rows have heights after an axis, which is vertical unless `tilted`. `times`: a run tests this many rows
-    for each row that it tests of other families.
+    rows that follow one object from moment to moment; 1 if none do. `groups` are those that an implementation must
+    take: an end if rows are sweeps, an axis if spheroids are tilted, heights if hyperboloids end; rows with heights
+    also have an axis, which is vertical if "axis" is not among the groups. `times`: a run tests this many rows for each
+    row that it tests of other families.
     """
 
     name: str
@@ -83,9 +83,7 @@ class Family:
     extreme: bool = False
     by_place: bool = False
     movement: int = 1
-    tilted: bool = False
-    ended: bool = False
-    layout: Layout = PAIRS
+    groups: Groups = NO_GROUPS
     times: int = 1
 
     def described(self, made_by: str) -> Metadata:
@@ -95,7 +93,12 @@ class Family:
     @property
     def columns(self) -> tuple[str, ...]:
         """The names of the numbers of a row."""
-        return self.layout.columns_with(axis=self.tilted, heights=self.ended)
+        return columns_with(self.groups)
+
+    @property
+    def layout(self) -> Layout:
+        """The layout of the rows."""
+        return layout_with(self.groups)
 
     def block(self, seed: int, number: int) -> Rows:
         """Rows number·BLOCK to (number + 1)·BLOCK − 1 of the seed: float64 (BLOCK, len(columns)), all valid."""

@@ -63,7 +63,8 @@ def family_at(name: str) -> Family:
 def _family(trap: str, setting: FixedSizes) -> Family:
     _require_room(setting)
     make = partial(_made, _traps(setting)[trap], setting)
-    return Family(f"{trap}{MARK}{_sizes_text(setting)}", make, tilted=setting.axis is not None)
+    groups = frozenset(() if setting.axis is None else {"axis"})
+    return Family(f"{trap}{MARK}{_sizes_text(setting)}", make, groups=groups)
 
 
 def _made(trap: Trap, setting: FixedSizes, draw: Draw, n: int) -> Rows:

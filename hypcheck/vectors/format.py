@@ -16,8 +16,16 @@ from typing import Any, Generic, Protocol, TypeVar
 import numpy as np
 
 from hypcheck import strict
-from hypcheck.geometry.pair import AXIS, ENDS, HEIGHTS, NO_DIRECTION, trouble_with, trouble_with_heights
-from hypcheck.geometry.rows import PAIRS, SWEEPS, Layout, Positions, Rows
+from hypcheck.geometry.pair import (
+    ENDS,
+    HEIGHTS,
+    NO_DIRECTION,
+    NO_GROUPS,
+    Groups,
+    trouble_with,
+    trouble_with_heights,
+)
+from hypcheck.geometry.rows import Positions, Rows, columns_with, layout_with
 from hypcheck.strict import Check, StrictTable
 from hypcheck.tables.numbers import Literal, decimal_of, hex_of, is_shortest, rational_of, shown_json
 from hypcheck.tables.strict_json import JsonDocument, JsonPlace
@@ -44,26 +52,34 @@ ENDED_SWEEP_SCHEMA = "1.4.0"
 class Content:
     """The kind of content of a file: its name in the file, and the version of its schema.
 
-    `layout` is the layout of rows, of a position or a sweep. `tilted`: rows end with the spheroid's axis. `ended`: rows
-    have an axis and the heights of the hyperboloid's ends. `refused`: rows are not valid, and have no answers.
+    `groups` are those that its rows have; where heights are, an axis is. `refused`: rows are not valid, and have no
+    answers.
     """
 
     name: str
     schema: str
-    layout: Layout = PAIRS
-    tilted: bool = False
+    groups: Groups = NO_GROUPS
     refused: bool = False
-    ended: bool = False
 
     @property
     def about_sweeps(self) -> bool:
         """Whether the rows are sweeps."""
-        return self.layout.has_end
+        return "end" in self.groups
+
+    @property
+    def tilted(self) -> bool:
+        """Whether the rows have an axis."""
+        return "axis" in self.groups
+
+    @property
+    def ended(self) -> bool:
+        """Whether the hyperboloids end."""
+        return "heights" in self.groups
 
     @property
     def columns(self) -> tuple[str, ...]:
         """The names of the numbers of a row."""
-        return self.layout.columns_with(axis=self.tilted, heights=self.ended)
+        return columns_with(self.groups)
 
     @property
     def flags(self) -> Mapping[str, FlagFacts]:
@@ -72,36 +88,32 @@ class Content:
         return {} if self.refused or self.ended else known
 
 
+_SWEPT, _TILTED, _ENDED = frozenset({"end"}), frozenset({"axis"}), frozenset({"axis", "heights"})
+
 CONTENTS = {
     content.name: content
     for content in (
         Content("positions", SCHEMA),
         Content("refusals", SCHEMA, refused=True),
-        Content("tilted-positions", TILTED_SCHEMA, tilted=True),
-        Content("tilted-refusals", TILTED_SCHEMA, tilted=True, refused=True),
-        Content("ways", SWEEP_SCHEMA, SWEEPS),
-        Content("tilted-ways", SWEEP_SCHEMA, SWEEPS, tilted=True),
-        Content("way-refusals", SWEEP_SCHEMA, SWEEPS, refused=True),
-        Content("tilted-way-refusals", SWEEP_SCHEMA, SWEEPS, tilted=True, refused=True),
-        Content("ended-positions", ENDED_SCHEMA, tilted=True, ended=True),
-        Content("ended-refusals", ENDED_SCHEMA, tilted=True, refused=True, ended=True),
-        Content("ended-ways", ENDED_SWEEP_SCHEMA, SWEEPS, tilted=True, ended=True),
-        Content("ended-way-refusals", ENDED_SWEEP_SCHEMA, SWEEPS, tilted=True, refused=True, ended=True),
+        Content("tilted-positions", TILTED_SCHEMA, _TILTED),
+        Content("tilted-refusals", TILTED_SCHEMA, _TILTED, refused=True),
+        Content("ways", SWEEP_SCHEMA, _SWEPT),
+        Content("tilted-ways", SWEEP_SCHEMA, _SWEPT | _TILTED),
+        Content("way-refusals", SWEEP_SCHEMA, _SWEPT, refused=True),
+        Content("tilted-way-refusals", SWEEP_SCHEMA, _SWEPT | _TILTED, refused=True),
+        Content("ended-positions", ENDED_SCHEMA, _ENDED),
+        Content("ended-refusals", ENDED_SCHEMA, _ENDED, refused=True),
+        Content("ended-ways", ENDED_SWEEP_SCHEMA, _SWEPT | _ENDED),
+        Content("ended-way-refusals", ENDED_SWEEP_SCHEMA, _SWEPT | _ENDED, refused=True),
     )
 }
 """All contents by name."""
 
 
-def content_with(
-    layout: Layout = PAIRS, *, tilted: bool = False, refused: bool = False, ended: bool = False
-) -> Content:
+def content_with(groups: Groups = NO_GROUPS, *, refused: bool = False) -> Content:
     """The content of files with such rows; if hyperboloids end, rows have an axis."""
-    wanted = (layout, tilted or ended, refused, ended)
-    (match,) = (
-        content
-        for content in CONTENTS.values()
-        if (content.layout, content.tilted, content.refused, content.ended) == wanted
-    )
+    wanted = groups | {"axis"} if "heights" in groups else groups
+    (match,) = (content for content in CONTENTS.values() if (content.groups, content.refused) == (wanted, refused))
     return match
 
 
@@ -292,10 +304,8 @@ def row_of(table: StrictTable, content: Content) -> Row:
         if trouble is not None:
             table.refuse(trouble)
         check_hex(table, f"the hex of {name}", text, row[-1])
-    others = row[len(content.layout.upright) :]
-    if content.tilted and not any(others[: len(AXIS)]):
-        table.refuse(NO_DIRECTION)
-    trouble = trouble_with_heights(others[len(AXIS) :]) if content.ended else None
+    _, axis, heights = layout_with(content.groups).split(row)
+    trouble = NO_DIRECTION if axis and not any(axis) else trouble_with_heights(heights) if heights else None
     if trouble is not None:
         table.refuse(trouble)
     return tuple(row)

@@ -17,7 +17,8 @@ from typing import Any
 
 from hypcheck.answer import DisagreementError
 from hypcheck.errors import InputError
-from hypcheck.geometry.rows import PAIRS, Layout, Rows
+from hypcheck.geometry.pair import Groups
+from hypcheck.geometry.rows import Rows
 from hypcheck.tables.streams import replace_output
 from hypcheck.vectors import cancellation
 from hypcheck.vectors.cases import AnyVector, cases_text, read_cases
@@ -83,7 +84,7 @@ def _content_of(name: str) -> Content:
 
 def content_of_family(family: Family) -> Content:
     """The content of files with rows of a family."""
-    return content_with(family.layout, tilted=family.tilted, ended=family.ended)
+    return content_with(family.groups)
 
 
 def frozen(name: str, before: CaseFile[Any] | None = None) -> CaseFile[Any]:
@@ -165,10 +166,10 @@ def _bits(row: Row) -> bytes:
     return struct.pack(f"<{len(row)}d", *row)
 
 
-def require_keepable(path: str, *, tilted: bool = False, ended: bool = False, layout: Layout = PAIRS) -> None:
+def require_keepable(path: str, groups: Groups) -> None:
     """Check before a long hunt that rows can be added to this file. Raises InputError as `keep_rows` would."""
     if Path(path).exists():
-        read_cases(path, content_with(layout, tilted=tilted, ended=ended))
+        read_cases(path, content_with(groups))
     folder = Path(path).resolve().parent
     if not folder.is_dir():
         raise InputError(f"cannot write {path}: there is no folder {folder}")
@@ -176,22 +177,14 @@ def require_keepable(path: str, *, tilted: bool = False, ended: bool = False, la
         raise InputError(f"cannot write {path}: permission denied")
 
 
-def keep_rows(
-    path: str,
-    rows: Sequence[Row],
-    made_by: str,
-    *,
-    tilted: bool = False,
-    ended: bool = False,
-    layout: Layout = PAIRS,
-) -> int:
+def keep_rows(path: str, rows: Sequence[Row], made_by: str, groups: Groups) -> int:
     """Add the rows that a vector file lacks, labelled and proved, and return their number.
 
-    All rows have the numbers of the layout; with `tilted` they also have an axis, with `ended` an axis and heights, and
-    so has the file. A new file names `made_by` as the command that made it. Cases of an existing file do not change.
-    Raises InputError if the file is not a vector file of this kind, or cannot be written.
+    All rows have the columns of `content_with(groups)`, and so has the file. A new file names `made_by` as the command
+    that made it. Cases of an existing file do not change. Raises InputError if the file is not a vector file of this
+    kind, or cannot be written.
     """
-    content = content_with(layout, tilted=tilted, ended=ended)
+    content = content_with(groups)
     there = Path(path).exists()
     before = read_cases(path, content) if there else CaseFile[Any](described("found", made_by), content, ())
     known = _named(before.cases)

@@ -13,7 +13,6 @@ from pathlib import Path
 from typing import Any
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.rows import PAIRS, SWEEPS
 from hypcheck.messages import suggestion
 from hypcheck.tables.streams import PACKED, open_input
 from hypcheck.vectors import cancellation
@@ -28,7 +27,6 @@ from hypcheck.vectors.families import (
 )
 from hypcheck.vectors.family import Family, Metadata, described
 from hypcheck.vectors.format import CaseFile
-from hypcheck.vectors.invalid_rows import ENDED_INVALID, INVALID_NAMES
 
 
 def _files_of(families: Mapping[str, Family]) -> tuple[str, ...]:
@@ -54,9 +52,9 @@ ENDED_SWEEP_NAMES = _files_of(ENDED_SWEEP_FAMILIES)
 ALL_NAMES = (
     *(*NAMES, "invalid"),
     *(*TILTED_NAMES, "tilted-invalid"),
-    *(*SWEEP_NAMES, *INVALID_NAMES[SWEEPS]),
-    *(*ENDED_NAMES, ENDED_INVALID[PAIRS]),
-    *(*ENDED_SWEEP_NAMES, ENDED_INVALID[SWEEPS]),
+    *(*SWEEP_NAMES, "way-invalid", "tilted-way-invalid"),
+    *(*ENDED_NAMES, "ended-invalid"),
+    *(*ENDED_SWEEP_NAMES, "ended-way-invalid"),
 )
 """All files, in the order in which they are listed."""
 

@@ -12,17 +12,17 @@ import numpy as np
 
 from hypcheck import strict
 from hypcheck.geometry.pair import AXIS, ENDS, HEIGHTS, REFUSED, SIZES, trouble_with
-from hypcheck.geometry.rows import PAIRS, SWEEPS, Layout, Rows
+from hypcheck.geometry.rows import PAIRS, SWEEPS, Layout, Rows, layout_with
 from hypcheck.strict import StrictTable
 from hypcheck.tables.numbers import shown_json
 from hypcheck.tables.strict_json import JsonDocument
 from hypcheck.vectors.family import Row, described
 from hypcheck.vectors.flags import FlagFacts
 from hypcheck.vectors.format import (
+    CONTENTS,
     CaseFile,
     Content,
     a_number,
-    content_with,
     file_of,
     json_text,
     numbers_text,
@@ -30,23 +30,9 @@ from hypcheck.vectors.format import (
 )
 
 INVALID_CONTENTS = {
-    "invalid": content_with(refused=True),
-    "tilted-invalid": content_with(tilted=True, refused=True),
-    "way-invalid": content_with(SWEEPS, refused=True),
-    "tilted-way-invalid": content_with(SWEEPS, tilted=True, refused=True),
-    "ended-invalid": content_with(refused=True, ended=True),
-    "ended-way-invalid": content_with(SWEEPS, refused=True, ended=True),
+    content.name.replace("refusals", "invalid"): content for content in CONTENTS.values() if content.refused
 }
 """The files of rows without an answer by name, and the content of each."""
-
-ENDED_INVALID = {content.layout: name for name, content in INVALID_CONTENTS.items() if content.ended}
-"""The names of those about hyperboloids that end, by layout."""
-
-INVALID_NAMES = {
-    layout: tuple(name for name, content in INVALID_CONTENTS.items() if content.layout == layout and not content.ended)
-    for layout in (PAIRS, SWEEPS)
-}
-"""The names of these files by layout, of upright spheroids and of tilted ones."""
 
 EXPECTED = "refused"
 _FIELDS = ("id", "row", "bits", "expected", "columns")
@@ -127,7 +113,7 @@ def invalid_rows(name: str) -> InvalidRowFile:
     content = INVALID_CONTENTS[name]
     cases = []
     bad = _bad_ended_rows if content.ended else _bad_tilted_rows if content.tilted else _bad_rows
-    for number, bits in enumerate(dict.fromkeys(bad(content.layout))):
+    for number, bits in enumerate(dict.fromkeys(bad(layout_with(content.groups)))):
         row = tuple(rows_from_bits([bits])[0].tolist())
         cases.append(InvalidRow(f"{name}-{number:04d}", bits, columns_at_fault(row, content.columns)))
     return InvalidRowFile(described(name, f"hypcheck cases freeze {name}"), content, tuple(cases))

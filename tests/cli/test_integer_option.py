@@ -48,7 +48,7 @@ def test_integer_option_reads_digits_with_and_without_underscores_as_python_does
 @pytest.mark.parametrize("families", [(), ("ring", "tower-body"), ("extreme-*",)])
 def test_planned_size_is_the_number_of_rows_in_all_chunks_of_the_run(families):
     plan = ConformancePlan(("builtin:fast",), families=families, count=70_000)
-    chosen = select(families, tilted=True, layout=None) if families else select()
+    chosen = select(families, None) if families else select()
     some = [chunk for family in chosen for chunk in family_chunks(family, plan.seed, plan.count * family.times)]
     followed = () if families else searches(plan, Description("any"))
     assert planned_size(plan) == sum(map(len, [*some, *(() if families else searched_chunks()), *followed]))

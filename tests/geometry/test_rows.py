@@ -83,7 +83,7 @@ def test_valid_rows_give_no_error_message():
 
 def test_as_rows_of_ways_takes_ten_numbers_or_thirteen_with_an_axis():
     assert as_rows([WAY], layout=SWEEPS).shape == (1, 10)
-    assert as_rows([WAY + AXIS], layout=SWEEPS, tilted=True).shape == (1, 13)
+    assert as_rows([WAY + AXIS], frozenset({"axis"}), SWEEPS).shape == (1, 13)
     with pytest.raises(
         InputError, match=r"shape \(1, 13\); it must be \(n, 10\): alpha, gamma, b, d, x0, y0, z0, x1, y1, z1$"
     ):

@@ -49,7 +49,7 @@ def by_hand():
 @pytest.fixture(scope="module")
 def rows():
     """Ways by hand and of the families, and ways within a hyperboloid."""
-    made = [family.rows(1, 4) for family in SWEEP_FAMILIES.values() if not family.tilted]
+    made = [family.rows(1, 4) for family in SWEEP_FAMILIES.values() if "axis" not in family.groups]
     made += [SWEEP_FAMILIES[name].rows(1, 24) for name in ("way-anywhere", "way-tunnelling")]
     inside = [[2.0, 17.8, 0.25, 0.15, *ends] for ends in ((0.0, 0.0, -9.0, 0.0, 0.0, 9.0), (0.5, 0, 1, 0.5, 1, 1))]
     return np.concatenate([by_hand(), inside, *made])

@@ -85,8 +85,8 @@ def _slice(stream: random.Random, name: str, narrowest: float, widest: float) ->
 def asked(count: int, without: frozenset[str], *, tilted: bool) -> Rows:
     """The rows of a run by default, but for the number of generated ones; upright or tilted ones."""
     parts = []
-    for family in select(tilted=True):
-        if family.tilted is tilted and family.name not in without:
+    for family in select(taken=frozenset({"axis"})):
+        if ("axis" in family.groups) is tilted and family.name not in without:
             for chunk in family_chunks(family, 1, count * family.times):
                 if chunk.seed is None:
                     parts.append(frozen_vectors(family.name).rows)

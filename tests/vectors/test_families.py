@@ -14,6 +14,7 @@ import pytest
 
 from hypcheck.cli.main import main
 from hypcheck.errors import InputError
+from hypcheck.geometry.pair import ALL_GROUPS, AXIS, COLUMNS, HEIGHTS, SWEEP_COLUMNS
 from hypcheck.geometry.rows import PAIRS, SWEEPS, Rows, invalid
 from hypcheck.vectors.families import (
     ALL,
@@ -35,6 +36,8 @@ try:
     from numpy._core import _multiarray_umath as numpy_core
 except ImportError:  # numpy 1
     from numpy.core import _multiarray_umath as numpy_core  # type: ignore[no-redef]
+
+AXIS_ALONE = frozenset({"axis"})
 
 DIGESTS: dict[str, str] = {
     "forest-type-1": "bc47da5389336338726fa52ea589b1d7bea2ff2814e208b297d818dbfcc37418",
@@ -195,10 +198,10 @@ def test_every_family_is_in_the_table_of_its_kind() -> None:
         (ENDED_SWEEP_FAMILIES, SWEEPS, {False, True}),
     ):
         assert {family.layout for family in families.values()} == {layout}
-        assert {family.tilted for family in families.values()} == tilted
+        assert {"axis" in family.groups for family in families.values()} == tilted
         assert all(("way" in name) == (layout is SWEEPS) for name in families)
     ended = ENDED_FAMILIES | ENDED_SWEEP_FAMILIES
-    assert [name for name, family in ALL.items() if family.ended] == [*ended]
+    assert [name for name, family in ALL.items() if "heights" in family.groups] == [*ended]
     assert [*ALL] == [*FAMILIES, *TILTED_FAMILIES, *SWEEP_FAMILIES, *ended]
 
 
@@ -210,9 +213,11 @@ def test_every_family_has_a_complete_description(family: Family) -> None:
         if isinstance(value, str):
             assert value.strip().rstrip(".") == value != "", name
     assert ALL[family.name] is family_of(family.name) is family
-    assert family.tilted == ("tilted" in family.name)
-    tilted = family.layout.tilted if family.tilted else family.layout.upright
-    assert family.columns == (family.layout.ended if family.ended else tilted)
+    words = {"end": "way", "axis": "tilted", "heights": "ended"}
+    assert family.groups == {group for group, word in words.items() if word in family.name.split("-")}
+    axis = AXIS if family.groups & {"axis", "heights"} else ()
+    heights = HEIGHTS if "heights" in family.groups else ()
+    assert family.columns == ((SWEEP_COLUMNS if "end" in family.groups else COLUMNS) + axis + heights)
     assert family.extreme == is_extreme(family.name) == is_extreme(case_id(family, 1, 0))
 
 
@@ -311,18 +316,18 @@ def test_select_with_a_glob_takes_every_matching_family_and_with_a_star_all() ->
 
 
 def test_select_takes_tilted_families_only_if_tilt_is_requested():
-    assert not any(family.tilted for family in (*select(), *select(["*", "extreme"])))
-    assert select(tilted=True) == (*select(), *(each for each in TILTED_FAMILIES.values() if not each.extreme))
-    assert select(["*"], tilted=True) == (*FAMILIES.values(), *TILTED_FAMILIES.values())
-    assert select(["tilted-uniform", "ring"], tilted=True) == (FAMILIES["ring"], TILTED_FAMILIES["tilted-uniform"])
+    assert not any(family.groups for family in (*select(), *select(["*", "extreme"])))
+    assert select(taken=AXIS_ALONE) == (*select(), *(each for each in TILTED_FAMILIES.values() if not each.extreme))
+    assert select(["*"], AXIS_ALONE) == (*FAMILIES.values(), *TILTED_FAMILIES.values())
+    assert select(["tilted-uniform", "ring"], AXIS_ALONE) == (FAMILIES["ring"], TILTED_FAMILIES["tilted-uniform"])
     with pytest.raises(InputError, match="'tilted-\\*' names tilted spheroids, which only an implementation with tilt"):
         select(["ring", "tilted-*"])
 
 
 def test_select_takes_families_of_sweeps_only_if_sweeps_are_requested():
-    assert not any(family.layout is SWEEPS for family in select(["*"], tilted=True))
-    assert set(select(["*"], tilted=True, layout=SWEEPS)) == set(SWEEP_FAMILIES.values())
-    assert set(select(["*-way-*"], tilted=True, ended=True, layout=SWEEPS)) >= set(ENDED_SWEEP_FAMILIES.values())
+    assert not any(family.layout is SWEEPS for family in select(["*"], AXIS_ALONE))
+    assert set(select(["*"], frozenset({"end", "axis"}))) == set(SWEEP_FAMILIES.values())
+    assert set(select(["*-way-*"], ALL_GROUPS)) >= set(ENDED_SWEEP_FAMILIES.values())
     with pytest.raises(InputError, match="'ended-way-thin' names hyperboloids that end"):
         select(["ended-way-thin"])
     with pytest.raises(InputError, match="'way-ring' names sweeps"):

@@ -12,7 +12,6 @@ from msgspec import structs
 from hypcheck.cli.main import main
 from hypcheck.errors import Exit, InputError, RunOutcome
 from hypcheck.geometry.pair import Position
-from hypcheck.geometry.rows import PAIRS
 from hypcheck.implementations.description import Description
 from hypcheck.implementations.domain import Domain
 from hypcheck.implementations.session import Answered
@@ -31,7 +30,6 @@ from hypcheck.runs.retest import RetestStep, retest
 from hypcheck.runs.tally import EMPTY
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES
-from hypcheck.vectors.invalid_rows import INVALID_NAMES
 from tests.runs import leaning
 from tests.support.judging import ends_of, wrong_cases
 from tests.support.records import GrowingText, unanswered_case, worst_case
@@ -130,7 +128,7 @@ def test_the_progress_of_a_run_counts_every_case_of_an_implementation_with_tilt(
     steps, more = [], []
     plan = ConformancePlan((built_in(leaning.exact, **TAKES_TILT),), ("ring", "tilted-ring"), count=3, pace=FEW_AGAIN)
     run_conformance(plan, Recorder(GrowingText(), {}), RunOutcome(), steps.append, expect=more.append)
-    assert more == [sum(len(frozen.load(name).cases) for name in INVALID_NAMES[PAIRS])]
+    assert more == [sum(len(frozen.load(name).cases) for name in ("invalid", "tilted-invalid"))]
     assert sum(steps) == planned_size(plan) + sum(more)
 
 

@@ -101,13 +101,13 @@ def test_minimise_takes_rows_with_ends_and_proves_the_right_answer(text, row, ca
 
 
 def test_strata_have_the_families_with_ends_where_heights_are_taken():
-    for layout, families in ((PAIRS, ENDED_FAMILIES), (SWEEPS, ENDED_SWEEP_FAMILIES)):
+    for groups, families in (({"axis"}, ENDED_FAMILIES), ({"end", "axis"}, ENDED_SWEEP_FAMILIES)):
         without, all_of_them = (
-            {stratum.name for stratum in hunt_search.strata(tilt=True, heights=heights, layout=layout)}
-            for heights in (False, True)
+            {stratum.name for stratum in hunt_search.strata(taken=frozenset(taken))}
+            for taken in (groups, {*groups, "heights"})
         )
         assert all_of_them - without == {f"the family {name}" for name in families}
-    upright = {stratum.name for stratum in hunt_search.strata(heights=True)}
+    upright = {stratum.name for stratum in hunt_search.strata(taken=frozenset({"heights"}))}
     assert not any("tilted" in name for name in upright)
 
 

@@ -7,11 +7,9 @@ import io
 from collections.abc import Iterable, Sequence
 from itertools import groupby
 
-from hypcheck.geometry.rows import PAIRS
 from hypcheck.report.markdown import code_span, escape_text, table_lines
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import TILTED_FAMILIES
-from hypcheck.vectors.invalid_rows import INVALID_NAMES
 from tests.tools.mutants.collection import Mutant, imported, sentence
 from tests.tools.mutants.gating import Result
 
@@ -165,7 +163,7 @@ def _tally(results: Sequence[Result]) -> str:
 
 
 def _families() -> list[str]:
-    return [*dict.fromkeys((*frozen.NAMES, *TILTED_FAMILIES, *INVALID_NAMES[PAIRS]))]
+    return [*dict.fromkeys((*frozen.NAMES, *TILTED_FAMILIES, "invalid", "tilted-invalid"))]
 
 
 def _by_family(wrong: Sequence[Result]) -> list[str]:

@@ -11,11 +11,11 @@ from subprocess import run
 import numpy as np
 
 from hypcheck.geometry.pair import REFUSED
-from hypcheck.geometry.rows import CANNOT_SAY, PAIRS, SWEEPS
+from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.implementations.sweeps import certified
 from hypcheck.vectors.families import FAMILIES, SWEEP_FAMILIES
 from hypcheck.vectors.frozen import ENDED_NAMES, NAMES, SWEEP_NAMES, TILTED_NAMES, load
-from hypcheck.vectors.invalid_rows import ENDED_INVALID, INVALID_CONTENTS, INVALID_NAMES
+from hypcheck.vectors.invalid_rows import INVALID_CONTENTS
 from tests.support.inside import nearest_rows
 from tests.tools.attack.places import Scene
 from tests.tools.attack.strike import Batch, batches
@@ -57,7 +57,7 @@ class Job:
     said: tuple[int, int] = (1, 0)
 
 
-_REFUSALS = (name for name in INVALID_CONTENTS if name != ENDED_INVALID[SWEEPS])  # no job asks of these ways
+_REFUSALS = (name for name in INVALID_CONTENTS if name != "ended-way-invalid")  # no job asks of these ways
 FROZEN = (*NAMES, *TILTED_NAMES, *SWEEP_NAMES, *ENDED_NAMES, *_REFUSALS)
 
 
@@ -66,10 +66,10 @@ def frozen(names: Sequence[str] = FROZEN) -> Iterator[Job]:
     for name in names:
         cases = load(name)
         rows, right = cases.rows, cases.positions
-        if name in (*SWEEP_NAMES, *INVALID_NAMES[SWEEPS]):
+        if name in (*SWEEP_NAMES, "way-invalid", "tilted-way-invalid"):
             yield _ways("frozen ways", rows, right)
             continue
-        if name in (*ENDED_NAMES, ENDED_INVALID[PAIRS]):
+        if name in (*ENDED_NAMES, "ended-invalid"):
             yield Job("frozen towers that end", "ended rows", rows, len(rows), _told_or_open(right), MODES[:4])
             continue
         yield from _positions("frozen", rows, right, modes=MODES)

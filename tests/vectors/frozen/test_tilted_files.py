@@ -153,7 +153,7 @@ FIRST = SOUND.index('"cases": [') + 1
 def test_a_tilted_case_that_is_wrongly_written_is_refused(tmp_path, change, message):
     lines = list(SOUND)
     case = json.loads(lines[FIRST].removesuffix(","))
-    assert tuple(case) == case_fields(content_with(tilted=True))
+    assert tuple(case) == case_fields(content_with(frozenset({"axis"})))
     change(case)
     lines[FIRST] = json.dumps(case) + ","
     path = tmp_path / "mine.json"
@@ -166,7 +166,7 @@ def test_a_file_with_another_content_than_the_wanted_one_is_refused(tmp_path):
     with pytest.raises(InputError, match="here it must be 'positions'"):
         read_cases(str(frozen.path_of("tilted-ring")), content_with())
     with pytest.raises(InputError, match="here it must be 'tilted-positions'"):
-        read_cases(str(frozen.path_of("ring")), content_with(tilted=True))
+        read_cases(str(frozen.path_of("ring")), content_with(frozenset({"axis"})))
     with pytest.raises(InputError, match="here it must be 'refusals'"):
         read_cases(str(frozen.path_of("tilted-ring")), content_with(refused=True))
     path = tmp_path / "mine.json"
