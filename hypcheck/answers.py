@@ -20,7 +20,7 @@ from hypcheck.geometry.rows import PAIRS, Mask, Positions, Rows, require_valid
 from hypcheck.kernel.classify import classify
 from hypcheck.kernel.in_use import kernel
 from hypcheck.processes import in_order, usable_processors
-from hypcheck.tables.chunk import SweepAnswers, Table, TableAnswers, TableChunk, UnreadChunk
+from hypcheck.tables.chunk import Answers, SweepAnswers, Table, TableAnswers, TableChunk, UnreadChunk
 from hypcheck.tables.csv_table import read_csv, write_csv
 from hypcheck.tables.jsonl_table import read_jsonl, write_jsonl
 from hypcheck.tables.npy_table import read_npy, write_npy
@@ -144,7 +144,7 @@ def _alone(table: Table, alone: int) -> int:
 
 
 def _answer_chunk(
-    render: Callable[[TableChunk, TableAnswers | SweepAnswers], bytes], margin: float | None, unread: UnreadChunk
+    render: Callable[[TableChunk, Answers], bytes], margin: float | None, unread: UnreadChunk
 ) -> tuple[bytes, int]:
     """The text that is written for a chunk, and its number of rows."""
     chunk = unread()

@@ -11,7 +11,9 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
-from typing import TypeAlias, TypeVar
+from functools import cache
+from itertools import chain, repeat
+from typing import Protocol, TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -169,11 +171,60 @@ class Table:
         return tuple(name for name in added_to(self.columns) if name != WITH_MARGIN or self.margin)
 
 
+Cell: TypeAlias = float | str | bool | None
+"""What is added to a row in one column; None: nothing to say."""
+
+
+class Answers(Protocol):
+    """The answers about a chunk as the writers of tables take them, (n,) each.
+
+    `names` are those of all that is added to a row: first the cells of its head, few of which differ, then numbers, NaN
+    where there is none, and at last the position with a margin, if one is given. `integers` is the one integer of each
+    row.
+    """
+
+    @property
+    def names(self) -> tuple[str, ...]: ...  # noqa: D102
+
+    @property
+    def heads(self) -> Iterable[tuple[Cell, ...]]: ...  # noqa: D102
+
+    @property
+    def numbers(self) -> tuple[NDArray[np.float64], ...]: ...  # noqa: D102
+
+    @property
+    def with_margin(self) -> Positions | None: ...  # noqa: D102
+
+    @property
+    def integers(self) -> Positions: ...  # noqa: D102
+
+
+def with_answers(
+    texts: Iterable[str], answers: Answers, cell_text: Callable[[Cell], str], marks: Sequence[str], end: str
+) -> bytes:
+    """The text of each row, then each added cell behind its mark, then the end."""
+
+    @cache
+    def head_text(head: tuple[Cell, ...]) -> str:
+        return "".join(mark + cell_text(cell) for mark, cell in zip(marks, head, strict=False))
+
+    columns = []
+    for column in answers.numbers:
+        columns.append(list(map(repr, column.tolist())))
+        for index in np.flatnonzero(~np.isfinite(column)).tolist():
+            columns[-1][index] = cell_text(None if np.isnan(column[index]) else float(column[index]))
+    if answers.with_margin is not None:
+        columns.append(list(map(str, answers.with_margin.tolist())))
+    marked = (part for pair in zip(map(repeat, marks[-len(columns) :]), columns, strict=True) for part in pair)
+    rows = zip(texts, map(head_text, answers.heads), *marked, repeat(end), strict=False)
+    return "".join(chain.from_iterable(rows)).encode()
+
+
 @dataclass(frozen=True, slots=True)
 class TableAnswers:
-    """The answers about a chunk, (n,) each.
+    """The answers about a chunk of pairs, (n,) each.
 
-    positions: exact, int8; 127 marks a refused row, in which the other two mean nothing.
+    positions: exact, int8; 127 marks a refused row, which has no tangency and no clearance.
     tangent: whether the surfaces touch without crossing.
     clearance: in spheroid radii.
     with_margin: the positions where what is not proved to be at least a margin away is contact; None without one.
@@ -185,9 +236,31 @@ class TableAnswers:
     with_margin: Positions | None = None
 
     @property
+    def names(self) -> tuple[str, ...]:
+        """The names of the columns."""
+        return ADDED if self.with_margin is None else (*ADDED, WITH_MARGIN)
+
+    @property
     def integers(self) -> Positions:
         """The one integer of each row: its position, with the margin if one is given."""
         return self.positions if self.with_margin is None else self.with_margin
+
+    @property
+    def heads(self) -> Iterable[tuple[Cell, ...]]:
+        """Position, label, tangency."""
+        return map(_HEADS.__getitem__, zip(self.positions.tolist(), self.tangent.tolist(), strict=True))
+
+    @property
+    def numbers(self) -> tuple[NDArray[np.float64], ...]:
+        """The clearance."""
+        return (self.clearance,)
+
+
+_HEADS: dict[tuple[int, bool], tuple[Cell, ...]] = {
+    (position, tangent): (position, label, None if position == pair.REFUSED else tangent)
+    for position, label in LABELS.items()
+    for tangent in (False, True)
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -201,17 +274,23 @@ class SweepAnswers:
     hits: Positions
     first_lower: NDArray[np.float64]
     first_upper: NDArray[np.float64]
+    names: tuple[str, ...] = ADDED_TO_SWEEPS
+    with_margin: None = None
 
     @property
     def integers(self) -> Positions:
         """The one integer of each row: whether it hits."""
         return self.hits
 
-    def cells(self) -> Iterator[tuple[int, str, float | None, float | None]]:
-        """What is added to each row, None for what it does not have."""
-        for hit, *times in zip(self.hits.tolist(), self.first_lower.tolist(), self.first_upper.tolist(), strict=True):
-            lower, upper = times if hit == 1 else (None, None)
-            yield hit, SWEEP_LABELS[hit], lower, upper
+    @property
+    def heads(self) -> Iterable[tuple[Cell, ...]]:
+        """Whether it hits, and the label."""
+        return ((hit, SWEEP_LABELS[hit]) for hit in self.hits.tolist())
+
+    @property
+    def numbers(self) -> tuple[NDArray[np.float64], ...]:
+        """The bounds of the time."""
+        return self.first_lower, self.first_upper
 
 
 SWEEP_LABELS = {1: "contact", 0: "clear", pair.REFUSED: "refused"}
@@ -225,7 +304,7 @@ class Sink:
     add: writes these bytes. Raises InputError.
     """
 
-    render: Callable[[TableChunk, TableAnswers | SweepAnswers], bytes]
+    render: Callable[[TableChunk, Answers], bytes]
     add: Callable[[bytes], object]
 
 

@@ -22,16 +22,15 @@ from typing import NoReturn
 import numpy as np
 
 from hypcheck.errors import InputError, NothingJudgedError
-from hypcheck.geometry.pair import AXIS, CENTER, NO_DIRECTION, REFUSED
+from hypcheck.geometry.pair import AXIS, CENTER, NO_DIRECTION
 from hypcheck.geometry.rows import Floats, Layout, Rows, invalid
 from hypcheck.tables.chunk import (
     CHUNK,
-    LABELS,
+    Answers,
+    Cell,
     RowPlaces,
     Sink,
-    SweepAnswers,
     Table,
-    TableAnswers,
     TableChunk,
     UnreadChunk,
     check_names,
@@ -39,6 +38,7 @@ from hypcheck.tables.chunk import (
     in_layout,
     layout_of,
     read_values,
+    with_answers,
 )
 from hypcheck.tables.numbers import CHARACTERS, is_number, number_of_text, shown
 from hypcheck.tables.streams import BYTE_ORDER_MARK, Reader, TextBlock, TextLines, Writer, open_input
@@ -135,27 +135,13 @@ def write_csv(writer: Writer, table: Table) -> Iterator[Sink]:
     yield Sink(partial(_render, end), writer.write)
 
 
-def _render(end: str, chunk: TableChunk, answers: TableAnswers | SweepAnswers) -> bytes:
+def _render(end: str, chunk: TableChunk, answers: Answers) -> bytes:
     texts = chunk.texts if chunk.texts is not None else [",".join(map(repr, row)) for row in chunk.rows.tolist()]
-    if isinstance(answers, SweepAnswers):
-        cells = (",".join("" if part is None else str(part) for part in row) for row in answers.cells())
-        return "".join(f"{text},{row}{end}" for text, row in zip(texts, cells, strict=True)).encode()
-    added = map(_CELLS.__getitem__, zip(answers.positions.tolist(), answers.tangent.tolist(), strict=True))
-    rows = zip(texts, added, map(repr, answers.clearance.tolist()), strict=True)
-    lines = [f"{text}{cells}{clearance}{end}" for text, cells, clearance in rows]
-    for index in np.flatnonzero(chunk.refused).tolist():
-        lines[index] = f"{texts[index]},{REFUSED},{LABELS[REFUSED]},,{end}"
-    if answers.with_margin is not None:
-        kept = zip(lines, answers.with_margin.tolist(), strict=True)
-        lines = [f"{line.removesuffix(end)},{position}{end}" for line, position in kept]
-    return "".join(lines).encode()
+    return with_answers(texts, answers, _cell_text, [","] * len(answers.names), end)
 
 
-_CELLS = {
-    (position, tangent): f",{position},{label},{'true' if tangent else 'false'},"
-    for position, label in LABELS.items()
-    for tangent in (False, True)
-}
+def _cell_text(cell: Cell) -> str:
+    return "" if cell is None else str(cell).lower()
 
 
 def _chunks(records: _Records, width: int, places_of: Mapping[str, int], *, mark: bool) -> Iterator[UnreadChunk]:

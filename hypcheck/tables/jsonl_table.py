@@ -12,32 +12,31 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
 from itertools import chain
-from math import isfinite
+from math import inf, isfinite
 from operator import itemgetter
 
 import numpy as np
 
 from hypcheck.errors import InputError, NothingJudgedError
-from hypcheck.geometry.pair import AXIS, COLUMNS, END, ENDS, HEIGHTS, REFUSED, TILTED_COLUMNS
+from hypcheck.geometry.pair import AXIS, COLUMNS, END, ENDS, HEIGHTS, TILTED_COLUMNS
 from hypcheck.geometry.rows import PAIRS, Layout, Rows, invalid
 from hypcheck.messages import json_trouble
 from hypcheck.tables.chunk import (
     ADDED,
-    ADDED_TO_SWEEPS,
     CHUNK,
-    LABELS,
     WITH_MARGIN,
+    Answers,
+    Cell,
     RowPlaces,
     Sink,
-    SweepAnswers,
     Table,
-    TableAnswers,
     TableChunk,
     UnreadChunk,
     check_names,
     columns_of,
     layout_of,
     read_values,
+    with_answers,
 )
 from hypcheck.tables.numbers import Literal, number_of_json, shown_json
 from hypcheck.tables.streams import BYTE_ORDER_MARK, Reader, TextBlock, TextLines, Writer
@@ -59,31 +58,14 @@ def write_jsonl(writer: Writer, _table: Table) -> Iterator[Sink]:
     yield Sink(_render, writer.write)
 
 
-def _render(chunk: TableChunk, answers: TableAnswers | SweepAnswers) -> bytes:
+def _render(chunk: TableChunk, answers: Answers) -> bytes:
     texts = chunk.texts if chunk.texts is not None else [_object(row, chunk.layout) for row in chunk.rows.tolist()]
-    if isinstance(answers, SweepAnswers):
-        added = (json.dumps(dict(zip(ADDED_TO_SWEEPS, row, strict=True)))[1:] for row in answers.cells())
-        return "".join(f"{text[:-1]}, {keys}\n" for text, keys in zip(texts, added, strict=True)).encode()
-    keys_of = map(_KEYS.__getitem__, zip(answers.positions.tolist(), answers.tangent.tolist(), strict=True))
-    clearances = list(map(repr, answers.clearance.tolist()))
-    for index in np.flatnonzero(np.isinf(answers.clearance)).tolist():
-        clearances[index] = '"inf"'  # JSON has no number for it
-    rows = zip(texts, keys_of, clearances, strict=True)
-    lines = [f"{text[:-1]}{keys}{clearance}}}\n" for text, keys, clearance in rows]
-    for index in np.flatnonzero(chunk.refused).tolist():
-        lines[index] = f"{texts[index][:-1]}{_REFUSED_KEYS}}}\n"
-    if answers.with_margin is not None:
-        kept = zip(lines, answers.with_margin.tolist(), strict=True)
-        lines = [f'{line[:-2]}, "{WITH_MARGIN}": {position}}}\n' for line, position in kept]
-    return "".join(lines).encode()
+    marks = [f', "{name}": ' for name in answers.names]
+    return with_answers([text[:-1] for text in texts], answers, _cell_text, marks, "}\n")
 
 
-_KEYS = {
-    (position, flag): f', "position": {position}, "label": "{label}", "tangent": {json.dumps(flag)}, "clearance": '
-    for position, label in LABELS.items()
-    for flag in (False, True)
-}
-_REFUSED_KEYS = f', "position": {REFUSED}, "label": "{LABELS[REFUSED]}", "tangent": null, "clearance": null'
+def _cell_text(cell: Cell) -> str:
+    return json.dumps(str(cell) if cell == inf else cell)  # JSON has no number for infinity
 
 
 def _object(row: list[float], layout: Layout) -> str:

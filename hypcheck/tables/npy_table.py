@@ -21,7 +21,7 @@ from hypcheck.errors import InputError, NothingJudgedError
 from hypcheck.geometry.pair import AXIS, COLUMNS, HEIGHTS, TILTED_COLUMNS
 from hypcheck.geometry.rows import PAIRS, Rows, first_trouble, invalid
 from hypcheck.messages import counted
-from hypcheck.tables.chunk import CHUNK, Sink, SweepAnswers, Table, TableAnswers, TableChunk, UnreadChunk
+from hypcheck.tables.chunk import CHUNK, Answers, Sink, Table, TableChunk, UnreadChunk
 from hypcheck.tables.streams import Reader, Writer
 
 _SHAPES = (
@@ -65,7 +65,7 @@ def write_npy(writer: Writer, _table: Table) -> Iterator[Sink]:
             writer.write(block)
 
 
-def _render(_chunk: TableChunk, answers: TableAnswers | SweepAnswers) -> bytes:
+def _render(_chunk: TableChunk, answers: Answers) -> bytes:
     return answers.integers.tobytes()
 
 
