@@ -33,7 +33,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
-from math import isqrt
 
 from hypcheck.geometry.pair import Lengths, Position
 from hypcheck.truth import exact
@@ -42,13 +41,12 @@ from hypcheck.truth.polynomials import (
     Polynomial,
     common_divisor,
     polynomial_product,
-    polynomial_sum,
     primitive,
     quotient,
     squarefree,
 )
 from hypcheck.truth.sections import Sections
-from hypcheck.truth.sweep import StraightSweep
+from hypcheck.truth.sweep import InTime, StraightSweep, Surd
 
 _BITS = (60, 120, 240)
 """Bits of the enclosures of roots, tried in this order until all clusters are decided.
@@ -226,76 +224,35 @@ def _at_ends(sweep: StraightSweep, *, sides: bool) -> Iterator[Polynomial]:
         if height is None:
             continue
         c3, c2, c1, c0 = ([of.value(of.cubic[k], height) for of in sections] for k in range(4))
-        g = [_WithRoot.through(values, unit) for values in (c3, c2, c1, c0)]
-        yield from _where_touched(*g)
-        yield from _WithRoot.through([of.value(of.inside, height) for of in sections], unit).norm
+        yield from _where_touched(*(_through(values, unit) for values in (c3, c2, c1, c0)))
+        yield from _zeros(_through([of.value(of.inside, height) for of in sections], unit))
         if sides:
-            yield from _WithRoot.through([of.value(of.above, height) for of in sections], unit).norm
+            yield from _zeros(_through([of.value(of.above, height) for of in sections], unit))
 
 
-def _where_touched(c3: _WithRoot, c2: _WithRoot, c1: _WithRoot, c0: _WithRoot) -> Iterator[Polynomial]:
+def _where_touched(c3: Surd, c2: Surd, c1: Surd, c0: Surd) -> Iterator[Polynomial]:
     """Polynomials that are 0 where the circle just touches the ellipse.
 
     Far away the circle misses E, so that Δ > 0 or c0 = c1 = 0 there (sections.py). Where one of them is 0 at all times,
     what is left therefore is not.
     """
-    if not c0.vanishes:
-        yield from exact.cubic_discriminant(c3, c2, c1, c0).norm
+    if any(c0.norm):
+        yield from _zeros(exact.cubic_discriminant(c3, c2, c1, c0))
         return
     for f in (c2 * c2 - c3 * c1 * 4, c1, c2):
-        yield from f.norm
+        yield from _zeros(f)
 
 
-@dataclass(frozen=True, slots=True)
-class _WithRoot:
-    """A polynomial u + v √U in t: what exact.cubic_discriminant takes for a number."""
+def _through(values: Sequence[tuple[int | Fraction, int | Fraction]], unit: int) -> Surd:
+    """The quadratic u + v √unit in t with these values at 0, 1, 2, doubled."""
+    u, v = (
+        InTime((there - 2 * here + start, 4 * here - there - 3 * start, 2 * start))
+        for start, here, there in zip(*((int(even), int(odd)) for even, odd in values), strict=True)
+    )
+    return Surd(u, v, unit)
 
-    u: Sequence[int]
-    v: Sequence[int]
-    unit: int
 
-    @classmethod
-    def through(cls, values: Sequence[tuple[int | Fraction, int | Fraction]], unit: int) -> _WithRoot:
-        """The quadratic with these values at 0, 1, 2, doubled."""
-        u, v = (
-            (there - 2 * here + start, 4 * here - there - 3 * start, 2 * start)
-            for start, here, there in zip(*((int(even), int(odd)) for even, odd in values), strict=True)
-        )
-        return cls(u, v, unit)
-
-    def __add__(self, other: _WithRoot) -> _WithRoot:
-        return _WithRoot(polynomial_sum(self.u, other.u), polynomial_sum(self.v, other.v), self.unit)
-
-    def __mul__(self, other: _WithRoot | int) -> _WithRoot:
-        if isinstance(other, int):
-            return _WithRoot([number * other for number in self.u], [number * other for number in self.v], self.unit)
-        product = polynomial_product
-        rest = [number * self.unit for number in product(self.v, other.v)]
-        return _WithRoot(
-            polynomial_sum(product(self.u, other.u), rest),
-            polynomial_sum(product(self.u, other.v), product(self.v, other.u)),
-            self.unit,
-        )
-
-    def __sub__(self, other: _WithRoot) -> _WithRoot:
-        return self + other * -1
-
-    __rmul__ = __mul__
-
-    @property
-    def vanishes(self) -> bool:
-        """Whether the number is 0 for every t."""
-        return not any(self._norm)
-
-    @property
-    def norm(self) -> list[Polynomial]:
-        """A list with a polynomial that is 0 wherever this number is; an empty list if this is a constant, 0 or not."""
-        return [self._norm] if len(self._norm) > 1 else []
-
-    @property
-    def _norm(self) -> Polynomial:
-        root = isqrt(self.unit)
-        if root * root == self.unit:
-            return primitive(polynomial_sum(self.u, [number * root for number in self.v]))
-        square = [number * -self.unit for number in polynomial_product(self.v, self.v)]
-        return primitive(polynomial_sum(polynomial_product(self.u, self.u), square))
+def _zeros(f: Surd) -> list[Polynomial]:
+    """A list with a polynomial that is 0 wherever f is; an empty list if that is a constant, 0 or not."""
+    norm = f.norm
+    return [norm] if len(norm) > 1 else []

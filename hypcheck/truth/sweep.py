@@ -25,6 +25,7 @@ from functools import cached_property
 from hypcheck.geometry.pair import Lengths, Position, Vector
 from hypcheck.truth import exact
 from hypcheck.truth.pencil import (
+    Number,
     Quartic,
     cubic,
     cubic_coefficients,
@@ -52,35 +53,35 @@ def piece(pencil: Sequence[Polynomial], multiplier: Fraction) -> Polynomial:
     return tuple(total)
 
 
-class _InTime:
-    """A polynomial in t in place of a centre's coordinate; it can be combined with such polynomials and integers."""
+class InTime:
+    """A polynomial in t in place of a number; it can be combined with such polynomials and integers."""
 
     __slots__ = ("f",)
 
     def __init__(self, f: Polynomial) -> None:
         self.f = f
 
-    def __add__(self, other: _InTime | int) -> _InTime:
+    def __add__(self, other: InTime | int) -> InTime:
         if isinstance(other, int):
-            return _InTime((*self.f[:-1], self.f[-1] + other))
-        return _InTime(polynomial_sum(self.f, other.f))
+            return InTime((*self.f[:-1], self.f[-1] + other))
+        return InTime(polynomial_sum(self.f, other.f))
 
-    def __mul__(self, other: _InTime | int) -> _InTime:
+    def __mul__(self, other: InTime | int) -> InTime:
         if isinstance(other, int):
-            return _InTime(tuple([number * other for number in self.f]))
-        return _InTime(polynomial_product(self.f, other.f))
+            return InTime(tuple([number * other for number in self.f]))
+        return InTime(polynomial_product(self.f, other.f))
 
-    def __sub__(self, other: _InTime | int) -> _InTime:
+    def __sub__(self, other: InTime | int) -> InTime:
         return self + other * -1
 
-    def __rsub__(self, other: int) -> _InTime:
+    def __rsub__(self, other: int) -> InTime:
         return self * -1 + other
 
     __radd__, __rmul__ = __add__, __mul__
 
 
-def _polynomial(number: _InTime | int) -> Polynomial:
-    return number.f if isinstance(number, _InTime) else (number,)
+def _polynomial(number: InTime | int) -> Polynomial:
+    return number.f if isinstance(number, InTime) else (number,)
 
 
 @dataclass(frozen=True)
@@ -129,7 +130,7 @@ class StraightSweep:
     def pencil(self) -> tuple[Polynomial, ...]:
         """The coefficients of F, the highest power of λ first, as polynomials in t."""
         here, (u, v, w) = self.start, self.step
-        centre = _InTime((u, here.x)), _InTime((v, here.y)), _InTime((w, here.z))
+        centre = InTime((u, here.x)), InTime((v, here.y)), InTime((w, here.z))
         coefficients = cubic_coefficients if self.is_upright else quartic_coefficients
         return tuple(map(_polynomial, coefficients(here, *centre)))
 
@@ -148,7 +149,7 @@ class StraightSweep:
     def discriminant(self) -> Polynomial:
         """The discriminant of F, primitive: 0 wherever the surfaces, both without ends, are tangent; () if always."""
         discriminant = exact.cubic_discriminant if self.is_upright else exact.quartic_discriminant
-        return primitive(discriminant(*map(_InTime, self.pencil)).f)
+        return primitive(discriminant(*map(InTime, self.pencil)).f)
 
     def root_changes(self) -> Polynomial:
         """A polynomial in t, not 0, that is 0 wherever F has fewer different roots than at most times, primitive.
@@ -159,7 +160,7 @@ class StraightSweep:
         f = self.discriminant()
         if f or self.is_upright:
             return f or (1,)
-        a, b, c, d, e = map(_InTime, self.pencil)
+        a, b, c, d, e = map(InTime, self.pencil)
         three = (
             a * a * (c * e * 16 - d * d * 18)
             + a * c * (b * d * 14 - c * c * 4)
@@ -197,13 +198,11 @@ class StraightSweep:
         curvature = self._at_pole(-1)[2]
         if not any(part.sign for part in curvature):
             return (1,)
-        w = curvature[0].w
         unit = math.lcm(*(number.denominator for part in curvature for number in (part.u, part.v)))
         u, v = (
-            _InTime(tuple(int(part.u * unit) for part in curvature)),
-            _InTime(tuple(int(part.v * unit) for part in curvature)),
+            [int(number * unit) for number in numbers] for numbers in zip(*((k.u, k.v) for k in curvature), strict=True)
         )
-        return primitive((u * u * w.denominator - v * v * w.numerator).f)
+        return Surd(InTime(tuple(u)), InTime(tuple(v)), curvature[0].w).norm
 
     def _at_pole(self, side: int) -> tuple[Quadratic, Quadratic, Quadratic]:
         """F, F′ and F″/2 at ℓ, for μ = side · λ, as polynomials in t over Q(√w), the highest power first."""
@@ -277,11 +276,14 @@ def _ring_between(at_pole: Quadratic, slope: Quadratic, curvature: Quadratic, lo
 
 @dataclass(frozen=True, slots=True)
 class Surd:
-    """u + v √w. Two operands have the same w, or v = 0 in one of them; where w is 0, v is."""
+    """u + v √w, u and v of one kind: rational, or polynomials in t, for which `norm` is there, and not `sign`.
 
-    u: Fraction
-    v: Fraction = Fraction(0)
-    w: Fraction = Fraction(0)
+    Two operands have the same w, or v = 0 in one of them; where w is 0, v is.
+    """
+
+    u: Number
+    v: Number = Fraction(0)
+    w: Fraction | int = Fraction(0)
 
     @classmethod
     def root(cls, u: Fraction, w: Fraction) -> Surd:
@@ -311,6 +313,16 @@ class Surd:
     def __truediv__(self, other: Surd) -> Surd:
         norm = other.u * other.u - other.v * other.v * other.w
         return self * Surd(other.u / norm, -other.v / norm, other.w)
+
+    __rmul__ = __mul__
+
+    @property
+    def norm(self) -> Polynomial:
+        """A primitive polynomial in t that is 0 wherever u + v √w is; () if that is always."""
+        root = math.isqrt(self.w.numerator)
+        if root * root == self.w != 0:
+            return primitive((self.u + self.v * root).f)
+        return primitive((self.u * self.u * self.w.denominator - self.v * self.v * self.w.numerator).f)
 
     def power(self, exponent: int) -> Surd:
         """The number to the power of an exponent ≥ 0."""
