@@ -28,6 +28,7 @@ from numpy.typing import ArrayLike
 
 from hypcheck.errors import InputError
 from hypcheck.float_environment import in_default_environment
+from hypcheck.geometry.arithmetic import rounded_toward
 from hypcheck.geometry.forms import Argument, questions_of
 from hypcheck.geometry.pair import REFUSED, TILTED_COLUMNS, Pair, Position, trouble_with
 from hypcheck.geometry.rows import PAIRS, Floats, Indices, Mask, Positions, Rows, invalid, with_heights
@@ -103,9 +104,8 @@ def _ended_clearances(rows: Rows, threads: int | None = None) -> Clearance:
     `nearest` where no shorter gap was measured. Their errors have no proved bound. Invalid rows keep the values for
     unknown rows.
     """
-    from hypcheck.truth import ended_error, exact, least, rationals  # noqa: PLC0415 - rows with heights alone need them
+    from hypcheck.truth import ended_error, exact, least  # noqa: PLC0415 - rows with heights alone need them
 
-    toward = rationals.rounded_toward
     result = replace(clearances_without_ends(np.ascontiguousarray(rows[:, : len(TILTED_COLUMNS)]), threads), rows=rows)
     refused = invalid(rows)
     for values in (
@@ -125,11 +125,11 @@ def _ended_clearances(rows: Rows, threads: int | None = None) -> Clearance:
         low, high = ended_error.enclosure(pair, decision)
         clear = decision.position is not Position.CONTACT
         result.position[index] = decision.position
-        result.lower[index], result.upper[index] = toward(low, -np.inf), toward(high, np.inf)
+        result.lower[index], result.upper[index] = rounded_toward(low, -np.inf), rounded_toward(high, np.inf)
         result.touch[index] = result.nearest[index] = least.to_border(pair).point
         result.touch_error[index] = np.inf
-        result.distance_lower[index] = toward(low * Fraction(min(pair.b, pair.d)), -np.inf) if clear else 0.0
-        result.distance_upper[index] = toward(high * Fraction(max(pair.b, pair.d)), np.inf) if clear else 0.0
+        result.distance_lower[index] = rounded_toward(low * Fraction(min(pair.b, pair.d)), -np.inf) if clear else 0.0
+        result.distance_upper[index] = rounded_toward(high * Fraction(max(pair.b, pair.d)), np.inf) if clear else 0.0
     whole = np.asarray(np.isinf(rows[:, 10:12]).all(axis=1))
     wanted = _still_apart(result, whole)
     wanted[ended] = result.position[ended] != Position.CONTACT

@@ -29,8 +29,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import pairwise
 
+from hypcheck.geometry.arithmetic import changes_of_sign, cross, dot, sign_of, sign_with_root
 from hypcheck.geometry.pair import COLUMNS, Lengths, Pair, Position, to_integers
 
 
@@ -125,17 +125,12 @@ def squares_between_axes(
     """
     alpha, gamma, b, d, x, y, z = to_integers((*sizes, *centre))
     v, w, C = to_integers(axis), to_integers(other), (x, y, z)
-    W, upward, height = _dot(w, w), _dot(v, w), _dot(C, w)
-    across = (C[1] * w[2] - C[2] * w[1], C[2] * w[0] - C[0] * w[2], C[0] * w[1] - C[1] * w[0])
+    W, upward, height = dot(w, w), dot(v, w), dot(C, w)
     p, q, s, t = (W * length * length for length in (alpha, b, gamma, d))
     return Squares(
-        p, q, s, t, W * _dot(v, v) - upward * upward, upward * upward,
-        W * _dot(C, C) - height * height, height * height, W * _dot(v, across) ** 2, (W * _dot(v, C)) ** 2,
+        p, q, s, t, W * dot(v, v) - upward * upward, upward * upward,
+        W * dot(C, C) - height * height, height * height, W * dot(v, cross(C, w)) ** 2, (W * dot(v, C)) ** 2,
     )  # fmt: skip
-
-
-def _dot(a: Sequence[int], b: Sequence[int]) -> int:
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
 def quartic(of: Squares) -> QuarticWithPoles:
@@ -174,8 +169,8 @@ def position_of_squares(of: Squares) -> Position:
         return Position.CONTACT
     if delta == 0:
         return _on_a_pole(pair)
-    side = Position.EXTERIOR if _changes(pair.f) == 3 else Position.INTERIOR
-    return side if _changes(_outwards(pair, side)) <= 1 else Position.CONTACT
+    side = Position.EXTERIOR if changes_of_sign(pair.f) == 3 else Position.INTERIOR
+    return side if changes_of_sign(_outwards(pair, side)) <= 1 else Position.CONTACT
 
 
 def discriminant(f: tuple[int, int, int, int, int]) -> int:
@@ -208,7 +203,7 @@ def _at_ratio(f: Sequence[int], over: int, under: int) -> list[int]:
     for first in range(4):
         for power in range(3, first - 1, -1):
             left[power] += over * left[power + 1]
-    return [_sign(coefficient) for coefficient in left]
+    return [sign_of(coefficient) for coefficient in left]
 
 
 def _at_root(pair: QuarticWithPoles, side: Position) -> list[int]:
@@ -220,21 +215,4 @@ def _at_root(pair: QuarticWithPoles, side: Position) -> list[int]:
             (u, v), (c, d) = left[power + 1], left[power]
             left[power] = c + v * k0 * k2, d + u + v * k1
     D = k1 * k1 + 4 * k0 * k2
-    return [_sign_with_root(2 * u + v * k1, side * v, D) for u, v in left]
-
-
-def _sign_with_root(U: int, V: int, D: int) -> int:
-    """The sign of U + V √D, D > 0."""
-    if _sign(U) * _sign(V) >= 0:
-        return _sign(U) or _sign(V)
-    return _sign(U) * _sign(U * U - V * V * D)
-
-
-def _changes(numbers: Sequence[int]) -> int:
-    """How often the sign changes from one number that is not 0 to the next."""
-    signs = [number > 0 for number in numbers if number]
-    return sum(before != after for before, after in pairwise(signs))
-
-
-def _sign(number: int) -> int:
-    return (number > 0) - (number < 0)
+    return [sign_with_root(2 * u + v * k1, side * v, D) for u, v in left]

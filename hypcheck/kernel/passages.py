@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from hypcheck.float_environment import in_default_environment
+from hypcheck.geometry.arithmetic import rounded_toward
 from hypcheck.geometry.forms import SWEEP, Argument, questions_of
 from hypcheck.geometry.pair import REFUSED, WITHOUT_ENDS
 from hypcheck.geometry.rows import (
@@ -28,7 +29,6 @@ from hypcheck.geometry.rows import (
 )
 from hypcheck.kernel.in_use import kernel
 from hypcheck.truth import swept
-from hypcheck.truth.rationals import rounded_toward
 
 First = tuple[tuple[Fraction, Fraction], int]
 """The time of the first contact, in an open interval or as one number twice; and the hyperboloid's number."""

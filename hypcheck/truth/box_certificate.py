@@ -12,9 +12,9 @@ from fractions import Fraction
 from mpmath import MPContext, MPIntervalContext, mpf
 from mpmath.ctx_iv import ivmpf
 
+from hypcheck.geometry.arithmetic import cross, dot
 from hypcheck.truth.box_proofs import BoxKind, Form, Goal, Place, squares, stays_clear, stays_off
 from hypcheck.truth.nearest import multiplier
-from hypcheck.truth.rationals import cross, dot
 
 Row = tuple[Fraction, ...]
 Intervals = list[ivmpf]

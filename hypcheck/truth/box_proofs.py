@@ -19,8 +19,8 @@ from typing import Any
 
 import numpy as np
 
+from hypcheck.geometry.arithmetic import adjugate, cross, dot
 from hypcheck.geometry.pair import Position
-from hypcheck.truth.rationals import adjugate, cross, dot
 
 Signs = tuple[int, ...]
 Number = Any

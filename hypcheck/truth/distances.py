@@ -27,10 +27,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hypcheck.geometry.arithmetic import cross, dot
 from hypcheck.geometry.rows import Floats, Mask, Positions, Rows
 from hypcheck.truth import double_double
 from hypcheck.truth.double_double import DoubleDouble
-from hypcheck.truth.rationals import cross, dot
 
 _RANGE = (2.0**-100, 2.0**100)
 _U = 2.0**-53

@@ -9,9 +9,9 @@ import math
 from dataclasses import dataclass
 from fractions import Fraction
 
+from hypcheck.geometry.arithmetic import dot, sign_of, times
 from hypcheck.geometry.pair import Lengths
 from hypcheck.truth.polynomials import Polynomial, derivative, difference, polynomial_product, scaled, value
-from hypcheck.truth.rationals import dot, sign_of, times
 
 
 @dataclass(frozen=True, slots=True)

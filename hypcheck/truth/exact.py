@@ -42,11 +42,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
+from hypcheck.geometry.arithmetic import changes_of_sign, sign_of, sign_with_root
 from hypcheck.geometry.pair import Lengths, Position
 from hypcheck.truth.kinds import Kind
-from hypcheck.truth.pencil import Cubic, Number, Quartic, cubic, quartic, side_of_center, sign_at, sign_at_ratio
-from hypcheck.truth.polynomials import changes_of_sign, common_divisor
-from hypcheck.truth.rationals import sign_of, sign_with_root
+from hypcheck.truth.pencil import Cubic, Number, Quartic, cubic, quartic, side_of_center
+from hypcheck.truth.polynomials import common_divisor, sign_at
 from hypcheck.truth.sections import Sections
 
 
@@ -205,7 +205,7 @@ def _derivative(F: Quartic, order: int) -> tuple[int, ...]:
 
 def _signs_at_first(F: Quartic) -> list[int]:
     """The signs of the first three derivatives at p/q."""
-    return [sign_at_ratio(_derivative(F, order), F.p, F.q) for order in (1, 2, 3)]
+    return [sign_at(_derivative(F, order), Fraction(F.p, F.q)) for order in (1, 2, 3)]
 
 
 def _signs_at_second(F: Quartic) -> list[int]:

@@ -17,10 +17,10 @@ from typing import Any, ClassVar, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from hypcheck.geometry.arithmetic import dot
 from hypcheck.geometry.pair import COLUMNS, SIZES
 from hypcheck.geometry.rows import Floats, Mask, Rows
 from hypcheck.truth.box_proofs import BoxKind, Form, Goal, Place, stays_clear, stays_off
-from hypcheck.truth.rationals import dot
 
 LEAST = -46
 """Changes below 2^LEAST are not tried: there float64 intervals tell nothing."""

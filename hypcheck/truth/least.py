@@ -45,11 +45,11 @@ from fractions import Fraction
 
 import numpy as np
 
+from hypcheck.geometry.arithmetic import rounded_toward
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.geometry.rows import Floats
 from hypcheck.truth import double_double
 from hypcheck.truth.double_double import DoubleDouble
-from hypcheck.truth.rationals import rounded_toward
 
 _SLACK = 256 * 2.0**-53
 _FINE_SLACK = 256 * double_double.ERROR

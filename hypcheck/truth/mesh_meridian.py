@@ -25,10 +25,10 @@ from math import isqrt, sqrt
 
 import numpy as np
 
+from hypcheck.geometry.arithmetic import sign_of
 from hypcheck.geometry.pair import Pair
 from hypcheck.geometry.rows import Floats
 from hypcheck.truth.mesh import Mesh, MeshOutcome, Refinement
-from hypcheck.truth.rationals import sign_of
 
 UNIT_BITS = 96
 UNIT = 1 << UNIT_BITS

@@ -38,10 +38,10 @@ from itertools import pairwise
 
 import numpy as np
 
+from hypcheck.geometry.arithmetic import sign_of
 from hypcheck.geometry.pair import Pair
 from hypcheck.geometry.rows import Floats, Indices, Mask
 from hypcheck.truth.mesh import Mesh, MeshOutcome, Refinement
-from hypcheck.truth.rationals import sign_of
 
 _MOST_CELLS = 1 << 13
 _LEVELS = 80

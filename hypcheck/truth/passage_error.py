@@ -21,9 +21,10 @@ from functools import lru_cache
 
 import numpy as np
 
+from hypcheck.geometry.arithmetic import rounded_toward
 from hypcheck.geometry.pair import SIZES, SWEEP_COLUMNS, TILTED_SWEEP_COLUMNS, UPRIGHT, WITHOUT_ENDS
 from hypcheck.geometry.rows import Positions, Rows
-from hypcheck.truth.rationals import octave, power_of_two, rounded_toward
+from hypcheck.truth.rationals import octave, power_of_two
 from hypcheck.truth.sweep import StraightSweep
 from hypcheck.truth.swept import WIDTH_BITS, Passage, Rational, meets, passage_on, sweep_of
 

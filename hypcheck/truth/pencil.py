@@ -30,9 +30,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, TypeAlias
 
+from hypcheck.geometry.arithmetic import cross, dot, sign_with_root
 from hypcheck.geometry.pair import Lengths
-from hypcheck.truth.polynomials import derivative, difference, polynomial_product
-from hypcheck.truth.rationals import power_near, sign_of, sign_with_root
+from hypcheck.truth.polynomials import derivative, difference, polynomial_product, sign_at
+from hypcheck.truth.rationals import power_near
 
 Number: TypeAlias = Any
 """An integer, or a polynomial in time (sweep.py): whatever has +, −, · among its kind and with integers."""
@@ -71,10 +72,9 @@ def across_and_along(sizes: Lengths, x: Number, y: Number, z: Number) -> tuple[N
     """R and Z, the squares of a centre's parts across the hyperboloid's axis and along it."""
     if sizes.upward == _VERTICAL:
         return x * x + y * y, z * z
-    u, v, w = sizes.upward
-    along = x * u + y * v + z * w
+    center, along = (x, y, z), dot((x, y, z), sizes.upward)
     height = along * along
-    return (x * x + y * y + z * z) * (u * u + v * v + w * w) - height, height
+    return dot(center, center) * dot(sizes.upward, sizes.upward) - height, height
 
 
 def side_of_center(lengths: Lengths) -> int:
@@ -172,36 +172,21 @@ def _constants(sizes: Lengths) -> _Constants:
 
 def _squares(sizes: Lengths) -> tuple[int, int, int, int]:
     """p, s, q, t."""
-    u, v, w = sizes.upward
-    unit = u * u + v * v + w * w
+    unit = dot(sizes.upward, sizes.upward)
     return sizes.alpha**2 * unit, sizes.gamma**2 * unit, sizes.b**2 * unit, sizes.d**2 * unit
 
 
 def _products(sizes: Lengths, x: Number, y: Number, z: Number) -> tuple[Number, Number]:
     """N² and T."""
-    a, b, c = sizes.axis
     if sizes.upward == _VERTICAL:
+        a, b, c = sizes.axis
         across = x * b - y * a
         return across * across, (x * a + y * b) * z * c
-    u, v, w = sizes.upward
-    unit, product = u * u + v * v + w * w, a * u + b * v + c * w
-    height, along = x * u + y * v + z * w, x * a + y * b + z * c
-    volume = x * (b * w - c * v) + y * (c * u - a * w) + z * (a * v - b * u)
+    center, axis, upward = (x, y, z), sizes.axis, sizes.upward
+    unit, product = dot(upward, upward), dot(axis, upward)
+    height, along = dot(center, upward), dot(center, axis)
+    volume = dot(center, cross(axis, upward))
     return volume * volume * unit, (along * unit - height * product) * height * product
-
-
-def sign_at(coefficients: tuple[int, ...], at: Fraction) -> int:
-    """The sign of a polynomial, the highest power first, at a rational number."""
-    return sign_at_ratio(coefficients, at.numerator, at.denominator)
-
-
-def sign_at_ratio(coefficients: tuple[int, ...], numerator: int, denominator: int) -> int:
-    """The sign of a polynomial, the highest power first, at numerator/denominator, the denominator > 0."""
-    value, scale = 0, 1
-    for coefficient in coefficients:
-        value = value * numerator + coefficient * scale
-        scale *= denominator
-    return sign_of(value)
 
 
 def slope_of_quotient(F: Quartic) -> tuple[int, ...]:

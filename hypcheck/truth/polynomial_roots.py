@@ -13,16 +13,15 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from functools import lru_cache
 
+from hypcheck.geometry.arithmetic import changes_of_sign
 from hypcheck.truth.polynomials import (
     Polynomial,
     changes_between,
-    changes_of_sign,
     derivative,
     divided_by_root,
     halves,
     primitive,
-    remainder,
-    scaled,
+    signed_chain,
     squarefree,
     value,
 )
@@ -34,11 +33,7 @@ Interval = tuple[Fraction, Fraction]
 @lru_cache(maxsize=16)  # the roots of one polynomial are needed in several intervals
 def sturm_chain(f: Polynomial) -> tuple[Polynomial, ...]:
     """f, f′ and the negated remainders of Euclid's algorithm, each up to a positive factor; the last is gcd(f, f′)."""
-    chain, rest = [primitive(f)], primitive(derivative(f))
-    while rest:
-        chain.append(rest)
-        rest = scaled(-1, remainder(chain[-2], chain[-1]))
-    return tuple(chain)
+    return tuple(signed_chain(primitive(f), derivative(f)))
 
 
 def variations(chain: Sequence[Polynomial], x: Fraction) -> int:

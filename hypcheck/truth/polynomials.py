@@ -7,9 +7,11 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 from functools import lru_cache
+
+from hypcheck.geometry.arithmetic import changes_of_sign, sign_of
 
 Polynomial = tuple[int, ...]
 
@@ -22,6 +24,11 @@ def value(f: Sequence[int], x: Fraction) -> int:
         result = result * numerator + coefficient * scale
         scale *= denominator
     return result
+
+
+def sign_at(f: Sequence[int], x: Fraction) -> int:
+    """The sign of f at x."""
+    return sign_of(value(f, x))
 
 
 def trimmed(f: Sequence[int]) -> Polynomial:
@@ -77,6 +84,15 @@ def remainder(f: Sequence[int], g: Sequence[int]) -> Polynomial:
         tail = [*g[1:], *[0] * (len(rest) - len(g))]
         rest = [lead * a - factor * b for a, b in zip(rest[1:], tail, strict=True)]
     return primitive(rest)
+
+
+def signed_chain(f: Polynomial, g: Polynomial) -> list[Polynomial]:
+    """f, g and the negated remainders of Euclid's algorithm, each up to a positive factor."""
+    chain = [f]
+    while g:
+        chain.append(primitive(g))
+        g = scaled(-1, remainder(chain[-2], chain[-1]))
+    return chain
 
 
 def common_divisor(f: Polynomial, g: Polynomial) -> Polynomial:
@@ -151,12 +167,6 @@ def shifted_by_one(f: Sequence[int]) -> list[int]:
         for place in range(1, last + 1):
             shifted[place] += shifted[place - 1]
     return shifted
-
-
-def changes_of_sign(numbers: Iterable[int]) -> int:
-    """The number of changes of sign in a sequence, without zeros."""
-    signs = [number > 0 for number in numbers if number]
-    return sum(one != other for one, other in itertools.pairwise(signs))
 
 
 def changes_between(g: Sequence[int]) -> int:

@@ -17,13 +17,14 @@ import math
 from collections.abc import Sequence
 from fractions import Fraction
 
+from hypcheck.geometry.arithmetic import rounded_toward
 from hypcheck.geometry.pair import SWEEP_COLUMNS, Lengths, Pair, Position
 from hypcheck.truth import crossing, exact
 from hypcheck.truth.certificate import Certificate, PairAtTime, PassageCertificate, Point, place
 from hypcheck.truth.exact import Decision
-from hypcheck.truth.pencil import Cubic, Quartic, cubic, inside, local_maximum, quartic, sign_at, toward_maximum
-from hypcheck.truth.polynomials import value
-from hypcheck.truth.rationals import precisions, rounded, rounded_toward, shortened
+from hypcheck.truth.pencil import Cubic, Quartic, cubic, inside, local_maximum, quartic, toward_maximum
+from hypcheck.truth.polynomials import sign_at, value
+from hypcheck.truth.rationals import precisions, rounded, shortened
 from hypcheck.truth.sweep import StraightSweep, piece
 from hypcheck.truth.swept import Passage, by_roots, by_steps, reach, sweep_of
 

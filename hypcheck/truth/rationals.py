@@ -1,16 +1,12 @@
-"""Arithmetic that belongs to no oracle: rational numbers, and vectors of three numbers.
-
-Rational numbers have roots, are cut to few bits, and become powers of two and floats. Numbers of vectors and of 3×3
-matrices are integers, rationals or intervals.
-"""
+"""Arithmetic of rational numbers that belongs to no oracle: roots, powers of two, few bits, and bisection."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from fractions import Fraction
 from itertools import count
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from mpmath import mpf
@@ -90,56 +86,7 @@ def rounded(value: Fraction, bits: int) -> Fraction:
     return Fraction(round(value / unit)) * unit
 
 
-def rounded_toward(number: Fraction, infinity: float) -> float:
-    """The nearest float64 that is not beyond the number on the side away from `infinity`; ±inf is one."""
-    try:
-        near = float(number)
-    except OverflowError:
-        near = math.inf if number > 0 else -math.inf
-    wrong_side = near > number if infinity < 0 else near < number
-    return math.nextafter(near, infinity) if wrong_side else near
-
-
 def fraction(number: mpf) -> Fraction:
     """The exact value of a number of mpmath, whose mantissa is stored without its sign."""
     size = Fraction(int(number.man)) * power_of_two(int(number.exp))
     return -size if number < 0 else size
-
-
-def sign_of(number: Fraction | int) -> int:
-    """The sign: 1, 0 or −1."""
-    return (number > 0) - (number < 0)
-
-
-def sign_with_root(u: Fraction | int, v: Fraction | int, w: Fraction | int) -> int:
-    """The sign of u + v √w, w > 0 or v = 0."""
-    if u >= 0 and v >= 0:
-        return int(u > 0 or v > 0)
-    if u <= 0 and v <= 0:
-        return -1
-    return sign_of(u * u - v * v * w) * (1 if u > 0 else -1)
-
-
-Vector = Sequence[Any]
-Matrix = Sequence[Vector]
-
-
-def dot(p: Vector, q: Vector) -> Any:  # noqa: ANN401 - a number of the vectors' kind
-    """p·q."""
-    return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
-
-
-def cross(p: Vector, q: Vector) -> list[Any]:
-    """p × q."""
-    return [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
-
-
-def times(matrix: Matrix, vector: Vector) -> list[Any]:
-    """The product of a matrix and a vector."""
-    return [dot(row, vector) for row in matrix]
-
-
-def adjugate(matrix: Matrix) -> list[list[Any]]:
-    """The adjugate of a symmetric matrix."""
-    first, second, third = matrix
-    return [cross(second, third), cross(third, first), cross(first, second)]

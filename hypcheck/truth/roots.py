@@ -21,12 +21,12 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import combinations, pairwise
 
+from hypcheck.geometry.arithmetic import changes_of_sign, sign_of, sign_with_root
 from hypcheck.geometry.pair import Lengths, Pair, Position
 from hypcheck.truth.kinds import Kind
 from hypcheck.truth.polynomial_roots import sturm_chain
 from hypcheck.truth.polynomials import (
     Polynomial,
-    changes_of_sign,
     linear_factor,
     polynomial_product,
     primitive,
@@ -35,7 +35,6 @@ from hypcheck.truth.polynomials import (
     scaled,
     squarefree,
 )
-from hypcheck.truth.rationals import sign_of, sign_with_root
 from hypcheck.truth.root_patterns import (
     BEYOND,
     COMPLEX,

@@ -34,6 +34,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
+from hypcheck.geometry.arithmetic import changes_of_sign, cross, dot, sign_with_root
 from hypcheck.geometry.pair import Lengths
 from hypcheck.truth.polynomial_roots import roots_from_0_to_1
 from hypcheck.truth.polynomials import (
@@ -45,12 +46,12 @@ from hypcheck.truth.polynomials import (
     polynomial_product,
     polynomial_sum,
     primitive,
-    remainder,
     scaled,
+    signed_chain,
     squarefree,
     trimmed,
 )
-from hypcheck.truth.rationals import dot, root_of, sign_with_root
+from hypcheck.truth.rationals import root_of
 
 Height = int | None
 """A height over √U; None is infinite: −∞ at the lower end, ∞ at the upper."""
@@ -91,7 +92,8 @@ class Sections:
         r2 = (p, 0, p * s)
         if W:
             line = _sum(((U * along - product * height) * m2,), scaled(-(q - t) * W * product, above))
-            eta, xi = (m2 * s * m1 * _volume(C, u, v) ** 2,), scaled(lengths.gamma**2, polynomial_product(line, line))
+            eta = (m2 * s * m1 * dot(C, cross(u, v)) ** 2,)
+            xi = scaled(lengths.gamma**2, polynomial_product(line, line))
         else:
             W, eta, xi = 1, (m2 * lengths.gamma**2 * m1 * (U * dot(C, C) - height * height),), ()
         A0, A1 = scaled(s * W * q * m1, k), scaled(m2 * W, r2)
@@ -169,11 +171,11 @@ class Sections:
             if some is not None and (self.unit == 1 or not some):
                 return not some
         f = self.critical
-        roots = self.roots(_chain(f, derivative(f)), low, high)
+        roots = self.roots(signed_chain(f, derivative(f)), low, high)
         if len(apart) <= 1 or not roots:
             return roots == 0
         apart = squarefree(apart)  # at its roots with c2 > 0 the circle misses, though Δ = 0
-        chains = _chain(apart, derivative(apart)), _chain(apart, polynomial_product(derivative(apart), c2))
+        chains = signed_chain(apart, derivative(apart)), signed_chain(apart, polynomial_product(derivative(apart), c2))
         return 2 * roots == sum(self.roots(chain, low, high) for chain in chains)
 
     def wall_crosses(self, low: int, high: int) -> bool:
@@ -215,10 +217,8 @@ class Sections:
     def _changes(self, chain: Sequence[Polynomial], height: Height | Fraction, far: int) -> int:
         """How often the sign changes in the chain at a height, or at −∞ or ∞."""
         if height is None:
-            signs = [(1 if f[0] > 0 else -1) * (far if len(f) % 2 == 0 else 1) for f in chain]
-        else:
-            signs = [sign for sign in (self.sign(f, height) for f in chain) if sign]
-        return sum(one != other for one, other in itertools.pairwise(signs))
+            return changes_of_sign(f[0] * (far if len(f) % 2 == 0 else 1) for f in chain)
+        return changes_of_sign(self.sign(f, height) for f in chain)
 
 
 def discriminant(cubic: tuple[Polynomial, Polynomial, Polynomial, Polynomial]) -> Polynomial:
@@ -258,15 +258,6 @@ def _over_content(*polynomials: Polynomial) -> tuple[Polynomial, Polynomial, Pol
     content = math.gcd(*(coefficient for f in polynomials for coefficient in f))
     c3, c2, c1, c0 = (tuple(coefficient // content for coefficient in f) for f in polynomials)
     return c3, c2, c1, c0
-
-
-def _chain(f: Polynomial, g: Polynomial) -> list[Polynomial]:
-    """f, g and the negated remainders of Euclid's algorithm, each up to a positive factor."""
-    chain = [f]
-    while g:
-        chain.append(primitive(g))
-        g = scaled(-1, remainder(chain[-2], chain[-1]))
-    return chain
 
 
 def _sum(*terms: Polynomial) -> Polynomial:
@@ -331,8 +322,3 @@ def _coefficients_between(f: Polynomial, low: int, high: int) -> list[int]:
         power *= width
         shifted[place] *= power
     return shifted
-
-
-def _volume(C: Sequence[int], u: Sequence[int], v: Sequence[int]) -> int:
-    """The determinant of three vectors."""
-    return sum(C[i] * (u[i - 2] * v[i - 1] - u[i - 1] * v[i - 2]) for i in range(3))

@@ -22,6 +22,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 
+from hypcheck.geometry.arithmetic import dot, sign_with_root
 from hypcheck.geometry.pair import Lengths, Position, Vector
 from hypcheck.truth import exact
 from hypcheck.truth.pencil import (
@@ -34,12 +35,11 @@ from hypcheck.truth.pencil import (
     quartic,
     quartic_coefficients,
     second_factor,
-    sign_at,
     slope_of_quotient,
 )
 from hypcheck.truth.polynomial_roots import Interval
-from hypcheck.truth.polynomials import Polynomial, polynomial_product, polynomial_sum, primitive, value
-from hypcheck.truth.rationals import dot, shortened, sign_with_root
+from hypcheck.truth.polynomials import Polynomial, polynomial_product, polynomial_sum, primitive, sign_at, value
+from hypcheck.truth.rationals import shortened
 
 
 def piece(pencil: Sequence[Polynomial], multiplier: Fraction) -> Polynomial:

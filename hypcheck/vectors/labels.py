@@ -11,6 +11,7 @@ from fractions import Fraction
 from itertools import chain, count
 from typing import Any
 
+from hypcheck.geometry.arithmetic import dot, sign_of
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.geometry.rows import PAIRS
 from hypcheck.truth import exact
@@ -21,7 +22,6 @@ from hypcheck.truth.exact import Decision
 from hypcheck.truth.nearest import nearest
 from hypcheck.truth.passage_error import scaled_passage
 from hypcheck.truth.prove import prove, prove_passage
-from hypcheck.truth.rationals import dot, sign_of
 from hypcheck.vectors.cases import (
     Offset,
     StoredCertificate,

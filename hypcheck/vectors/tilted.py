@@ -20,9 +20,9 @@ from functools import reduce
 
 import numpy as np
 
+from hypcheck.geometry.arithmetic import dot
 from hypcheck.geometry.pair import TILTED_COLUMNS
 from hypcheck.geometry.rows import Floats, Mask, Rows
-from hypcheck.truth.rationals import dot
 from hypcheck.vectors.double_roots import (
     ULPS,
     BigIntegers,

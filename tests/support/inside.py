@@ -5,6 +5,7 @@ What at most two test modules use they import themselves.
 
 from __future__ import annotations
 
+from hypcheck.geometry.arithmetic import sign_with_root
 from hypcheck.kernel import choice as kernel_choice
 from hypcheck.kernel import classify as kernel_classify
 from hypcheck.kernel import compiled_kernel, core, numpy_kernel, scene_index, scene_lines
@@ -138,11 +139,11 @@ from hypcheck.truth.passage_error import (
     time_is_within,
     tolerance,
 )
-from hypcheck.truth.pencil import cubic, quartic, sign_at
+from hypcheck.truth.pencil import cubic, quartic
 from hypcheck.truth.polynomial_roots import _none_by_descartes, isolate
-from hypcheck.truth.polynomials import linear_factor, polynomial_product, value
+from hypcheck.truth.polynomials import linear_factor, polynomial_product, sign_at, value
 from hypcheck.truth.prove import prove
-from hypcheck.truth.rationals import octave, shortened, sign_with_root
+from hypcheck.truth.rationals import octave, shortened
 from hypcheck.truth.root_patterns import COMPLEX, KIND_OF, PATTERNS, RootPlace, admissible
 from hypcheck.truth.roots import Invariants, classify_by_roots, classify_invariants, coefficients, real_roots
 from hypcheck.truth.sweep import Surd, piece, sign_at_root
