@@ -24,31 +24,22 @@ Homogeneous = tuple[Vector, int]
 def points(pair: Query, lengths: Lengths) -> tuple[Point, ...]:
     """The centre and a point of the spheroid on the other side of the hyperboloid (or the centre alone, on it).
 
-    For a tilted pair the other point is strictly on the other side, which also excludes tangency.
+    The other point of an upright pair may lie on the hyperboloid. For a tilted pair it is strictly on the other side,
+    which also excludes tangency; such points always exist, because X(λ) tends to a point within the spheroid or beyond.
     """
-    return _upright_points(pair, lengths) if lengths.is_upright else _tilted_points(pair, quartic(lengths))
-
-
-def _upright_points(pair: Query, lengths: Lengths) -> tuple[Point, ...]:
-    """The centre and a point of the spheroid on the other side of the hyperboloid (or the centre alone, on it)."""
-    alpha, gamma, b, d, x, y, z = (Fraction(number) for number in pair.row[:7])
-
-    def side(point: Point) -> int:
-        u, v, w = point
-        height = (u * u + v * v) / (alpha * alpha) - w * w / (gamma * gamma) - 1
-        return sign_of(height)
-
-    def in_spheroid(point: Point) -> bool:
-        u, v, w = point
-        return ((u - x) ** 2 + (v - y) ** 2) / (b * b) + (w - z) ** 2 / (d * d) <= 1
-
-    center = (x, y, z)
-    start = side(center)
-    if start == 0:
-        return (center,)
-    for point in _upright_candidates(pair, lengths, outward=start < 0):
-        if side(point) in (0, -start) and in_spheroid(point):
-            return (center, point)
+    forms = Forms(pair)
+    center = (forms.center, 1)
+    side = sign_of(forms.hyperboloid(center))
+    if side == 0:
+        return (forms.fraction(center),)
+    candidates: Iterator[Homogeneous]
+    if lengths.is_upright:
+        most, candidates = 0, map(forms.homogeneous, _upright_candidates(pair, lengths, outward=side < 0))
+    else:
+        most, candidates = -1, _tilted_candidates(forms, quartic(lengths))
+    for candidate in candidates:
+        if forms.hyperboloid(candidate) * side <= most and forms.in_spheroid(candidate):
+            return (forms.fraction(center), forms.fraction(candidate))
     raise AssertionError("unreachable: the candidates do not end")
 
 
@@ -151,22 +142,7 @@ def _bisect(too_far: Callable[[Fraction], bool], low: Fraction, high: Fraction, 
     return (low + high) / 2
 
 
-def _tilted_points(pair: Query, F: Quartic) -> tuple[Point, ...]:
-    """The centre and a point of the spheroid strictly on the hyperboloid's other side (or the centre alone, on it).
-
-    Such points also exclude tangency. They always exist: X(λ) tends to a point within the spheroid or beyond it.
-    """
-    forms = _Forms(pair)
-    center = forms.fraction((forms.center, 1))
-    if F.side == 0:
-        return (center,)
-    for candidate in _tilted_candidates(forms, F):
-        if forms.hyperboloid(candidate) * F.side < 0 and forms.in_spheroid(candidate):
-            return (center, forms.fraction(candidate))
-    raise AssertionError("unreachable: the candidates do not end")
-
-
-class _Forms:
+class Forms:
     """The two surfaces' equations in integers, and the data for the pencil.
 
     Lengths are integers over their common denominator L, so that the unit is 1/L. With V = v·v, q = b², t = d², p = α²
@@ -208,6 +184,11 @@ class _Forms:
         matrix = [[self.M[i][j] * whole + (i == j) * part * self.D[i] for j in range(3)] for i in range(3)]
         return matrix, self.under_M * whole
 
+    def homogeneous(self, point: Point) -> Homogeneous:
+        """A point that is given in the caller's coordinates."""
+        numbers, under = over_one_denominator(point)
+        return [number * self.unit for number in numbers], under
+
     def fraction(self, point: Homogeneous) -> Point:
         """A point in the caller's coordinates."""
         (x, y, z), w = point
@@ -215,7 +196,7 @@ class _Forms:
         return (Fraction(x, under), Fraction(y, under), Fraction(z, under))
 
 
-def _tilted_candidates(forms: _Forms, F: Quartic) -> Iterator[Homogeneous]:
+def _tilted_candidates(forms: Forms, F: Quartic) -> Iterator[Homogeneous]:
     """Points that tend to the best one: first the steepest direction from the centre, X(λ), then X at a pole."""
     gradient = forms.gradient(forms.center)
     steepest, under = times(forms.inverse, gradient), forms.V * forms.under_D
@@ -236,7 +217,7 @@ def _tilted_candidates(forms: _Forms, F: Quartic) -> Iterator[Homogeneous]:
 
 
 def _across_the_pole(
-    forms: _Forms, F: Quartic, adjoint: tuple[Matrix, int], point: Homogeneous, bits: int
+    forms: Forms, F: Quartic, adjoint: tuple[Matrix, int], point: Homogeneous, bits: int
 ) -> Iterator[Homogeneous]:
     """From a point on the centre's side to the hyperboloid, and a little beyond it, in the pole's null direction.
 

@@ -22,8 +22,8 @@ from functools import lru_cache
 import numpy as np
 
 from hypcheck.geometry.arithmetic import rounded_toward
-from hypcheck.geometry.pair import SIZES, SWEEP_COLUMNS, TILTED_SWEEP_COLUMNS, UPRIGHT, WITHOUT_ENDS
-from hypcheck.geometry.rows import Positions, Rows
+from hypcheck.geometry.pair import UPRIGHT, WITHOUT_ENDS
+from hypcheck.geometry.rows import SWEEPS, Positions, Rows
 from hypcheck.truth.rationals import octave, power_of_two
 from hypcheck.truth.sweep import StraightSweep
 from hypcheck.truth.swept import WIDTH_BITS, Passage, Rational, meets, passage_on, sweep_of
@@ -61,11 +61,10 @@ def scaled_passage(row: Sequence[Rational], scale: Rational = 1) -> Passage:
 
 def _sweep(row: Sequence[Rational], scale: Rational = 1, until: Rational = 1) -> StraightSweep:
     """The row's sweep, or its part up to a time, with b and d multiplied by `scale`."""
-    alpha, gamma, b, d = row[: len(SIZES)]
-    start, end, axis = row[4:7], row[7:10], _axis_of(row)
+    (alpha, gamma, b, d, *ends), axis, heights = SWEEPS.split(row)
     if scale != 1:
         b, d = Fraction(b) * Fraction(scale), Fraction(d) * Fraction(scale)
-    sweep = sweep_of((alpha, gamma, b, d), start, end, axis or None, None, _heights_of(row))
+    sweep = sweep_of((alpha, gamma, b, d), ends[:3], ends[3:], axis or None, None, heights or WITHOUT_ENDS)
     return sweep if until == 1 else sweep.until(Fraction(until))
 
 
@@ -84,15 +83,6 @@ def first_contact(row: Row) -> tuple[float, float]:
 def hits(rows: Rows) -> Positions:
     """HIT for contact on the sweep, else CLEAR: int8 (n,)."""
     return np.array([passage_of(tuple(row)).hit for row in rows.tolist()], dtype=np.int8)
-
-
-def _axis_of(row: Sequence[Rational]) -> Sequence[Rational]:
-    return row[len(SWEEP_COLUMNS) : len(TILTED_SWEEP_COLUMNS)]
-
-
-def _heights_of(row: Sequence[Rational]) -> tuple[float, float, float]:
-    low, high, solid = row[len(TILTED_SWEEP_COLUMNS) :] or WITHOUT_ENDS
-    return float(low), float(high), float(solid)
 
 
 def hits_at_size(row: Sequence[Rational], scale: Rational = 1) -> bool:
@@ -144,12 +134,13 @@ def tolerance(row: Sequence[Rational], units: Rational, roundoff: Rational) -> F
     is finite.
     """
     change = Fraction(units) * Fraction(roundoff)
-    alpha, gamma, b, d, *ends = (Fraction(number) for number in row[: len(SWEEP_COLUMNS)])
+    lengths, axis, heights = SWEEPS.split(row)
+    alpha, gamma, b, d, *ends = map(Fraction, lengths)
     bounded = min(change, Fraction(1, 2))
     stretch = (1 + bounded) / (1 - bounded)
     across = max(abs(x) + abs(y) for x, y in (ends[:2], ends[3:5]))
     along = max(abs(ends[2]), abs(ends[5]))
-    axis, ended = _axis_of(row), any(math.isfinite(height) for height in row[len(TILTED_SWEEP_COLUMNS) :][:2])
+    ended = any(map(math.isfinite, heights[:2]))
     if not axis or b == d or not any(axis[:2]):
         far = across / b + along / d
         more = 2 * stretch * (along / d + 1) * (1 + alpha * d / (gamma * b)) if ended else 0
@@ -200,9 +191,9 @@ def sweep_in_radii(row: Row) -> float:
     """
     b, d = row[2:4]
     step = [end - start for start, end in zip(row[4:7], row[7:10], strict=True)]
-    axis_numbers = row[len(SWEEP_COLUMNS) : len(TILTED_SWEEP_COLUMNS)]
-    largest = max(map(abs, axis_numbers), default=0.0)
-    axis = [component / largest for component in axis_numbers] or UPRIGHT
+    direction = SWEEPS.split(row)[1] or UPRIGHT
+    largest = max(map(abs, direction))
+    axis = [component / largest for component in direction]
     length = math.hypot(*axis)
     along = sum(component / length * part for component, part in zip(axis, step, strict=True))
     across = [part - along * component / length for component, part in zip(axis, step, strict=True)]

@@ -20,7 +20,7 @@ from fractions import Fraction
 from hypcheck.geometry.arithmetic import rounded_toward
 from hypcheck.geometry.pair import SWEEP_COLUMNS, Lengths, Pair, Position
 from hypcheck.truth import crossing, exact
-from hypcheck.truth.certificate import Certificate, PairAtTime, PassageCertificate, Point, place
+from hypcheck.truth.certificate import Certificate, PassageCertificate, Point, place
 from hypcheck.truth.exact import Decision
 from hypcheck.truth.pencil import Cubic, Quartic, cubic, inside, local_maximum, quartic, toward_maximum
 from hypcheck.truth.polynomials import sign_at, value
@@ -167,25 +167,12 @@ def _points(row: Sequence[float], sweep: StraightSweep, time: Fraction) -> tuple
     if len(points) == 1:
         return points
     centre, far = points
-    side = _level(here, centre)
+    forms = crossing.Forms(here)
+    side = forms.hyperboloid(forms.homogeneous(centre))
     out = [(a - c) / here.row[2] for a, c in zip(far, centre, strict=True)]
     for offset in crossing.shortened(out, 2, _MOST_BITS):
         x, y, z = (c + here.row[2] * part for c, part in zip(centre, offset, strict=True))
-        if _within(here, offset) and _level(here, (x, y, z)) * side < 0:
+        point = forms.homogeneous((x, y, z))
+        if forms.in_spheroid(point) and forms.hyperboloid(point) * side < 0:
             return centre, (x, y, z)
     return points
-
-
-def _level(here: PairAtTime, point: Point) -> Fraction:
-    """The hyperboloid's equation at a point."""
-    alpha, gamma = here.row[:2]
-    x, y, z = point
-    return (x * x + y * y) / alpha**2 - (z / gamma) ** 2 - 1
-
-
-def _within(here: PairAtTime, offset: Sequence[Fraction]) -> bool:
-    """Whether the spheroid has the point C + b · offset."""
-    b, d = here.row[2:4]
-    along = sum((a * v for a, v in zip(offset, here.axis, strict=True)), Fraction(0)) ** 2
-    length = sum((v * v for v in here.axis), Fraction(0))
-    return sum((a * a for a in offset), Fraction(0)) + ((b / d) ** 2 - 1) * along / length <= 1

@@ -12,8 +12,8 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from hypcheck.geometry.pair import COLUMNS, TILTED_COLUMNS, UPRIGHT
-from hypcheck.geometry.rows import PAIRS, Floats, Rows
+from hypcheck.geometry.pair import COLUMNS, TILTED_COLUMNS
+from hypcheck.geometry.rows import Floats, Rows, with_axis
 from hypcheck.vectors import random_pairs, tilted
 from hypcheck.vectors.draw import Draw, Integers, Maker, ldexp, stepped, turns
 from hypcheck.vectors.random_pairs import Sizes, all_regimes, by_sixteenths, changed_in_turn, repeated, sizes
@@ -25,13 +25,12 @@ _ALONG = np.array([(3, 4, 5), (4, 3, 5), (5, 12, 13), (12, 5, 13), (0, 1, 1), (-
 
 def _rows(draw: Draw, rows: Rows, low: Floats, high: Floats, *, solid: Integers | None = None) -> Rows:
     """The rows with these ends, and with an axis if they have none; every other row is solid, and half are mirrored."""
-    n = len(rows)
-    axis = rows[:, 7:10] if PAIRS.has_axis(rows) else np.tile(np.asarray(UPRIGHT), (n, 1))
+    n, rows = len(rows), with_axis(rows)
     heights = np.stack([low, high, turns(n, 0, 1) if solid is None else solid], axis=1)
-    ended_rows = np.concatenate([rows[:, :7], axis, heights], axis=1)
+    ended_rows = np.concatenate([rows, heights], axis=1)
     down = draw.signs(n) < 0
     ended_rows[down, 6] *= -1
-    if axis[:, :2].any():
+    if rows[:, 7:9].any():
         ended_rows[down, 9] *= -1
     ended_rows[down, 10], ended_rows[down, 11] = -ended_rows[down, 11], -ended_rows[down, 10]
     return np.asarray(ended_rows + 0.0)

@@ -11,19 +11,13 @@ import numpy as np
 from hypcheck.geometry.rows import Rows
 from hypcheck.vectors import ended
 from hypcheck.vectors.draw import Draw, Maker, in_turn, turns
-
-CENTRE = slice(4, 7)
-
-
-def _sweeps(rows: Rows, start: Rows, end: Rows) -> Rows:
-    """The rows with the start and end of sweeps in place of their centres."""
-    return np.asarray(np.concatenate([rows[:, :4], start, end, rows[:, 7:]], axis=1) + 0.0)
+from hypcheck.vectors.sweeps import CENTRE, between
 
 
 def _through(draw: Draw, rows: Rows, step: Rows) -> Rows:
     """Sweeps through the centres of rows; a centre can be anywhere on its sweep."""
-    share = draw.between(len(rows), 0, 1)[:, None]
-    return _sweeps(rows, rows[:, CENTRE] - share * step, rows[:, CENTRE] + (1 - share) * step)
+    share, centre = draw.between(len(rows), 0, 1)[:, None], rows[:, CENTRE]
+    return between(rows, centre + (1 - share) * step, centre - share * step)
 
 
 def _any_step(draw: Draw, rows: Rows) -> Rows:
@@ -43,7 +37,7 @@ def uniform(rows_of: Maker) -> Maker:
 
     def make(draw: Draw, n: int) -> Rows:
         rows = rows_of(draw, n)
-        return _sweeps(rows, rows[:, CENTRE], rows[:, CENTRE] + _any_step(draw, rows))
+        return between(rows, rows[:, CENTRE] + _any_step(draw, rows))
 
     return make
 
@@ -77,7 +71,7 @@ def landing(rows_of: Maker) -> Maker:
         start, end = rows[:, CENTRE].copy(), rows[:, CENTRE].copy()
         start[:, 2] += away
         end[:, 2] -= np.where(turns(n, True, False, False), away, 0.0)
-        return _sweeps(rows, start, end)
+        return between(rows, end, start)
 
     return make
 
@@ -113,7 +107,7 @@ def touch(draw: Draw, n: int) -> Rows:
     step = np.where(turns(n, True, True, False)[:, None], _around(rows), away)
     step = step * np.where(turns(n, False, False, True), rows[:, 3], 1.0)[:, None]
     centre, back = rows[:, CENTRE], np.where(turns(n, 1.0, 1.0, 1.0, 0.0), 1.0, 0.0)[:, None]
-    return _sweeps(rows, centre - step * back, centre + step)
+    return between(rows, centre + step, centre - step * back)
 
 
 FAMILIES: dict[str, tuple[Maker, int]] = {

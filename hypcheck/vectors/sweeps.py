@@ -22,18 +22,18 @@ CENTRE = slice(4, 7)
 """The columns of the centre, or of the first end of a sweep."""
 
 
-def between(rows: Rows, ends: Rows) -> Rows:
-    """The sweeps from the centres of rows (n, 7 or 10) to those of `ends`, (n, 3): (n, 10 or 13), no negative zeros."""
-    return np.concatenate([rows[:, :7], ends, rows[:, 7:]], axis=1) + 0.0
+def between(rows: Rows, ends: Rows, starts: Rows | None = None) -> Rows:
+    """The sweeps from the centres of rows, or from `starts`, to `ends`, (n, 3) each: three columns more, no −0.0."""
+    starts = rows[:, CENTRE] if starts is None else starts
+    return np.concatenate([rows[:, :4], starts, ends, rows[:, 7:]], axis=1) + 0.0
 
 
 def through(rows: Rows, steps: Rows, after: Floats) -> tuple[Rows, Mask]:
     """Sweeps through the centres of rows, from a step before to `after` steps beyond, and which have exact ends."""
-    centres, sweeps = rows[:, CENTRE], rows.copy()
+    centres = rows[:, CENTRE]
     (start, lost), (end, missed) = two_sum(centres, -steps), two_sum(centres, steps * after[:, None])
-    sweeps[:, CENTRE] = start
     moved = (start != end).any(axis=1)
-    return between(sweeps, end), np.asarray((lost == 0).all(axis=1) & (missed == 0).all(axis=1) & moved)
+    return between(rows, end, start), np.asarray((lost == 0).all(axis=1) & (missed == 0).all(axis=1) & moved)
 
 
 def _exterior_graze(draw: Draw, n: int) -> tuple[Rows, Mask]:
@@ -303,11 +303,9 @@ def very_long(draw: Draw, n: int) -> Rows:
     rows = _beside(draw, size)
     cosine, sine = draw.circle(n)
     reach = draw.log_uniform(n, 10, 40)
-    way = np.stack([size.b * cosine * reach, size.b * sine * reach, size.d * draw.between(n, -1, 1) * reach], axis=1)
+    step = np.stack([size.b * cosine * reach, size.b * sine * reach, size.d * draw.between(n, -1, 1) * reach], axis=1)
     share = draw.unit(n)[:, None]
-    start, end = rows[:, CENTRE] - share * way, rows[:, CENTRE] + (1 - share) * way
-    rows[:, CENTRE] = start
-    return between(rows, end)
+    return between(rows, rows[:, CENTRE] + (1 - share) * step, rows[:, CENTRE] - share * step)
 
 
 def very_short(draw: Draw, n: int) -> Rows:

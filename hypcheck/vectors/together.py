@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hypcheck.geometry.rows import Floats, Mask, Rows, within
+from hypcheck.geometry.rows import SWEEPS, Floats, Mask, Rows, with_axis, within
 from hypcheck.vectors import crossed, ended, extremes, sweeps, tilted
 from hypcheck.vectors.double_roots import gathered
 from hypcheck.vectors.draw import Draw, Maker, in_turn, turns
@@ -35,16 +35,11 @@ def _beside_ends(rows: Rows, level: Floats, draw: Draw) -> Rows:
     return np.concatenate([rows, np.stack([low, high, draw.integers(n, 0, 1)], axis=1)], axis=1) + 0.0
 
 
-def _with_axis(rows: Rows, columns: int) -> Rows:
-    """The rows, upright if they have only so many columns."""
-    return rows if rows.shape[1] > columns else np.concatenate([rows, np.tile([0.0, 0.0, 1.0], (len(rows), 1))], axis=1)
-
-
 def ended_pairs(rows_of: Maker) -> Maker:
     """Pairs beside an end that is near the height of the centre."""
 
     def make(draw: Draw, n: int) -> Rows:
-        rows = _with_axis(rows_of(draw, n), 7)
+        rows = with_axis(rows_of(draw, n))
         return _beside_ends(rows, rows[:, _START], draw)
 
     return make
@@ -54,7 +49,7 @@ def ended_sweeps(rows_of: Maker) -> Maker:
     """Sweeps beside an end that is near the height of the start, of the middle or of the end of the sweep."""
 
     def make(draw: Draw, n: int) -> Rows:
-        rows = _with_axis(rows_of(draw, n), 10)
+        rows = with_axis(rows_of(draw, n), SWEEPS)
         share = draw.integers(n, 0, 2) / 2
         return _beside_ends(rows, rows[:, _START] + share * (rows[:, _END] - rows[:, _START]), draw)
 
