@@ -64,7 +64,9 @@ def _sweep(row: Sequence[Rational], scale: Rational = 1, until: Rational = 1) ->
     (alpha, gamma, b, d, *ends), axis, heights = SWEEPS.split(row)
     if scale != 1:
         b, d = Fraction(b) * Fraction(scale), Fraction(d) * Fraction(scale)
-    sweep = sweep_of((alpha, gamma, b, d), ends[:3], ends[3:], axis or None, None, heights or WITHOUT_ENDS)
+    sweep = sweep_of(
+        (alpha, gamma, b, d), ends[:3], ends[3:], axis or None, None, tuple(map(float, heights or WITHOUT_ENDS))
+    )
     return sweep if until == 1 else sweep.until(Fraction(until))
 
 
