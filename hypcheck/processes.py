@@ -208,7 +208,7 @@ def interrupts_held() -> Iterator[None]:
 
 
 def _prepare_children() -> None:
-    """Prepare for the first child process."""
+    """Prepare this process for its first child: its path of modules, and the tracker of shared memory."""
     _keep_working_directory_off_their_path()
     _begin_resource_tracker()
 

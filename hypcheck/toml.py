@@ -149,7 +149,7 @@ class _TomlScanner:
         return table
 
     def _inner(self, table: Path, key: str) -> Path:
-        """The table of that key; of an array of tables, its last one."""
+        """The path of the table with that key; if it is an array of tables, of the last one."""
         path: Path = (*table, key)
         return (*path, self._counts[path] - 1) if path in self._counts else path
 

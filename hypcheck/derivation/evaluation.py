@@ -107,7 +107,9 @@ def outputs(
 def loop_body(
     program: Program, arithmetic: Arithmetic, constants: Mapping[str, Any], wanted: Iterable[str]
 ) -> Evaluator:
-    """From the other inputs to the wanted values, bit for bit as without hoisting.
+    """The rest of a program after its constants are known: a function from the other inputs to the wanted values.
+
+    Its values are the same to the bit as those of the whole program.
 
     Every number that depends on the constants alone is computed here, once. The constants may be arrays (the sizes of
     many trees). Raises KeyError where a wanted name does not exist.
@@ -259,7 +261,7 @@ class QuadraticSurd:
 
     @property
     def reciprocal(self) -> Fraction | QuadraticSurd:
-        """1 over it, by the conjugate: p² − q²h is not zero, since h is not a square."""
+        """The reciprocal, by the conjugate: p² − q²h is not zero, since h is not a square."""
         norm = self.p**2 - self.q**2 * self.h
         return QuadraticSurd(self.p / norm, -self.q / norm, self.h)
 

@@ -322,9 +322,9 @@ def printed(*numbers: str) -> tuple[Identity, ...]:
 
 
 def sign(text: str, positive: str = "", nonnegative: str = "") -> Sign:
-    """A formula that says that the text is true by its form.
+    """The inequality in the text, to be proved by the signs of its terms.
 
-    `positive` and `nonnegative` name letters, parted by spaces.
+    `positive` and `nonnegative` name the letters with these signs, separated by spaces.
 
     Raises ValueError where the text has none of RELATIONS.
     """

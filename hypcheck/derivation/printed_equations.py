@@ -238,7 +238,7 @@ def check_equations() -> tuple[EquationCheck, ...]:
 
 
 def check(claims: tuple[PrintedClaim, ...]) -> EquationCheck:
-    """The check of one number, of the claims printed under it."""
+    """The check of one equation number: of all claims that are printed under it."""
     repairs = []
     for claim in claims:
         left = claim.statement.partition("=")[0].strip()

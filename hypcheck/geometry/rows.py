@@ -306,7 +306,7 @@ def with_heights(rows: Rows, layout: Layout = PAIRS) -> Rows:
 
 
 def as_wide(parts: Sequence[Rows], layout: Layout = PAIRS) -> list[Rows]:
-    """The same queries with an axis, and heights, each where one of the parts has them."""
+    """The parts with columns alike: with heights if one of them has heights, with an axis if one has an axis."""
     if any(layout.has_heights(part) for part in parts):
         return [with_heights(part, layout) for part in parts]
     return [with_axis(part, layout) for part in parts] if any(layout.has_axis(part) for part in parts) else list(parts)

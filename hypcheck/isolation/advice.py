@@ -158,7 +158,10 @@ def _library(text: str, _: _View) -> str:
 
 
 def _write(text: str, view: _View) -> str:
-    """A folder that this account may write to. Without namespaces the program's error is that permission was denied."""
+    """The advice if the program wrote to a folder that this account may write to, and isolation prevented it.
+
+    Without namespaces the program's error is that permission was denied.
+    """
     if _READ_ONLY.search(text):
         named = list(view.paths(text)) or [os.path.join(view.folder, "file")]
     elif _DENIED.search(text) and not view.isolation.means.namespaces:
@@ -210,7 +213,7 @@ def _unlimited(limit: int, most: int) -> bool:
 
 
 def _card(text: str, _: _View) -> str:
-    """A graphics card that exists."""
+    """The advice if the program did not find a graphics card that this machine has."""
     sign = re.search(r"CUDA|cudaError|\bhip[A-Z]|OpenCL|Vulkan|NVIDIA|\bGPU\b", text)
     return f"and sees no graphics card; {_TRUST}" if sign and any(glob(pattern) for pattern in _CARDS) else ""
 

@@ -195,7 +195,7 @@ def _measure_some(result: Clearance, clear: Indices) -> None:
 
 
 def _roundings(rows: Rows, point: Rows) -> Floats:
-    """What points of walls, and their distances, are off: 64u of the lengths that they are computed from."""
+    """The errors of points of walls and of their distances: 64u of the lengths that they are computed from."""
     lengths = np.abs(point).sum(axis=1) + np.abs(rows[:, 4:7]).sum(axis=1) + rows[:, 2:4].sum(axis=1)
     return np.asarray(_ROUNDED * lengths + _LEAST)
 

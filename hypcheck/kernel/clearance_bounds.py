@@ -193,7 +193,7 @@ def _compiled(rows: Rows, threads: int | None) -> Clearance:
 
 
 def _fill(result: Clearance, places: Indices, queries: Rows, threads: int | None) -> None:
-    """The answers about some valid rows; those that are tilted, and those that do not, together."""
+    """Fill in the answers about valid rows: the tilted rows in one call, the upright ones in another."""
     some = queries[places]
     tilted = is_tilted(some) if PAIRS.has_axis(some) else np.zeros(len(some), np.bool_)
     for chosen in (tilted, ~tilted):

@@ -196,7 +196,7 @@ def _middles(of: _Pairs, cells: Floats) -> Floats:
 
 
 def _try(result: Gaps, of: _Pairs, owner: Indices, place: Floats) -> Floats:
-    """Take points into account; the unit vectors along which they are from their spheroids."""
+    """Keep points that are nearer than the best so far; return the unit vectors from the spheroids to all points."""
     upper, normal = from_spheroids(of.b, of.d, of.axis, place - of.centre)
     best = np.full(len(result.upper), np.inf)
     np.minimum.at(best, owner, upper)

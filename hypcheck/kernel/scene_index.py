@@ -355,7 +355,10 @@ def _beside_pieces(grid: PlaneGrid, starts: Rows, ends: Rows, pieces: Indices) -
 
 
 def passed(starts: Rows, ends: Rows, query: Indices, origins: Rows, reaches: Floats) -> Mask:
-    """Whether a sweep, `query` (m,) of those (n, 3), comes as near to an axis, at (m, 3), as its body reaches."""
+    """Whether each sweep comes as near to a vertical axis as its body reaches, (m,).
+
+    `query` (m,) are the indices of the sweeps among `starts` and `ends` (n, 3); `origins` (m, 3) are on the axes.
+    """
     x, y, x_end, y_end = starts[query, 0], starts[query, 1], ends[query, 0], ends[query, 1]
     u, v = origins[:, 0], origins[:, 1]
     pad = PAD * sum(map(np.abs, (x, y, x_end, y_end, u, v)), start=0.0) + LEAST_OF_SWEEPS

@@ -48,7 +48,7 @@ RIGHT = (
 
 @dataclass(frozen=True, slots=True)
 class Requirement:
-    """A requirement.
+    """The requirement by which the workflow installs hypcheck.
 
     text: as pip reads it.
     says: sentences about it, for the user and for the workflow.

@@ -247,7 +247,7 @@ def write_files(contents: Mapping[str, bytes], *, follow: bool = True) -> None:
 
 @contextmanager
 def made_folder(path: Path) -> Iterator[None]:
-    """Within the block the folder is there, with those above it; if the block fails, new ones are removed if empty.
+    """A block in which the folder and those above it exist; if the block fails, new empty folders are removed.
 
     Raises InputError if it cannot be made.
     """

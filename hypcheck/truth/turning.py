@@ -168,7 +168,7 @@ def _position(rationals: tuple[Fraction, ...], radius: Fraction) -> Position:
 
 
 def _root(square: Fraction, bits: int) -> Enclosure:
-    """√ of a number, of 0 for a number below it, to about `bits` bits."""
+    """An enclosure of the square root, to about `bits` bits; a negative number counts as 0."""
     square = max(square, Fraction(0))
     return root_of(square, bits), root_of(square, bits, upward=True)
 

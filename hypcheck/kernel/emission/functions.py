@@ -178,7 +178,7 @@ class _Body(_Statements):
         yield from filter(None, [self._say("end if")])
 
     def _clear(self) -> str:
-        """The answer about a clear spheroid, once `outside` is known where it matters."""
+        """The expression for the answer about a clear spheroid; for positions it reads `outside`."""
         if self._question == "position":
             return self._say("select", condition="outside", left="1", right="-1")
         return "0" if self._question == "contact" else "1"

@@ -67,7 +67,7 @@ def in_rust(quoted: Sequence[str], prefix: str, predicate: str, width: int) -> s
 
 
 def _lines(value: dict[str, Any], written: Callable[[Any], str]) -> Iterator[str]:
-    """The value in pieces that make it when put together: what comes before the settings, each of them, the end."""
+    """The text of a value in pieces: the part before its domain's settings, each setting, the end."""
     settings = value["domain"]["settings"]
     text = written({**value, "domain": {"settings": []}})  # the settings come last: the text ends with []}}
     yield text[:-3]

@@ -180,7 +180,7 @@ def kind_of_scene(scene: SceneModel, *, sweep: bool) -> Kind:
 
 @dataclass(frozen=True)
 class _Phrases:
-    """How a language says what a kind's functions take and give."""
+    """The phrases of a language for the parameters and results of a kind's functions."""
 
     answer: str
     told: str

@@ -121,7 +121,7 @@ def _newton(step: int) -> str:
 
 
 def _proof(last: str) -> str:
-    """From the last v to the answer."""
+    """The lines of a listing that lead from the last v to the answer."""
     return f"""
     lambda_found = B - {last}
     A_margin = A * margin

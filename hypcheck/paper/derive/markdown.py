@@ -15,9 +15,10 @@ from hypcheck.report.markdown import table_lines
 
 _INTRODUCTION = """# The paper, claim by claim
 
-Written by `hypcheck derive --only ledger --only costs --format markdown`; a test keeps it fresh, so change the ledger
-and not this page. `hypcheck derive --claim "Proposition 3"` shows one claim with its proof link by link, its
-witnesses and their certificates; [mathematics.md](mathematics.md) has the proofs in words.
+For readers of the paper. Afterwards you know what became of each of its statements. Written by `hypcheck derive
+--only ledger --only costs --format markdown`; a test keeps it fresh, so change the ledger and not this page.
+`hypcheck derive --claim "Proposition 3"` shows one claim with its proof link by link, its witnesses and their
+certificates; [mathematics.md](mathematics.md) has the proofs in words.
 
 **Proved** means that sympy found right − left = 0, or that every link of a chain of identities and signs was checked,
 and that no pair of a space of small rational numbers contradicts it; small claims are proved by counting.
