@@ -51,15 +51,17 @@ def summary_lines(
 ) -> list[str]:
     """The summary, a failure's reason first: at most MOST_LINES plain lines, besides tables of answers and causes.
 
+    A benchmark of a user's methods is about these: the paper's claims of cost are in its other reports.
     With `colour`, the first line is green or red; with `width`, lines are cut to this width.
     """
     ended = verdict(record)
     head = click.style(escaped(ended.sentence), fg="green" if ended.passed else "red", bold=True)
+    mine = list(own_method_facts(record))
     facts = [
         *_failures(record, ended.sentence),
         *settings_facts(record.header.settings),
         *([] if against is None else change_facts(record, against)),
-        *own_method_facts(record),
+        *mine,
         *advice_facts(record),
         *sentences_of(record, AbsentLine),
         *run_facts.unmeasured_facts(record),
@@ -68,7 +70,7 @@ def summary_lines(
         *run_facts.tested_facts(record, held=ended.passed),
         *run_facts.method_facts(record),
         *run_facts.timing_facts(record),
-        *sentences_of(record, CostLine),
+        *([] if mine else sentences_of(record, CostLine)),
         *run_facts.benchmark_facts(record),
     ]
     reports = [*_reports(written), *best_rival_facts(record)]

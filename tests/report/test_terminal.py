@@ -123,3 +123,13 @@ def test_a_benchmark_says_of_a_method_of_the_user_its_errors_its_time_and_the_fa
     assert own[1].startswith("mine.py:position, uniform around the tower: 1,210 (1,100 to 1,710) ns a row in a batch, ")
     assert lines[-1] == "mine.py:position: takes 1,150 times as long as fast, the fastest that is as reliable"
     assert "never a wrong answer: fast, 13.6 times as fast as table-2-float64" in lines
+
+
+def test_a_benchmark_of_a_users_method_leaves_the_papers_claims_of_cost_to_the_other_reports():
+    golden = read(Path(__file__).parent / "goldens" / "bench" / "record.jsonl")
+    claim = line_of(bench_lines.line("cost"))
+    others = [line for line in golden.lines if getattr(line, "kind", "") != "foreign"]
+    mine = replace(golden, lines=[*golden.lines, claim])
+    ours = replace(golden, lines=[*others, claim])
+    claims = [[line for line in summary_lines(record, ()) if line.startswith("claim ")] for record in (mine, ours)]
+    assert claims == [[], ["claim holds, the tower: " + bench_lines.line("cost")["claim"]]]
