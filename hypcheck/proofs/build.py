@@ -60,6 +60,7 @@ COMPOSED = (
     *("StageFourSteps", "StageFourPlane"),
     *("LongIntegers", "LongRuns", "LongSums", "LongProducts", "LongUnits"),
     *("StageFiveAnswers", "StageFiveLimbs", "StageFiveIntegers", "StagesRuns", "Doubles", "StagesOnDoubles"),
+    *("FloatSteps", "FloatTexts", "CertifiedText", "CertifiedAnswers"),
 )
 """All stages in one theorem, Stages.whatever_stage_answers; from a stage's numbers to the position; the C of words; the
 functions of the C that decide; the C of long integers."""
@@ -331,6 +332,7 @@ def changed_decisions() -> tuple[Weakened, ...]:
         ("deciding", printed_c.deciding_changes()),
         ("beside_tangency", printed_c.tangency_changes()),
         ("of_doubles", printed_c.double_changes()),
+        ("floats", printed_c.float_changes()),
     )
     return tuple(
         Weakened(printed_c.PROVED_IN[name], f"HeaderText.{texts}", new, what)

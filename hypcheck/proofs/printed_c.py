@@ -53,6 +53,9 @@ OF_DOUBLES = ("hc_parts_of", "hc_fixed_parts_of", "hc_valid")
 BESIDE_TANGENCY = ("hc_position_in_plane",)
 """The functions of the header that decide beside an exact tangency."""
 
+FLOATS = ("hc_single", "hc_certified")
+"""The functions of the header that decide by floats; the second is one of each level."""
+
 MACROS = ("HC_MAX_OF", "HC_MIN_OF")
 """The macros of two ints that they use, read as functions."""
 
@@ -69,10 +72,13 @@ PROVED_IN = {
     ROOM: "StageFiveLimbs",
     **dict.fromkeys(OF_DOUBLES, "Doubles"),
     "hc_position_in_plane": "StageFourPlane",
+    "hc_single": "FloatTexts",
+    "hc_certified": "CertifiedText",
 }
 """The Coq file that says what each of them computes."""
 
 _FUNCTION = r"^static (?:inline )?\w+ {}\((?:[^\n]*\}}$|.*?^\}}$)"
+_OF_LEVEL = r"^HC_TARGET static (\w+) HC_NAME\({}\)(\([^\n]*\{{$.*?^\}}$)"
 _HEAD = "Require Import List String ZArith.\nImport ListNotations.\nOpen Scope string_scope.\n"
 _OPERATORS = {"+": "-", "-": "+", "*": "/", "/": "*", ">": "<", "<": ">", ">=": "<=", "<=": ">="}
 _CALLS = {
@@ -155,6 +161,13 @@ def integers(header: str) -> list[str]:
     return [*_texts(INTEGERS, header), *declared]
 
 
+def floats(header: str) -> list[str]:
+    """The texts of the functions that decide by floats, those of a level by their names without it."""
+    of_level = [re.search(_OF_LEVEL.format(name), header, re.MULTILINE | re.DOTALL) for name in FLOATS]
+    found = [f"static {text[1]} {name}{text[2]}" for name, text in zip(FLOATS, of_level, strict=True) if text]
+    return [*_texts(FLOATS, header), *found]
+
+
 def _texts(names: tuple[str, ...], header: str) -> list[str]:
     found = [re.search(_FUNCTION.format(name), header, re.MULTILINE | re.DOTALL) for name in names]
     return [text[0] for text in found if text]
@@ -165,9 +178,12 @@ def header_text() -> str:
     text = HEADER.read_text(encoding="utf-8")
     rows = ";\n".join(f"  ({_quoted(name)}, {_quoted(part)}%text)" for name, part in parts(text))
     bounds = "; ".join(f'("{name.lower()}", {value})' for name, value in _BOUND.findall(text))
-    words, trees, beside, long, doubles = (
+    words, trees, beside, long, doubles, of_floats = (
         ";\n".join(f"  {_quoted(function)}%text" for function in found)
-        for found in (functions(text), deciding(text), beside_tangency(text), integers(text), _texts(OF_DOUBLES, text))
+        for found in (
+            *(functions(text), deciding(text), beside_tangency(text), integers(text)),
+            *(_texts(OF_DOUBLES, text), floats(text)),
+        )
     )
     return (
         f"From Hypcheck Require Import Steps.\n{_HEAD}Definition fixed_bounds : list (string * Z) := [{bounds}]%Z.\n"
@@ -177,6 +193,7 @@ def header_text() -> str:
         f"Definition beside_tangency : list text := [\n{beside}].\n"
         f"Definition integers : list text := [\n{long}].\n"
         f"Definition of_doubles : list text := [\n{doubles}].\n"
+        f"Definition floats : list text := [\n{of_floats}].\n"
         "Definition parts := map (fun part => (fst part, string_of (snd part))) texts.\n"
     )
 
@@ -216,6 +233,11 @@ def deciding_changes() -> Iterator[tuple[str, str, str]]:
 def tangency_changes() -> Iterator[tuple[str, str, str]]:
     """The same of the functions that decide beside a tangency."""
     yield from _changes_of(BESIDE_TANGENCY, beside_tangency(HEADER.read_text(encoding="utf-8")))
+
+
+def float_changes() -> Iterator[tuple[str, str, str]]:
+    """The same of the functions that decide by floats."""
+    yield from _changes_of(FLOATS, floats(HEADER.read_text(encoding="utf-8")))
 
 
 def integer_changes() -> Iterator[tuple[str, str, str]]:
