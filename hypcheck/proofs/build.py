@@ -60,7 +60,7 @@ COMPOSED = (
     *("StageFourSteps", "StageFourPlane"),
     *("LongIntegers", "LongRuns", "LongSums", "LongProducts", "LongUnits"),
     *("StageFiveAnswers", "StageFiveLimbs", "StageFiveIntegers", "StagesRuns", "Doubles", "StagesOnDoubles"),
-    *("FloatSteps", "FloatTexts", "CertifiedText", "CertifiedAnswers"),
+    *("FloatSteps", "FloatTexts", "SingleBound", "SingleRuns", "CertifiedText", "CertifiedAnswers", "StagesOfFloats"),
 )
 """All stages in one theorem, Stages.whatever_stage_answers; from a stage's numbers to the position; the C of words; the
 functions of the C that decide; the C of long integers."""
@@ -72,7 +72,7 @@ OF_STAGES = (
 )
 """The files whose theorems say that what a stage answers is the position."""
 
-OF_RUNS = ("StageOne", "StageTwoRuns")
+OF_RUNS = ("StageOne", "StageTwoRuns", "SingleRuns", "CertifiedAnswers", "StagesOfFloats")
 """The same from the steps of the C in float64, with its guards."""
 
 FILES = (*SOUNDNESS, "ExtractedChecker", *RULE, *STAGES, *ROUNDING, *PRINTED, *COMPOSED)
@@ -88,7 +88,7 @@ AXIOMS = (
 OF_FLOCQ = "Classical_Prop.classic"
 """The excluded middle, which Flocq uses: what is said of its floats may assume it too."""
 
-ON_FLOCQ = ("Floats", "Ranges", "Underflow", "StageOne", "StageTwoRuns")
+ON_FLOCQ = ("Floats", "Ranges", "Underflow", *OF_RUNS)
 """The files that say something of Flocq's floats."""
 
 PACKAGES = {
