@@ -29,7 +29,8 @@ Definition known_certified := (of_floats ["columns"] C_certified ++ of_vectors)%
 Definition turns := 64%nat.
 Definition given_columns := [Opaque "columns" 0; Of U64 stride; Of Int count].
 Definition steps_of_certified := (10 + (turns + (S (8 + (List.length C_certified + 3)) + 0)))%nat.
-Definition text_of_certified := called_with functions steps_of_certified known_certified (("HC_WIDTH", Of Int width) :: defined) "hc_certified" given_columns.
+Definition defined_here := ("HC_WIDTH", Of Int width) :: defined.
+Definition text_of_certified := called_with functions steps_of_certified known_certified defined_here "hc_certified" given_columns.
 
 Definition outer := ["u_4"; "u_8"; "u_12"; "u_16"; "slack"; "least"; "greatest"; "farthest"].
 Definition before_loop := Eval vm_compute in firstn 10 (does "hc_certified").

@@ -209,14 +209,17 @@ def test_each_function_of_words_is_changed_in_the_file_that_says_what_it_compute
 
 def test_changes_of_functions_that_decide_reach_every_function_in_the_file_that_runs_it():
     header = printed_c.HEADER.read_text(encoding="utf-8")
-    texts = (*printed_c.deciding(header), *printed_c.beside_tangency(header))
-    names = (*printed_c.MACROS, *printed_c.DECIDING, *printed_c.BESIDE_TANGENCY)
+    of_doubles = printed_c._texts(printed_c.OF_DOUBLES, header)
+    deciding = (*printed_c.deciding(header), *printed_c.beside_tangency(header))
+    texts = (*deciding, *of_doubles, *printed_c.floats(header))
+    exact = (*printed_c.MACROS, *printed_c.DECIDING, *printed_c.BESIDE_TANGENCY)
+    names = (*exact, *printed_c.OF_DOUBLES, *printed_c.FLOATS)
     assert [re.search(r"(\w+)\(", text)[1] for text in texts] == list(names)
     found = build.changed_decisions()
     assert {re.search(r" in (\w+),", change.allows)[1] for change in found} == set(names)
     for change in found:
         name = re.search(r" in (\w+),", change.allows)[1]
-        assert re.search(rf'(called\w*|puts) functions [^"]*"{name}"', build.source(change.file))
+        assert re.search(rf'(called\w* functions|puts functions|returned) [^"]*"{name}"', build.source(change.file))
         assert build.source(change.file).count(change.old) == 1
 
 
