@@ -4,7 +4,7 @@ About a pair it is position, kind and clearance. The exact decision and the near
 answer is given only if they agree and its proof holds. The numbers that check a proof by hand are explained in
 docs/mathematics.md, "A certificate for every answer". About a sweep, the straight motion of a spheroid between two
 positions, it is contact or none: decided exactly, and its certificate is checked by code that shares nothing with the
-code that found it. Loads no numpy, but for distances that are tilted or beside ends.
+code that found it. Loads no numpy, except for distances that are tilted or beside ends.
 """
 
 from __future__ import annotations

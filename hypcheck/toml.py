@@ -80,7 +80,7 @@ def parsed(text: str, name: str) -> dict[str, Any]:
 
 @cache
 def shipped(package: str, name: str) -> dict[str, Any]:
-    """The content of a TOML file that is installed beside the modules of a package of ours; it must not be changed."""
+    """The content of a TOML file that is installed beside the modules of one of our packages; do not change it."""
     from importlib import resources  # noqa: PLC0415 - slow to load, and no command needs it to read its options
 
     return parsed(resources.files(package).joinpath(name).read_text(encoding="utf-8"), name)

@@ -261,7 +261,7 @@ def result_names(result: Result) -> tuple[str, ...]:
 
 
 def needed_parts(parts: tuple[Part, ...], wanted: Iterable[str]) -> tuple[Part, ...]:
-    """The parts that the wanted names depend on, in order; a loop is left whole but for steps that no round needs."""
+    """The parts that the wanted names depend on, in order; of a loop only steps that no round needs are left out."""
     alive, parts_needed = set(wanted), list[Part]()
     for part in reversed(parts):
         if isinstance(part, Loop):

@@ -158,9 +158,9 @@ def private_folders(needed: Iterable[str]) -> tuple[str, ...]:
 def hidden_paths(also: Iterable[str], needed: Sequence[str] = (), seen: Sequence[str] = ()) -> tuple[str, ...]:
     """Files and folders that appear empty, although they are in a visible folder.
 
-    This package with its vectors, and `also`; and, but for what is in `seen`, repositories, copies of this package and
-    what was built of them, the checkout of the action of GitHub, and files with keys and tokens. A folder in which the
-    working directory or this Python is cannot be.
+    This package with its vectors, and `also`; and, except for what is in `seen`, repositories, copies of this package
+    and what was built of them, the checkout of the action of GitHub, and files with keys and tokens. A folder in which
+    the working directory or this Python is cannot be.
     """
     places = (os.getcwd(), sys.prefix, sys.base_prefix)
     hidden = [os.path.join(_home(), path) for path in _SECRETS]

@@ -8,7 +8,7 @@ squared semi-axes. For any v > 0 and δ > 0 the spheroid with the semi-axes √(
 contains all points within δ of the given one: its matrix is (1 + δ/v) Q + (1 + v/δ) δ² I, and (p + q)² ≤ (1 + t) p² +
 (1 + 1/t) q² for the support functions p and q and any t > 0. If it is clear, the distance is at least δ. In the
 direction n it is no larger than necessary. - A point of the hyperboloid and one of the spheroid are no nearer than
-their bodies, but for the rounding below. - Between the two measures: clearance · min(b, d) ≤ distance ≤ clearance ·
+their bodies, except for the rounding below. - Between the two measures: clearance · min(b, d) ≤ distance ≤ clearance ·
 max(b, d).
 
 Where a guess cannot be proved, the same decisions halve the interval. Only these bounds of rounding errors are used:
@@ -78,7 +78,7 @@ class Clearance:
     `distance_lower` ≤ distance ≤ `distance_upper`: the Euclidean distance between the two bodies, in the unit of the
     row; 0 in contact. For a sphere it is the clearance times the radius, else it is not.
 
-    `nearest`: a point of the hyperboloid whose distance from the spheroid is `distance_upper` at most, but for the
+    `nearest`: a point of the hyperboloid whose distance from the spheroid is `distance_upper` at most, except for the
     rounding of its coordinates; where no gap could be measured it is `touch`. `normal`: the unit vector from there to
     the spheroid, which is the gradient of the distance with respect to the centre; NaN in contact; its error has no
     proved bound. `tie`: another point is as near, by a symmetry of both bodies; then `nearest` is one of them.

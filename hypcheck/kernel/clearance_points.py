@@ -2,7 +2,7 @@
 
 **Upright touches.** In lengths scaled by b and d, with p = a r, q = c z and W = A + B (docs/mathematics.md), τ = A + λ
 and σ = B − λ at the dual's maximum satisfy τ/p = σ/√(σ² + q²). The left side less the right one is convex and increases
-with λ, and is linear but for where σ ~ q: Newton's method needs few turns from any start.
+with λ, and is linear except for where σ ~ q: Newton's method needs few turns from any start.
 
 Their error. Let the smaller of τ and σ be exact: that says what λ is. The other is W less it, at least W/2 and within
 12u (u = 2⁻⁵²), so that ρ = A r/τ and ζ = B z/σ are within 16u. For every X on the hyperboloid, the exact place X* too,

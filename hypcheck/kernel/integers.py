@@ -17,7 +17,7 @@ F > 0 between λ₋ = −min(A1, A2) and B. F(0) < 0 < F(±∞), F(B) ≤ 0, F(�
     exterior: two roots in (0, B], or one and a double root at B; one root ≥ B; one root < 0;
     interior: the same with [λ₋, 0) for (0, B];          contact: everything else.
 
-The discriminant Δ of F tells these apart but for the roots' places. Δ < 0: two roots are complex, contact. Δ > 0: four
+The discriminant Δ of F distinguishes these, not the roots' places. Δ < 0: two roots are complex, contact. Δ > 0: four
 roots are real, and Descartes' rule is exact: three are positive or three negative. They are those of a clear pair
 where at most one lies beyond the pole, which the same rule says of F's coefficients at the pole; the pole is a root of
 a quadratic, so each sign is that of some U + V √D. Δ = 0: a tangency, unless the pole is a double root with F > 0

@@ -37,7 +37,7 @@ _TURNS, _SETTLED = 24, 2.0**-24
 
 @dataclass(frozen=True)
 class Gaps:
-    """Bounds of distances (n,), and points (n, 3) that are not farther than the upper ones, but for roundings."""
+    """Bounds of distances (n,), and points (n, 3) that are not farther than the upper ones, except for roundings."""
 
     lower: Floats
     upper: Floats
@@ -81,7 +81,7 @@ def gaps(sizes: Rows, centres: Rows, axes: Rows | None, spans: Rows, solid: Mask
 
 
 def gaps_at(sizes: Rows, centres: Rows, axes: Rows, points: Rows) -> tuple[Floats, Rows]:
-    """The distances (n,) of spheroids from the points (n, 3) of walls at the height of some points, but for roundings.
+    """The distances (n,) of spheroids from the points (n, 3) of walls at the height of some points, with roundings.
 
     And those points: they are upper bounds of the distance from the wall.
     """
@@ -273,7 +273,7 @@ def _turns(of: _Pairs, cells: Floats, normal: Floats, heights: Floats) -> Floats
 
 
 def _to_discs(result: Gaps, pairs: _Pairs, end: Floats, solid: Mask) -> None:
-    """Take end discs of those that are solid into account, but for their rims."""
+    """Take end discs of those that are solid into account, except for their rims."""
     v, rise = pairs.axis, end - pairs.centre[:, 2]
     level = v[:, 0] * v[:, 0] + v[:, 1] * v[:, 1]
     half = np.sqrt(pairs.b**2 * level + pairs.d**2 * v[:, 2] ** 2)

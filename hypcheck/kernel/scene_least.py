@@ -4,7 +4,7 @@ A flight is a polyline of the mover's centre. The distance changes by no more th
 least f at one place of a piece of a flight, it is at least f − r on the piece, with r the length from that place to the
 piece's farther end. Pieces are many segments at first, then one, then part of one; each is asked about the hyperboloids
 near it alone. A pair of a piece and a hyperboloid is dropped when its bound is not below what was reached elsewhere,
-but for a tolerance, and halved otherwise.
+except for a tolerance, and halved otherwise.
 
 Near a least distance that takes many halvings. So of a piece within a segment one more proof is tried: the spheroid
 that contains all points within δ of the mover (clearance.py), and no more than that along the normal, is asked whether

@@ -54,7 +54,7 @@ class Nearest:
     near, as their distances are equal, both are in contact, or the bounds do not separate them. `contact` (n,):
     whether there is contact.
     `distance_lower` ≤ distance ≤ `distance_upper` (n,): the Euclidean distance from the mover to the nearest of all.
-    `point` (n, 3): a point of that hyperboloid whose distance is `distance_upper` at most, but for its rounding; NaN
+    `point` (n, 3): a point of that hyperboloid whose distance is `distance_upper` at most, except for its rounding; NaN
     where the centres are so far apart that their difference overflows, of which only contact is known. `normal`
     (n, 3): the unit vector from there to the mover, which is the gradient of the distance with respect to the centre;
     NaN in contact; its error has no proved bound. One centre has numbers, and vectors (3,).

@@ -3,7 +3,7 @@
 Each line ends in a checksum: the CRC-32 of everything from the first byte of the file up to it. It guards against
 accidents: a bit that flipped, a line that was lost, doubled or moved, two runs that wrote into one file. Each checksum
 continues the one before, so a misplaced line does not fit, whatever is in it. A CRC finds every change within 32
-neighbouring bits, and any other but for one in 2³². It does not guard against people, who can compute checksums again.
+neighbouring bits, and any other except for one in 2³². It does not guard against people, who can compute it again.
 Every language has a CRC-32, and it costs next to nothing (1 GB/s and more).
 
 Lines are read one at a time: none that is too long is loaded, and nothing after damage is believed.

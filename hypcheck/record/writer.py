@@ -82,7 +82,7 @@ def _locked(place: int) -> bool:
 class GrowingFile:
     """A file that grows, as a context manager. Killed at any moment, it holds its old content or the new one.
 
-    Methods raise OSError, naming the file, if the system fails; the file is then as before, but for a line that may be
+    Methods raise OSError, naming the file, if the system fails; the file is then as before, except that a line may be
     cut off. A folder that was removed is made again.
     """
 

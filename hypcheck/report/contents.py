@@ -290,7 +290,7 @@ A part is empty if the record has none of its lines.
 """
 
 PASSING = tuple(part for part in PARTS if part not in (accuracy.family_sections, verification.method_sections))
-"""Those of a run with SPEC that passed: it has no wrong answers to be told apart."""
+"""Those of a run with SPEC that passed: it has no wrong answers to distinguish."""
 
 
 @dataclass(frozen=True, slots=True)

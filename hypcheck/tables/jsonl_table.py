@@ -1,7 +1,7 @@
 """JSON lines (RFC 8259, one object a line): seven keys found by name, every line kept as it was written.
 
-A line's own text goes to the output untouched but for its closing brace, before which four keys are added. Blank lines
-are left out; line ends become LF.
+A line's own text goes to the output unchanged except for its closing brace, before which four keys are added. Blank
+lines are left out; line ends become LF.
 """
 
 from __future__ import annotations

@@ -63,7 +63,7 @@ class Meridian:
 
 
 def meridian_of(pair: Pair) -> Meridian:
-    """The pair in its meridian half plane: exact but for the two roundings of the centre, whatever the magnitudes."""
+    """The pair in its meridian half plane: exact except for two roundings of the centre, whatever the magnitudes."""
     lengths = pair.lengths
     a, c = Fraction(lengths.alpha, lengths.b), Fraction(lengths.gamma, lengths.d)
     radius2, alpha2, gamma2 = lengths.x**2 + lengths.y**2, lengths.alpha**2, lengths.gamma**2

@@ -151,7 +151,7 @@ _Constants = tuple[int, int, int, int, int, int, int, int, int, int]
 def _quartic(
     sizes: Lengths, constants: _Constants, x: Number, y: Number, z: Number
 ) -> tuple[tuple[Number, ...], Number]:
-    """The coefficients, and p s times the hyperboloid's equation at the centre, but for its constant."""
+    """The coefficients, and p s times the hyperboloid's equation at the centre, except for its constant."""
     p, s, q, t, V, g1, g2, e0, e1, e2 = constants
     R, Z = across_and_along(sizes, x, y, z)
     N2, T = _products(sizes, x, y, z)

@@ -222,7 +222,7 @@ class Sections:
 
 
 def discriminant(cubic: tuple[Polynomial, Polynomial, Polynomial, Polynomial]) -> Polynomial:
-    """Δ of the cubic in ν, but for a constant factor > 0."""
+    """Δ of the cubic in ν, except for a constant factor > 0."""
     c3, c2, c1, c0 = cubic
     outer, inner = polynomial_product(c3, c1), polynomial_product(c2, c2)
     rest = _sum(inner, scaled(-4, outer))

@@ -180,7 +180,7 @@ def _centre(draw: Draw, size: list[Floats], values: Mapping[tuple[str, ...], NDA
     x, y, z = (draw.integers(n, 1, high) * draw.signs(n) for high in (14, 14, 30))
     level, up, swap = ldexp(draw.signs(n), draw.integers(n, -1, 1)), draw.signs(n), draw.signs(n) < 0
     cone = height == "on the asymptotic cone"
-    # On the cone, x and y are legs whose hypotenuse is α times the level, so that z is exact too; but for x = ±y.
+    # On the cone, x and y are legs whose hypotenuse is α times the level, so that z is exact too; except for x = ±y.
     legs = np.where(swap, 3, 4) * alpha * level / 5, np.where(swap, 4, 3) * alpha * level / 5
     x, y = np.where(cone, legs[0], x), np.where(cone, legs[1], y)
     alone, centred = np.where(cone, alpha * level, 0.0), place == "on the hyperboloid's axis"

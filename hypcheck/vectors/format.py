@@ -343,7 +343,7 @@ def is_integer(value: Any) -> bool:  # noqa: ANN401 - JSON
 
 
 def document_text(file: CaseFile[Case], cases: Iterable[str]) -> str:
-    """The whole document, ASCII but for the descriptions, with an end of line after every case; these are text."""
+    """The whole document, ASCII except for the descriptions, with an end of line after every case; these are text."""
     lines = list(cases)
     described = []
     if file.content.flags:

@@ -204,7 +204,7 @@ def symmetric_images(draw: Draw, n: int) -> Rows:
 
 
 TURN = 2 * len(COLUMNS)
-"""Consecutive rows of one pair: as it is, α changed, α as it was but for an ulp, γ changed, and so on."""
+"""Consecutive rows of one pair: as it is, α changed, α as it was except for an ulp, γ changed, and so on."""
 
 
 def one_number_changed(draw: Draw, n: int) -> Rows:

@@ -1,6 +1,6 @@
 """A kernel for a whole scene: its hyperboloids and their places, heights, the mover's parts, and the loop over them.
 
-Settings whose functions are alike but for their numbers share one, a *shape*, which reads the numbers from a table; its
+Settings whose functions differ only in their numbers share one, a *shape*, which reads the numbers from a table; its
 statements, and so its arithmetic, are those of the functions that functions.py writes. So a kernel grows by a line a
 hyperboloid, and there may be as many as a scene has.
 

@@ -110,7 +110,7 @@ def _sentences() -> Iterator[str]:
 
 
 def _table(head: Sequence[str], rows: Iterable[Sequence[str]], numbers: Iterable[int] = ()) -> list[str]:
-    """The lines of a table whose cells are Markdown, but for bars; the columns `numbers` are aligned to the right."""
+    """The lines of a table whose cells are Markdown except for bars; the columns `numbers` are aligned to the right."""
     return table_lines(head, ([cell.replace("|", "\\|") for cell in row] for row in rows), numbers)[:-1]
 
 
