@@ -48,10 +48,10 @@ def stages(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome) -> Sequence
         plan = replace(plan, foreign=alike(before, plan.foreign))
     run = MethodsRun(plan, recorder, outcome, contenders(plan))
     if before is not None:
-        require_common(before, gated(plan, run.found))
+        require_common(before, gated(plan, run.contenders))
     return (
         Stage("methods", 1, run.introduce),
-        Stage("answers", len(workloads) + len(run.found), run.judge),
+        Stage("answers", len(workloads) + len(run.contenders), run.judge),
         *(run.map_stages if plan.everyday else ()),
         Stage("speed", plan.processes, run.measure),
         *([] if before is None else [Stage("baseline", 1, lambda advance: run.compare(before, advance))]),
@@ -184,15 +184,15 @@ class MethodsRun:
     plan: BenchPlan
     recorder: Recorder
     outcome: RunOutcome
-    found: dict[str, Contender]
+    contenders: dict[str, Contender]
     answers: list[MethodAnswers] = field(default_factory=list)
     speeds: list[RecordLine] = field(default_factory=list)
 
     @property
     def map_stages(self) -> Sequence[Stage]:
         """The stages with maps, for positions of upright spheroids; they follow the judging of answers."""
-        maps = len(error_maps.stability_methods(self.found)) + len(error_maps.place_methods(self.found))
-        shapes = any(contender.kind == "bounding" for contender in self.found.values())
+        maps = len(error_maps.stability_methods(self.contenders)) + len(error_maps.place_methods(self.contenders))
+        shapes = any(contender.kind == "bounding" for contender in self.contenders.values())
         bounding = [Stage("bounding volumes", 1, self.bound)] if shapes else []
         return [Stage("maps", maps, self.draw_maps), *bounding]
 
@@ -200,7 +200,7 @@ class MethodsRun:
     def mesh_and_memory_stages(self) -> Sequence[Stage]:
         """The stages with meshes and memory, for positions of upright spheroids; they come last."""
         stages = []
-        if any(contender.needs == FCL.title for contender in self.found.values()):
+        if any(contender.needs == FCL.title for contender in self.contenders.values()):
             stages.append(Stage("meshes", error_maps.convergence_steps(self.plan), self.refine))
         if self.plan.amounts.memory:
             stages.append(Stage("memory", len(self.timed), self.weigh))
@@ -209,12 +209,12 @@ class MethodsRun:
     @property
     def timed(self) -> list[str]:
         """The methods that are timed."""
-        return [name for name, contender in self.found.items() if not contender.accuracy_only]
+        return [name for name, contender in self.contenders.items() if not contender.accuracy_only]
 
     def introduce(self, advance: Advance) -> None:
         """Record the methods and the workloads."""
         names = ("title", "tier", "kind", "precision", "question", "exact", "amortised", "accuracy_only", "note")
-        for contender in self.found.values():
+        for contender in self.contenders.values():
             self.recorder.add(
                 measurements.MethodLine(method=contender.name, **{name: getattr(contender, name) for name in names})
             )
@@ -241,18 +241,18 @@ class MethodsRun:
             for truth in accuracy.workload_truths(self.plan, executor):
                 truths[truth.workload.name] = truth
                 advance(1)
-            slowest_first = sorted(self.found, key=lambda name: self.found[name].timed or math.inf)
+            slowest_first = sorted(self.contenders, key=lambda name: self.contenders[name].timed or math.inf)
             tasks = [(self.plan, name) for name in slowest_first]  # these take longest
             for _, answered in perform(accuracy.method_answers, tasks, executor):
                 self.answers += answered
                 advance(1)
-        methods, workloads = list(self.found), list(truths)
+        methods, workloads = list(self.contenders), list(truths)
         self.answers.sort(key=lambda given: (workloads.index(given.workload), methods.index(given.method)))
         for given in self.answers:
             self._judge(given, truths[given.workload])
 
     def _judge(self, given: MethodAnswers, truth: WorkloadTruth) -> None:
-        contender = self.found[given.method]
+        contender = self.contenders[given.method]
         if given.trouble:
             self.recorder.add(
                 measurements.RefusedLine(
@@ -270,8 +270,8 @@ class MethodsRun:
     def draw_maps(self, advance: Advance) -> None:
         """Record the maps of the methods that have maps, in the order of the methods."""
         maps: tuple[tuple[Callable[[tuple[BenchPlan, str]], Sequence[RecordLine]], list[str]], ...] = (
-            (error_maps.stability_lines, error_maps.stability_methods(self.found)),
-            (error_maps.place_lines, error_maps.place_methods(self.found)),
+            (error_maps.stability_lines, error_maps.stability_methods(self.contenders)),
+            (error_maps.place_lines, error_maps.place_methods(self.contenders)),
         )
         with processes(self.plan.workers) as executor:
             for lines_of, names in maps:
@@ -308,7 +308,7 @@ class MethodsRun:
     def compare(self, baseline: Baseline, advance: Advance) -> None:
         """Compare the speeds with a baseline."""
         codes = {"slower": Exit.SLOWER, "inconclusive": Exit.INCONCLUSIVE}
-        names, compared = gated(self.plan, self.found), False
+        names, compared = gated(self.plan, self.contenders), False
         for line in comparisons(self.plan, baseline, speeds_of(self.speeds), names):
             self.recorder.add(line)
             compared |= line.gates

@@ -185,12 +185,12 @@ def emit(
         raise InputError("emit needs --scene SCENE, or --method exact for one pair of any sizes")
     else:
         require_prefix(prefix, language)
-        asked = asked_scene(scene, question)
-        if sweeps or (whole and needs_routine(asked)):
+        model = asked_scene(scene, question)
+        if sweeps or (whole and needs_routine(model)):
             _require_routine(sweeps, whole, question, proof, precision)
-            text = emitted_scene(asked, language, command, prefix, sweep=sweeps)
+            text = emitted_scene(model, language, command, prefix, sweep=sweeps)
         else:
-            plan, text = _kernel(asked, language, precision, command, prefix, whole=whole)
+            plan, text = _kernel(model, language, precision, command, prefix, whole=whole)
             proved = None if proof is None else proof_of(plan)
     if proof is not None and os.path.realpath(proof) == os.path.realpath(output):
         raise InputError(f"--proof {proof} is --output too; name another file")
@@ -223,19 +223,19 @@ def _command(context: click.Context) -> list[str]:
 
 
 def _kernel(
-    asked: SceneModel, language: str, precision: str, command: list[str], prefix: str, *, whole: bool
+    model: SceneModel, language: str, precision: str, command: list[str], prefix: str, *, whole: bool
 ) -> tuple[ScenePlan, str]:
     """The plan of a scene, or of the whole scene, and its kernel."""
     if whole:
         from hypcheck.kernel.emission.whole import whole as whole_text
         from hypcheck.kernel.emission.whole import whole_plan
 
-        plan = whole_plan(asked, precision)
-        return plan, whole_text(asked, plan, language, command, prefix)
+        plan = whole_plan(model, precision)
+        return plan, whole_text(model, plan, language, command, prefix)
     from hypcheck.kernel.emission.kernel import emitted
     from hypcheck.kernel.specialise.plan import plan_of
 
-    plan = plan_of(asked, precision)
+    plan = plan_of(model, precision)
     return plan, emitted(plan, language, command, prefix)
 
 

@@ -227,8 +227,8 @@ def tilted_touches(rows: Rows, at: Floats | None = None) -> Touches:
     squares = form * place * place
     lost = np.flatnonzero(~(np.abs(squares.sum(axis=1) - 1) <= _OFF * (1 + np.abs(squares).sum(axis=1))))
     if turns and len(lost):
-        found = _at_a_pole(form[lost], unit[lost], (b / d)[lost], centre[lost])
-        place[lost] = np.where(np.isfinite(found).all(axis=1, keepdims=True), found, place[lost])
+        others = _at_a_pole(form[lost], unit[lost], (b / d)[lost], centre[lost])
+        place[lost] = np.where(np.isfinite(others).all(axis=1, keepdims=True), others, place[lost])
     error = _error(rows, unit, at, form, place, matrix, determinant / np.trace(adjugate, axis1=1, axis2=2))
     x, y, z = (place * b[:, None]).T
     radius = np.hypot(x, y)

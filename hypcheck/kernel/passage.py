@@ -33,7 +33,7 @@ def passage(
 
 @overload
 def passage(
-    *ways: Argument,
+    *sweeps: Argument,
     axis: Argument = None,
     upward: Argument = None,
     z_min: Argument = -math.inf,
@@ -45,7 +45,7 @@ def passage(
 
 @in_default_environment
 def passage(
-    *ways: Argument,
+    *sweeps: Argument,
     axis: Argument = None,
     upward: Argument = None,
     z_min: Argument = -math.inf,
@@ -73,8 +73,8 @@ def passage(
     True
     """
     if columns:
-        ways, columns = _by_position(ways, columns)
-    sizes_and_points: tuple[Argument, ...] = (ways[:4], *ways[4:]) if len(ways) == 6 else ways
+        sweeps, columns = _by_position(sweeps, columns)
+    sizes_and_points: tuple[Argument, ...] = (sweeps[:4], *sweeps[4:]) if len(sweeps) == 6 else sweeps
     heights = tuple(map(_of_python, (z_min, z_max, solid)))
     single = 3 <= len(sizes_and_points) <= 5 and not columns and not any(isinstance(end, list) for end in heights)
     if single and not any(map(_has_rows, (*sizes_and_points, axis))):
@@ -89,7 +89,7 @@ def passage(
 
     if upward is not None:
         raise InputError("upward is given, and the sweeps are many; a scene has tilted hyperboloids")
-    return passages(ways, columns, axis, (z_min, z_max, solid))
+    return passages(sweeps, columns, axis, (z_min, z_max, solid))
 
 
 def _of_python(value: Argument) -> Any:  # noqa: ANN401 - whatever it is
@@ -100,13 +100,14 @@ def _of_python(value: Argument) -> Any:  # noqa: ANN401 - whatever it is
 
 
 def _by_position(
-    ways: tuple[Argument, ...], columns: dict[str, Argument]
+    sweeps: tuple[Argument, ...], columns: dict[str, Argument]
 ) -> tuple[tuple[Argument, ...], dict[str, Argument]]:
     """Named arguments in order of position, if these are all sizes, a start and an end."""
-    names = (*SIZES, "start", "end")[len(ways) :] if len(ways) in (0, 4, 5) else ("sizes", "start", "end")[len(ways) :]
+    first = SIZES if len(sweeps) in (0, 4, 5) else ("sizes",)
+    names = (*first, "start", "end")[len(sweeps) :]
     if set(columns) != set(names):
-        return ways, columns
-    return (*ways, *(columns[name] for name in names)), {}
+        return sweeps, columns
+    return (*sweeps, *(columns[name] for name in names)), {}
 
 
 def _has_rows(value: object) -> bool:

@@ -76,7 +76,9 @@ def gaps(sizes: Rows, centres: Rows, axes: Rows | None, spans: Rows, solid: Mask
         result = _to_walls(pairs, spans, np.ldexp(farthest, unit_of))
         for end in (0, 1):
             _to_discs(result, pairs, spans[:, end], solid)
-        lower, upper = (_in_unit(length, unit_of, way) for length, way in ((result.lower, 0), (result.upper, np.inf)))
+        lower, upper = (
+            _in_unit(length, unit_of, toward) for length, toward in ((result.lower, 0), (result.upper, np.inf))
+        )
         return Gaps(lower, upper, np.ldexp(result.point, -unit_of[:, None]))
 
 

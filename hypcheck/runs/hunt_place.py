@@ -34,7 +34,7 @@ OPEN = "no special place"
 RING = "the ring"
 TILTED = "a tilted spheroid"
 ENDED = "a hyperboloid that ends"
-WAY = "an ordinary sweep"
+ORDINARY_SWEEP = "an ordinary sweep"
 
 LONG_SWEEP, SHORT_SWEEP = 2.0**10, 2.0**-10
 """A sweep of more spheroid radii is long, one of less is short."""
@@ -222,7 +222,7 @@ def sweep_place(row: tuple[float, ...]) -> RowPlace:
         TILTED: row[2] != row[3] and any(row[len(SWEEP_COLUMNS) : len(SWEEP_COLUMNS) + 2]),
         ENDED: SWEEPS.has_heights(row),
     }
-    named = [name for name, holds in signs.items() if holds] or [WAY]
+    named = [name for name, holds in signs.items() if holds] or [ORDINARY_SWEEP]
     return RowPlace(named[0], ", ".join(named), named[0])
 
 

@@ -129,8 +129,8 @@ def retest(step: RetestStep, implementation: Implementation | Crashed, rules: Ju
         by_scene = scene_questions(
             sample.rows, sample.truth, lambda: implementation.proven_batch if first else 0, rules.seed
         )
-    asked = chain(((*question, False) for question in asking), ((*question, True) for question in by_scene))
-    for places, batch, one_scene in asked:
+    questions = chain(((*question, False) for question in asking), ((*question, True) for question in by_scene))
+    for places, batch, one_scene in questions:
         answered = implementation.classify(sample.rows[places], batch=batch, by_scene=one_scene)
         outcomes |= answered.outcomes
         status = status_of(answered)

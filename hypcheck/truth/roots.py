@@ -124,13 +124,13 @@ def classify_invariants(
     pattern = pattern_of(of_both_sides(*roots))
     occurs = _occurs(pair)
     possible = [kind for kind in Kind if occurs[kind.occurs]]
-    kind, found = kinds.get(pattern), _position(*roots, sides)
-    if kind not in possible or (kind.position, kind.tangent) != (found.position, found.tangent):
+    kind, report = kinds.get(pattern), _position(*roots, sides)
+    if kind not in possible or (kind.position, kind.tangent) != (report.position, report.tangent):
         raise AssertionError(f"the roots of g form a pattern that is not possible: {pattern}")
     literal_kinds = same_signs(pattern, possible)
     literal = {other.position for other in literal_kinds}
     return replace(
-        found,
+        report,
         kind=kind,
         pattern=pattern,
         literal=literal.pop() if len(literal) == 1 else None,

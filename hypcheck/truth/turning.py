@@ -59,7 +59,7 @@ def turning(
     length, ahead, aside, _ = _checked_turn(arm, direction, angle)
     for bits in PRECISIONS:
         least, largest = squared_distances(rationals[4], rationals[5], length, (ahead, aside), angle, bits)
-        position = _all_the_way(rationals, least, largest, bits)
+        position = _all_along(rationals, least, largest, bits)
         if position is not None:
             return position
     return None
@@ -147,7 +147,7 @@ def _summit(e0: Enclosure, e1: Enclosure, slope0: Enclosure, slope1: Enclosure, 
     return ends[0], max(ends[1], reach[1])
 
 
-def _all_the_way(rationals: tuple[Fraction, ...], least: Enclosure, largest: Enclosure, bits: int) -> Position | None:
+def _all_along(rationals: tuple[Fraction, ...], least: Enclosure, largest: Enclosure, bits: int) -> Position | None:
     def at(squared: Fraction, *, up: bool) -> Position:
         return _position(rationals, _root(squared, bits)[up])
 

@@ -118,7 +118,7 @@ def _wrong_measures(
 ) -> Iterator[str]:
     """A sentence for each wrong one of the kind, the clearance, the flips and the flags that the case has."""
     if not content.tilted and (kind := classify_by_roots(pair).kind) is not case.kind:
-        was, now = (each.value if each else None for each in (case.kind, kind))
+        was, now = (named.value if named else None for named in (case.kind, kind))
         yield f"kind is {was}; the roots say {now}"
     if case.clearance is not None and (measured := nearest(pair).clearance) != case.clearance:
         yield f"clearance is {decimal_of(case.clearance)}; the nearest point says {decimal_of(measured)}"

@@ -194,7 +194,7 @@ POSITION = Routine(
 def _bound(name: str, meaning: str, bound: str, at_first: str) -> Routine:
     """A bound of the clearance: the best of those at several multipliers."""
     more = "bound > best" if at_first == "nothing_least" else "bound < best"
-    of_way = Routine(
+    routine = Routine(
         f"{name}_at",
         meaning,
         (*sweeps.ROW, "at"),
@@ -215,7 +215,7 @@ def _bound(name: str, meaning: str, bound: str, at_first: str) -> Routine:
             "nothing_most": float_info.max,
         },
     )
-    return Routine(name, meaning, TILTED_COLUMNS, (Call("told", of_way, (*STANDING, 0)),), "told")
+    return Routine(name, meaning, TILTED_COLUMNS, (Call("told", routine, (*STANDING, 0)),), "told")
 
 
 _QUOTIENT = """

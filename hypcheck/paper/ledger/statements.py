@@ -278,7 +278,7 @@ def refusal(where: Condition, shows: str) -> Evidence:
         witness(rotor, "a rotor at r + l, in rotor radii: interior"),
     )
     text = f"hull {described(search.found)}; rotors of {quadcopter.size} its size on arms of {quadcopter.arm} interior"
-    return Evidence("search", text, all(each.holds for each in witnesses), witnesses)
+    return Evidence("search", text, all(witness.holds for witness in witnesses), witnesses)
 
 
 def refused_for_a_zero_coefficient() -> Evidence:
@@ -315,7 +315,7 @@ def valid_though_the_body_meets_the_wall() -> Evidence:
         f"body {described(search.found)}; its point ({where}) is beyond the wall; rotors of {quadcopter.size} its size "
         f"on arms of {quadcopter.arm} interior, and the movement valid"
     )
-    return Evidence("search", text, all(each.holds for each in witnesses), witnesses)
+    return Evidence("search", text, all(witness.holds for witness in witnesses), witnesses)
 
 
 def _crossing(hull: PointFacts) -> bool:
