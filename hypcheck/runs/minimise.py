@@ -13,7 +13,7 @@ from itertools import product
 import numpy as np
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import SIZES, Pair, trouble_with_row
+from hypcheck.geometry.pair import SIZES, Groups, Pair, trouble_with_row
 from hypcheck.geometry.rows import PAIRS, SWEEPS, Layout, Rows
 from hypcheck.messages import counted
 from hypcheck.runs import hunt
@@ -210,14 +210,15 @@ MAX_ROWS = 30_000
 Variants = Callable[[Row, Layout], Iterable[Row]]
 """From a row to rows that could replace it."""
 
-_VARIANTS: dict[Layout, tuple[tuple[Variants, ...], tuple[Variants, ...]]] = {
-    PAIRS: ((same_query, one_changed, lambda *_: small_pairs(), brought_back), (same_query, one_changed)),
-    SWEEPS: ((same_query, one_changed, lambda *_: small_sweeps()), (same_query, one_changed)),
+_VARIANTS: dict[Groups, tuple[Variants, ...]] = {
+    frozenset(): (same_query, one_changed, lambda *_: small_pairs(), brought_back),
+    frozenset({"axis"}): (same_query, one_changed),
+    frozenset({"axis", "heights"}): (one_changed_between_ends,),
+    frozenset({"end"}): (same_query, one_changed, lambda *_: small_sweeps()),
+    frozenset({"end", "axis"}): (same_query, one_changed),
+    frozenset({"end", "axis", "heights"}): (one_changed_between_ends,),
 }
-"""The variants of upright spheroids and of tilted ones, cheap ones first; those between ends have one of their own.
-
-Later ones are tried only if the earlier ones give no simpler row.
-"""
+"""The variants of a row by its groups, cheap ones first: later ones are tried only if these give no simpler row."""
 
 
 @dataclass
@@ -250,10 +251,7 @@ def minimise(target: hunt.HuntTarget, case: ReplayCase) -> Minimised:
     run = Minimised(target)
     row = _row_of(target, case)
     run.steps.append(_start(run, row))
-    variants: tuple[Variants, ...] = _VARIANTS[target.layout][target.layout.has_axis(row)]
-    if target.layout.has_heights(row):
-        variants = (one_changed_between_ends,)
-    while any(_improve(run, variant) for variant in variants):
+    while any(_improve(run, variant) for variant in _VARIANTS[target.layout.groups(row)]):
         pass
     return run
 

@@ -11,6 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.errors import UnavailableError
+from hypcheck.geometry.arithmetic import sign_of
+from hypcheck.geometry.pair import Lengths
 from hypcheck.geometry.rows import Floats
 
 Vertices = Floats
@@ -67,6 +69,12 @@ def distance_to_mesh(vertices: Vertices, triangles: Triangles) -> float:
         return float("nan")
     point = fcl.CollisionObject(fcl.Sphere(0.0))
     return float(fcl.distance(point, mesh, fcl.DistanceRequest(), fcl.DistanceResult()))
+
+
+def side_of_center(lengths: Lengths) -> int:
+    """The exact sign of F(C) = (x² + y²)/α² − z²/γ² − 1: 1 outside the surface, −1 inside, 0 on it."""
+    alpha2, gamma2 = lengths.alpha**2, lengths.gamma**2
+    return sign_of((lengths.x**2 + lengths.y**2 - alpha2) * gamma2 - lengths.z**2 * alpha2)
 
 
 Measure = Callable[[Vertices, Triangles], float]

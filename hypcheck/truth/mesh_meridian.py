@@ -25,10 +25,9 @@ from math import isqrt, sqrt
 
 import numpy as np
 
-from hypcheck.geometry.arithmetic import sign_of
 from hypcheck.geometry.pair import Pair
 from hypcheck.geometry.rows import Floats
-from hypcheck.truth.mesh import Mesh, MeshOutcome, Refinement
+from hypcheck.truth.mesh import Mesh, MeshOutcome, Refinement, side_of_center
 
 UNIT_BITS = 96
 UNIT = 1 << UNIT_BITS
@@ -66,14 +65,12 @@ def meridian_of(pair: Pair) -> Meridian:
     """The pair in its meridian half plane: exact except for two roundings of the centre, whatever the magnitudes."""
     lengths = pair.lengths
     a, c = Fraction(lengths.alpha, lengths.b), Fraction(lengths.gamma, lengths.d)
-    radius2, alpha2, gamma2 = lengths.x**2 + lengths.y**2, lengths.alpha**2, lengths.gamma**2
-    level = (radius2 - alpha2) * gamma2 - lengths.z**2 * alpha2
     return Meridian(
         a=a,
         c=c,
-        rho=isqrt((radius2 << 2 * UNIT_BITS) // lengths.b**2),
+        rho=isqrt((lengths.x**2 + lengths.y**2 << 2 * UNIT_BITS) // lengths.b**2),
         zeta=(abs(lengths.z) << UNIT_BITS) // lengths.d,
-        side=sign_of(level),
+        side=side_of_center(lengths),
         # dr/de < a/2 and dz/de ≤ c: a step of e, 1/one, moves a point by less than 2⁻⁶³ radii.
         one=1 << (64 + (int(max(a, c)) + 1).bit_length()),
     )

@@ -38,10 +38,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from hypcheck.geometry.arithmetic import sign_of
 from hypcheck.geometry.pair import Pair
 from hypcheck.geometry.rows import Floats, Indices, Mask
-from hypcheck.truth.mesh import Mesh, MeshOutcome, Refinement
+from hypcheck.truth.mesh import Mesh, MeshOutcome, Refinement, side_of_center
 
 _MOST_CELLS = 1 << 13
 _LEVELS = 80
@@ -88,7 +87,7 @@ class MeshScene:
         alpha, gamma, b, d, x, y, z = seven
         axis = np.array(_scaled(pair.axis))
         axis /= math.sqrt(float(axis @ axis))
-        self.side, self.solid, self.upright = _side_of_center(pair), bool(pair.solid), pair.is_upright
+        self.side, self.solid, self.upright = side_of_center(pair.lengths), bool(pair.solid), pair.is_upright
         self.alpha, self.gamma, self.centre, self.ends = alpha, gamma, np.array([x, y, z]), ends
         self.root = np.eye(3) / b + (1 / d - 1 / b) * np.outer(axis, axis)
         reach = math.sqrt(b * b + (d * d - b * b) * float(axis[2]) ** 2) * _REACH
@@ -195,13 +194,6 @@ def _cut(scene: MeshScene) -> Refinement:
 def _undecided(side: int, levels: int, reason: str) -> Refinement:
     """The outcome of a search that decides nothing, and why."""
     return Refinement(MeshOutcome.UNDECIDED, side, (), levels, reason=reason)
-
-
-def _side_of_center(pair: Pair) -> int:
-    """The exact sign of F(C) = (x² + y²)/α² − z²/γ² − 1: 1 outside the surface, −1 inside, 0 on it."""
-    lengths = pair.lengths
-    level = (lengths.x**2 + lengths.y**2 - lengths.alpha**2) * lengths.gamma**2 - (lengths.z * lengths.alpha) ** 2
-    return sign_of(level)
 
 
 def _slack_of(size: Floats, root: Floats) -> Floats:

@@ -6,7 +6,7 @@ file, and invalid_rows.py has the rows that must be refused.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any, cast
@@ -43,6 +43,7 @@ from hypcheck.vectors.invalid_rows import InvalidRow, invalid_row_text, invalid_
 
 Offset = tuple[Fraction, Fraction, Fraction]
 Bounds = tuple[float, float]
+ExactRow = Sequence[float | Fraction]
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,19 +98,25 @@ class Vector:
         return Certificate(self.position, witness.multiplier, points, witness.double_root, witness.pieces)
 
 
-def units_of(row: Row) -> tuple[Fraction, Fraction, Fraction]:
+def row_at(row: Row, time: Fraction) -> ExactRow:
+    """The pair at a time of a sweep, in ten numbers."""
+    here = place(row, time)
+    return (*here.row, *here.axis)
+
+
+def units_of(row: ExactRow) -> Offset:
     """The units of the three parts of an offset: b, b, d in a row of seven numbers, else b."""
     b, d = Fraction(row[2]), Fraction(row[3])
     return b, b, b if PAIRS.has_axis(row) else d
 
 
-def point_at(row: Row, offset: Offset) -> Offset:
+def point_at(row: ExactRow, offset: Offset) -> Offset:
     """The point with this offset from the centre."""
     x, y, z = (Fraction(start) + unit * part for start, unit, part in zip(row[4:7], units_of(row), offset, strict=True))
     return x, y, z
 
 
-def offset_to(row: Row, point: Offset) -> Offset:
+def offset_to(row: ExactRow, point: Offset) -> Offset:
     """The offset of a point from the centre."""
     s, t, w = (
         (part - Fraction(start)) / unit for start, unit, part in zip(row[4:7], units_of(row), point, strict=True)
@@ -144,11 +151,11 @@ class SweepVector:
     @property
     def certificate(self) -> PassageCertificate:
         """The certificate of the answer, with points in the caller's coordinates."""
-        witness, b = self.witness, Fraction(self.row[2])
+        witness = self.witness
         if witness.time is None:
             return PassageCertificate(witness.steps)
-        x, y, z = place(self.row, witness.time).row[4:]
-        points = tuple((x + b * s, y + b * t, z + b * w) for s, t, w in witness.offsets)
+        here = row_at(self.row, witness.time)
+        points = tuple(point_at(here, offset) for offset in witness.offsets)
         return PassageCertificate(witness.steps, witness.time, points, witness.double_root)
 
 

@@ -16,7 +16,7 @@ from hypcheck.geometry.pair import Pair, Position
 from hypcheck.geometry.rows import PAIRS
 from hypcheck.truth import exact
 from hypcheck.truth.backward_error import Bracket, bracket, quick_bracket
-from hypcheck.truth.certificate import Certificate, place
+from hypcheck.truth.certificate import Certificate
 from hypcheck.truth.crossing import shortened
 from hypcheck.truth.exact import Decision
 from hypcheck.truth.nearest import nearest
@@ -30,6 +30,7 @@ from hypcheck.vectors.cases import (
     case_fields,
     offset_to,
     point_at,
+    row_at,
 )
 from hypcheck.vectors.family import Row
 from hypcheck.vectors.flags import flags_of, sweep_flags
@@ -73,10 +74,8 @@ def _sweeps(content: Content, cases: Sequence[tuple[str, Row]]) -> list[SweepVec
 
 def _with_proof(name: str, row: Row) -> SweepVector:
     _, first, proof = prove_passage(row)
-    offsets: tuple[Offset, ...] = ()
-    if proof.time is not None:
-        b, (x, y, z) = Fraction(row[2]), place(row, proof.time).row[4:]
-        offsets = tuple(((u - x) / b, (v - y) / b, (w - z) / b) for u, v, w in proof.points)
+    here = row if proof.time is None else row_at(row, proof.time)
+    offsets = tuple(offset_to(here, point) for point in proof.points)
     witness = StoredCertificate(offsets=offsets, double_root=proof.double_root, steps=proof.pieces, time=proof.time)
     return SweepVector(name, row, first, witness, sweep_flags(row, first, proof))
 

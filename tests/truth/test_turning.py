@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Position
-from hypcheck.truth.turning import _all_the_way, _summit, squared_distances, turning
+from hypcheck.truth.turning import _all_along, _summit, squared_distances, turning
 from tests.support.examples import examples
 from tests.support.fractions_truth import exact_position
 
@@ -168,8 +168,8 @@ def test_no_wrong_answer_about_a_turn_is_given_where_its_radius_is_known_to_a_ha
     inner, outer = ((2 + side * b) ** 2 for side in (-1, 1))
     assert truth is (INTERIOR if squared < inner else EXTERIOR if squared > outer else CONTACT)
     row = (Fraction(2), Fraction(3), b, b, Fraction(0), Fraction(0), Fraction(0))
-    assert _all_the_way(row, (squared, squared), (squared, squared), 1) in (None, truth)
-    assert _all_the_way(row, (squared, squared), (squared, squared), 20) is truth
+    assert _all_along(row, (squared, squared), (squared, squared), 1) in (None, truth)
+    assert _all_along(row, (squared, squared), (squared, squared), 20) is truth
 
 
 def test_the_largest_of_a_piece_is_the_summit_where_a_slope_may_still_rise():

@@ -11,7 +11,7 @@ import pytest
 
 from hypcheck.cli.main import main
 from hypcheck.geometry.rows import SWEEPS, invalid
-from hypcheck.runs.hunt_place import TILTED, WAY, sweep_place
+from hypcheck.runs.hunt_place import ORDINARY_SWEEP, TILTED, sweep_place
 from hypcheck.runs.hunt_search import Climber, neighbours
 from hypcheck.runs.minimise import same_query, small_sweeps
 from hypcheck.vectors.cases import read_cases
@@ -104,7 +104,7 @@ def test_way_in_other_coordinates_has_the_same_answer():
         ({}, "contact between two clear ends"),
         ({7: 0.0}, "contact towards the end"),
         ({4: 0.0}, "begun in contact"),
-        ({4: 12.0, 7: 9.0}, WAY),
+        ({4: 12.0, 7: 9.0}, ORDINARY_SWEEP),
         ({7: 6.0, 8: 0.5, 9: 0.25}, "nothing moves"),
         ({4: 2.0, 5: -3.0, 6: 0.0, 7: 2.0, 8: 3.0}, "contact for an instant"),
         ({4: 4.0, 5: 0.0, 6: 0.0, 7: 2.25, 8: 0.0}, "across the ring"),
