@@ -61,6 +61,7 @@ COMPOSED = (
     *("LongIntegers", "LongRuns", "LongSums", "LongProducts", "LongUnits"),
     *("StageFiveAnswers", "StageFiveLimbs", "StageFiveIntegers", "StagesRuns", "Doubles", "StagesOnDoubles"),
     *("FloatSteps", "FloatTexts", "SingleBound", "SingleRuns", "CertifiedText", "CertifiedAnswers", "StagesOfFloats"),
+    "DoubleValues",
 )
 """All stages in one theorem, Stages.whatever_stage_answers; from a stage's numbers to the position; the C of words; the
 functions of the C that decide; the C of long integers."""
@@ -88,7 +89,7 @@ AXIOMS = (
 OF_FLOCQ = "Classical_Prop.classic"
 """The excluded middle, which Flocq uses: what is said of its floats may assume it too."""
 
-ON_FLOCQ = ("Floats", "Ranges", "Underflow", *OF_RUNS)
+ON_FLOCQ = ("Floats", "Ranges", "Underflow", *OF_RUNS, "DoubleValues")
 """The files that say something of Flocq's floats."""
 
 PACKAGES = {
