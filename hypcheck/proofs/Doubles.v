@@ -113,7 +113,7 @@ Proof. intros E; cbn [go]; rewrite E; reflexivity. Qed.
 Lemma go_returned f now e rest v : eval known now e = Some v -> go known [] (S f) now (Returns e :: rest) = Some (Some v, now).
 Proof. intros E; cbn [go]; rewrite E; reflexivity. Qed.
 
-Ltac open text := eval cbv -[Z.land Z.lor Z.eqb Z.add Z.sub Z.mul Z.div Z.modulo Z.pow Z.log2 in_int counted lowest raw_size exponent_bits fraction sign_bit zeros_above W unless_zero] in text.
+Ltac open text := eval cbv -[Z.land Z.lor Z.eqb Z.add Z.sub Z.mul Z.div Z.modulo Z.pow Z.log2 in_int counted lowest raw_size raw_power exponent_bits fraction sign_bit zeros_above W unless_zero] in text.
 Ltac opened := lazymatch goal with |- ?l = ?r => let v := open l in change (v = r) end.
 (** What is defined and what does not leave its type. *)
 Lemma mod_small a : 0 <= a < W -> a mod W = a.
@@ -216,13 +216,14 @@ Proof.
   assert (zero : raw_size w = 0 -> Some (0, 2048, raw_size w) = Some (Z.sgn (whole_of w), odd_power (whole_of w) (power_of w), odd_part (whole_of w))).
   { intros N; assert (Z0 : size_of w = 0) by (apply size_zero; unfold raw_size in N; destruct (Z.eqb_spec (exponent_bits w) 0); lia).
     assert (W0 : whole_of w = 0) by (unfold whole_of; rewrite Z0; destruct (sign_bit w =? 0); reflexivity); rewrite W0, N; reflexivity. }
-  assert (S' : sign_bit w = 0 \/ sign_bit w <> 0) by lia; clear S.
-  destruct R as [(E0 & R & P) | (E1 & R & P)]; next.
-  - change (0 mod W) with 0; rewrite Z.lor_0_r, <- R; next; destruct (Z.eq_dec (raw_size w) 0) as [N | N].
-    + do 5 next; exact (zero N).
-    + destruct (odd_is N) as (L & B & Z0 & -> & ->); rewrite sign_is, P; destruct S' as [S0 | S1]; do 7 next; reflexivity.
-  - rewrite leading_is, mantissa_is, <- R; next; assert (N : raw_size w <> 0) by lia; clear zero.
-    destruct (odd_is N) as (L & B & Z0 & -> & ->); rewrite sign_is, P; destruct S' as [S0 | S1]; do 7 next; reflexivity.
+  rewrite (go_put _ _ _ _ "" "parts.mantissa" _ _ (Of U64 (raw_size w)) (Of U64 (raw_size w))); [| reflexivity | | reflexivity].
+  2: { destruct R as [(E0 & R & _) | (E1 & R & _)]; rewrite R; opened; rewrite fraction_is; eqbs; opened; [rewrite Z.lor_0_r; reflexivity |].
+    rewrite counted_is by (cbn [width]; lia); opened; rewrite leading_is, mantissa_is; reflexivity. }
+  cbn [bound]; rewrite (go_put _ _ _ _ "" "parts.exponent" _ _ (Of Int (raw_power w - 1075)) (Of Int (raw_power w - 1075))); [| reflexivity | | reflexivity].
+  2: { destruct R as [(E0 & _ & R) | (E1 & _ & R)]; rewrite R; evaluated. }
+  assert (P : 1 <= raw_power w < 2 ^ 11) by (destruct R as [(E0 & _ & ->) | (E1 & _ & ->)]; lia); clear R.
+  cbn [bound]; destruct (Z.eq_dec (raw_size w) 0) as [N | N]; [do 5 next; exact (zero N) |]; clear zero.
+  destruct (odd_is N) as (L & B & Z0 & -> & ->); rewrite sign_is; destruct (Z.eq_dec (sign_bit w) 0) as [S0 | S1]; do 7 next; reflexivity.
 Qed.
 
 (** What is read of a double fits, whatever its bits are. *)
