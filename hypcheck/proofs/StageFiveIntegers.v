@@ -5,7 +5,7 @@
     the arguments, which fit its room, and a product leaves a limb free. *)
 
 Require Import List String Ascii ZArith Reals Lia Bool.
-From Hypcheck Require Import Geometry Positions Steps Fixed Limbs Trees LongIntegers LongRuns LongSums LongProducts LongUnits
+From Hypcheck Require Import Geometry Positions Steps Fixed Limbs Trees LongIntegers LongRuns LongOutcomes LongSums LongProducts LongUnits
   StageThreeRuns StageThreeAnswers StageThreeNumbers StageThreePosition StageFive StageFiveAnswers StageFiveLimbs.
 Import ListNotations.
 Open Scope string_scope.
@@ -361,6 +361,9 @@ Definition ends_on_limbs bits functions n given memory (R : datum -> Prop) := ma
   | Some f => match bound_all (map Named (firstn (List.length given) (takes f))) given constants with
     | Some now => goes bits C_rooms zeros steps_of_run now memory (does f) R | None => False end
   | None => False end.
+
+Theorem one_is_returned bits functions n given memory R R' : ends_on_limbs bits functions n given memory R -> ends_on_limbs bits functions n given memory R' -> meet R R'.
+Proof. unfold ends_on_limbs; destruct (look n functions); [destruct (bound_all _ _ _); [apply goes_one | contradiction] | contradiction]. Qed.
 
 Theorem text_is_right : exists f, look "hc_position_by_integers" StageFiveAnswers.functions = Some f /\ takes f = ["row"] /\ is_right_text C_rooms steps_of_run (does f) = true
   /\ forallb (fun p => (0 <=? snd p) && (snd p <? 2 ^ 20)) C_rooms = true /\ forallb (fun p => is_named (fst p)) C_rooms = true.

@@ -6,7 +6,7 @@
     of the text so that every call has what LongSums.v, LongProducts.v and LongUnits.v ask for is said so that Coq computes it. *)
 
 Require Import List String ZArith Lia Bool.
-From Hypcheck Require Import Steps Fixed Limbs Trees LongIntegers LongRuns LongSums LongProducts LongUnits
+From Hypcheck Require Import Steps Fixed Limbs Trees LongIntegers LongRuns LongOutcomes LongSums LongProducts LongUnits
   StageThreeRuns StageFive StageFiveAnswers.
 From Hypcheck Require HeaderText.
 Import ListNotations.
@@ -117,6 +117,21 @@ Fixpoint goes (fuel : nat) (now : environment) m (l : list tree) (R : datum -> P
   | S f, If c yes no :: rest => match evaluated now m c with
     | Some (Of _ z) => goes f now m ((if z =? 0 then no else yes) ++ rest)%list R | _ => False end
   | _, _ => False end.
+
+(** It returns one thing. *)
+Theorem goes_one f : forall now m l R R', goes f now m l R -> goes f now m l R' -> meet R R'.
+Proof.
+  induction f as [| f IH]; intros now m l R R' H H'; cbn [goes] in H, H'; [contradiction |]; destruct l as [| [t n e | g given | c yes no | i count by_ turn | e] rest]; try contradiction.
+  - destruct (is "hc_integer" t).
+    + destruct e as [| | | | h given | | |]; try contradiction; destruct given as [| g given]; try contradiction; destruct g as [| u k | | | | | |]; try contradiction.
+      destruct u; try contradiction; destruct given; try contradiction; destruct H as (_ & _ & _ & H), H' as (_ & _ & _ & H'); exact (IH _ _ _ _ _ H H').
+    + destruct (filling_of t n e) as [[g given] |].
+      * destruct (every (map (given_to now m) (Named n :: given))) as [l |]; [| contradiction].
+        destruct (called_one _ _ _ _ _ _ _ _ _ _ H H') as (v & m' & X & X'); exact (IH _ _ _ _ _ X X').
+      * destruct H as [_ H], H' as [_ H'], (evaluated now m e) as [v |]; try contradiction; destruct (held t v) as [w |]; [exact (IH _ _ _ _ _ H H') | contradiction].
+  - destruct (evaluated now m c) as [d |]; [| contradiction]; destruct d; try contradiction; exact (IH _ _ _ _ _ H H').
+  - destruct (evaluated now m e) as [v |]; [exists v; split; assumption | contradiction].
+Qed.
 
 (** ** What must hold of the text, by computation. *)
 

@@ -49,6 +49,11 @@ Lemma values_are : value_of m e "alpha" = value "alpha" /\ value_of m e "gamma" 
   /\ value_of m e "x" = value "x" /\ value_of m e "y" = value "y" /\ value_of m e "z" = value "z".
 Proof. repeat split; apply value_is; cbn; tauto. Qed.
 Ltac values := destruct values_are as (-> & -> & -> & -> & -> & -> & ->).
+Lemma values_positive : (0 < value "alpha" /\ 0 < value "gamma" /\ 0 < value "b" /\ 0 < value "d")%R.
+Proof.
+  destruct (valid_row w Words accepted_is_valid) as (L & _).
+  repeat split; rewrite <- value_is by (cbn; tauto); apply (sizes_positive m e L); cbn; tauto.
+Qed.
 Lemma pair_is : upright (value_of m e "alpha") (value_of m e "gamma") (value_of m e "b") (value_of m e "d") (value_of m e "x") (value_of m e "y") (value_of m e "z") = pair_of_bits.
 Proof. values; reflexivity. Qed.
 
@@ -64,8 +69,12 @@ Proof.
   - exists a; rewrite <- pair_is; split; assumption.
 Qed.
 
-(** The stages one after another. *)
+(** The stages one after another, with the text of stage 5 on limbs. *)
 Section Stages.
+Variables (bits : Z) (memory : memory) (integers : list datum -> option datum).
+Hypothesis Bits : bits = 32 \/ bits = 64.
+(** There is one thing that it returns: StageFiveIntegers.one_is_returned. *)
+Hypothesis On_limbs : forall v, ends_on_limbs lowest bits StageFiveAnswers.functions "hc_position_by_integers" [row m e] memory (fun x => x = v) -> integers [row m e] = Some v.
 Variables (guessed power_guessed : list datum -> Z) (guess power_of_guess : Z) (tangency single certified : list datum -> option datum) (floats : Z).
 Hypotheses
   (Fourth : exists o, tangency [row m e; Double guess power_of_guess] = Some (Of Int (code o)) /\ forall a, o = Some a ->
@@ -74,13 +83,39 @@ Hypotheses
   (Certified : floats <> 0 -> exists o plus minus, certified [row m e; Of Int 1; Of Int 1] = Some (found o plus minus) /\ forall a, o = Some a -> is_position pair_of_bits a)
   (Undecided : floats = 0 -> exists plus minus decided, certified [row m e; Of Int 1; Of Int 1] = Some (bits_of_stage plus minus decided)).
 Definition valid_on_bits (given : list datum) := returned "hc_valid" [words_of w].
+Definition exact_on_limbs given := called functions (exact_calls tangency integers) (exact_procedures (text_of_fixed guessed power_guessed guess power_of_guess)) "hc_exact_position" given.
 
-Theorem stages_on_doubles : exists a, called_with floats functions (stage_calls single certified valid_on_bits
-  (exact_answer_of_text lowest guessed power_guessed guess power_of_guess tangency)) [] "hc_position_of" [row m e] = Some (Of Int (code (Some a))) /\ is_position pair_of_bits a.
+Lemma exact_on_limbs_is_right : exists a, exact_on_limbs [row m e] = Some (Of Int (code (Some a))) /\ is_position pair_of_bits a.
 Proof.
-  destruct (valid_row w Words accepted_is_valid) as (L & C & P & M); rewrite <- pair_is in *.
-  apply (stages_are_right m e lowest lowest_counts L C P M guessed power_guessed guess power_of_guess tangency); try assumption.
-  values; exact Fourth.
+  destruct (valid_row w Words accepted_is_valid) as (L & C & P & _), (limbs_on_doubles bits memory Bits) as (a5 & R5 & E5); apply On_limbs in E5.
+  destruct (text_answers_the_position m e P L C guessed power_guessed) as (o3 & E3 & R3), Fourth as (o4 & E4 & R4); rewrite pair_is in R3.
+  exists (or_else o3 (or_else o4 a5)); split.
+  - assert (F3 : text_of_fixed guessed power_guessed guess power_of_guess [row m e] = Some [Of Int (code o3); Double guess power_of_guess])
+      by (unfold text_of_fixed; unfold answer_of_text in E3; rewrite E3; reflexivity).
+    exact (exact_text m e _ tangency integers o3 o4 a5 guess power_of_guess F3 (fun _ => E4) (fun _ _ => E5)).
+  - destruct o3 as [a |]; [exact (R3 a eq_refl) |]; destruct o4 as [a |]; [| exact R5]; cbn [or_else].
+    destruct values_positive as (A & G & B & D); exact (whatever_stage_answers _ _ _ _ _ _ _ A G B D a (R4 a eq_refl)).
+Qed.
+Theorem stages_on_doubles : exists a, called_with floats functions (stage_calls single certified valid_on_bits exact_on_limbs) [] "hc_position_of" [row m e] =
+  Some (Of Int (code (Some a))) /\ is_position pair_of_bits a.
+Proof.
+  destruct exact_on_limbs_is_right as (a & E & R); destruct (Z.eq_dec floats 0) as [F | F].
+  - destruct (Undecided F) as (plus & minus & decided & C); exists a; split; [| exact R].
+    rewrite (position_text m e single certified valid_on_bits exact_on_limbs floats true None None a plus minus decided); [| contradiction | exists (bits_of_stage plus minus decided); auto | exact Accepted | auto].
+    unfold answer_of_all, exact_or_refused; rewrite (proj2 (Z.eqb_eq floats 0) F); reflexivity.
+  - destruct (Single F) as (o1 & E1 & R1), (Certified F) as (o2 & plus & minus & E2 & R2); exists (or_else o1 (or_else o2 a)); split.
+    + rewrite (position_text m e single certified valid_on_bits exact_on_limbs floats true o1 o2 a plus minus 0); [| auto | exists (found o2 plus minus); auto | exact Accepted | auto].
+      unfold answer_of_all, exact_or_refused; rewrite (proj2 (Z.eqb_neq floats 0) F); destruct o1, o2; reflexivity.
+    + destruct o1 as [c |]; [exact (R1 c eq_refl) |]; destruct o2 as [c |]; [exact (R2 c eq_refl) | exact R].
 Qed.
 End Stages.
 End Rows.
+
+(** A row that is not valid is refused, unless one pair or stage 2 answers. *)
+Theorem invalid_is_refused w m e single certified exact floats o1 o2 plus minus : returned "hc_valid" [words_of w] = Some (Of Int 0) ->
+  single [row m e] = Some (Of Int (code o1)) -> certified [row m e; Of Int 1; Of Int 1] = Some (found o2 plus minus) -> floats = 0 \/ o1 = None /\ o2 = None ->
+  called_with floats functions (stage_calls single certified (valid_on_bits w) exact) [] "hc_position_of" [row m e] = Some (Of Int refused).
+Proof.
+  intros V S C A; rewrite (position_text m e single certified (valid_on_bits w) exact floats false o1 o2 Contact plus minus 0); [| auto | exists (found o2 plus minus); auto | exact V | discriminate].
+  unfold answer_of_all, exact_or_refused; destruct (Z.eqb_spec floats 0) as [| N]; [reflexivity |]; destruct A as [| [-> ->]]; [contradiction | reflexivity].
+Qed.

@@ -58,7 +58,7 @@ COMPOSED = (
     *("StageThree", "StageFive", "Long", "StageFour", "Limbs", "LimbsRuns", "ShiftRuns"),
     *("Trees", "Computed", "StageThreeRuns", "StageThreeAnswers", "StageThreeNumbers", "StageThreePosition"),
     *("StageFourSteps", "StageFourPlane"),
-    *("LongIntegers", "LongRuns", "LongSums", "LongProducts", "LongUnits"),
+    *("LongIntegers", "LongOutcomes", "LongRuns", "LongSums", "LongProducts", "LongUnits"),
     *("StageFiveAnswers", "StageFiveLimbs", "StageFiveIntegers", "StagesRuns", "Doubles", "StagesOnDoubles"),
     *("FloatSteps", "FloatTexts", "SingleBound", "SingleRuns", "CertifiedText", "CertifiedAnswers", "StagesOfFloats"),
     "DoubleValues",
