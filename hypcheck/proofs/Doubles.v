@@ -26,7 +26,7 @@ Definition changing := [(["+="], "+"); (["-="], "-"); (["|"; "="], "|"); (["<<";
 Fixpoint changed_by (l : list (list string * string)) (ws : list string) : option (string * list string) := match l with
   | [] => None
   | (shape, o) :: others => match behind shape ws with Some (_, rest) => Some (o, rest) | None => changed_by others ws end end.
-Definition counts_of (n : string) := map snd (firstn (match Steps.whole n 0 with Some z => Z.to_nat z | None => O end) places).
+Definition counts_of (n : string) := try z <- Steps.whole n 0; if z <=? Z.of_nat (List.length places) then Some (map snd (firstn (Z.to_nat z) places)) else None.
 Fixpoint plainer (fuel : nat) (ws : list string) : list string := match fuel, ws with
   | S f, w :: rest => match behind ["memcpy"; "("; ""; ","; ""] ws, behind loop ws, changed_by changing rest with
     | Some ([x; a], more), _, _ => match behind [","; "sizeof"; ""; ")"] more, behind ["+"; ""; ","; "sizeof"; ""; ")"] more with
@@ -34,7 +34,9 @@ Fixpoint plainer (fuel : nat) (ws : list string) : list string := match fuel, ws
       | _, Some ([i; y], last) => if is x y then (x :: "=" :: "bits_of" :: "(" :: a :: "[" :: i :: "]" :: ")" :: plainer f last)%list else ws
       | _, _ => ws end
     | _, Some ([i; i'; n; i''], inner), _ => let (l, last) := until_closed 1 inner in
-      if is i i' && is i i'' then (flat_map (fun k => i :: "=" :: k :: ";" :: plainer f l) (counts_of n) ++ plainer f last)%list else ws
+      match counts_of n with
+      | Some turns => if is i i' && is i i'' then (flat_map (fun k => i :: "=" :: k :: ";" :: plainer f l) turns ++ plainer f last)%list else ws
+      | None => ws end
     | _, _, Some (o, more) => let (e, last) := until_semicolon more in (w :: "=" :: w :: o :: "(" :: e ++ ")" :: ";" :: plainer f last)%list
     | _, _, _ => w :: plainer f rest end
   | _, _ => ws end.

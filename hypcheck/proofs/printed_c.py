@@ -168,6 +168,11 @@ def floats(header: str) -> list[str]:
     return [*_texts(FLOATS, header), *found]
 
 
+def of_doubles(header: str) -> list[str]:
+    """The texts of the functions that read the bits of doubles."""
+    return _texts(OF_DOUBLES, header)
+
+
 def _texts(names: tuple[str, ...], header: str) -> list[str]:
     found = [re.search(_FUNCTION.format(name), header, re.MULTILINE | re.DOTALL) for name in names]
     return [text[0] for text in found if text]
@@ -182,7 +187,7 @@ def header_text() -> str:
         ";\n".join(f"  {_quoted(function)}%text" for function in found)
         for found in (
             *(functions(text), deciding(text), beside_tangency(text), integers(text)),
-            *(_texts(OF_DOUBLES, text), floats(text)),
+            *(of_doubles(text), floats(text)),
         )
     )
     return (
@@ -247,7 +252,7 @@ def integer_changes() -> Iterator[tuple[str, str, str]]:
 
 def double_changes() -> Iterator[tuple[str, str, str]]:
     """The same of the functions that read the bits of doubles."""
-    yield from _changes_of(OF_DOUBLES, _texts(OF_DOUBLES, HEADER.read_text(encoding="utf-8")))
+    yield from _changes_of(OF_DOUBLES, of_doubles(HEADER.read_text(encoding="utf-8")))
 
 
 def _changes_of(names: tuple[str, ...], texts: list[str]) -> Iterator[tuple[str, str, str]]:

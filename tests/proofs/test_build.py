@@ -209,7 +209,7 @@ def test_each_function_of_words_is_changed_in_the_file_that_says_what_it_compute
 
 def test_changes_of_functions_that_decide_reach_every_function_in_the_file_that_runs_it():
     header = printed_c.HEADER.read_text(encoding="utf-8")
-    of_doubles = printed_c._texts(printed_c.OF_DOUBLES, header)
+    of_doubles = printed_c.of_doubles(header)
     deciding = (*printed_c.deciding(header), *printed_c.beside_tangency(header))
     texts = (*deciding, *of_doubles, *printed_c.floats(header))
     exact = (*printed_c.MACROS, *printed_c.DECIDING, *printed_c.BESIDE_TANGENCY)
