@@ -2,26 +2,17 @@
     nothing, for all lengths below 2^62. *)
 
 Require Import List String ZArith Reals Lia Bool.
-From Hypcheck Require Import Steps Fixed FixedRuns Long Limbs LimbsRuns Computed Trees StageThreeRuns StageThreeAnswers Stages Positions StageFour StageFourSteps.
+From Hypcheck Require Import Steps Fixed FixedRuns Long Limbs LimbsRuns Computed Trees PlainerTexts StageThreeRuns StageThreeAnswers Stages Positions StageFour StageFourSteps.
 From Hypcheck Require HeaderText.
 Import ListNotations.
 Open Scope string_scope.
 Open Scope Z_scope.
 
 (** The text of the functions. *)
-Definition texts := map (fun text => deciding_of (string_of text)) HeaderText.beside_tangency.
+Definition texts := map (fun text => read_from (string_of text)) HeaderText.beside_tangency.
 Definition functions := Eval vm_compute in match every texts with Some l => l | None => [] end.
 Theorem texts_are_read : texts = map Some functions.
 Proof. vm_compute; reflexivity. Qed.
-
-(** ** What they have in common: lengths by their names. *)
-
-Definition named := StageThreeRuns.lengths.
-Definition words_of_lengths (ls : string -> Z) := combine ["0"; "1"; "2"; "3"; "4"; "5"; "6"] (map (fun n => Of U64 (ls n)) named).
-Definition names_lengths count := map (fun p => Set_ "uint64_t" (snd p) (Part (Named "lengths") (Constant Int (fst p)))) (firstn count (combine [0; 1; 2; 3; 4; 5; 6] named)).
-Definition steps_in kinds l := match statements_of kinds l with Some (k, _) => k | None => [] end.
-Definition widths_after kinds l := match statements_of kinds l with Some (_, last) => last | None => [] end.
-Definition of_lengths count := map (fun n => (n, 64)) (firstn count named).
 
 (** The bits of a number whose interval is computed. *)
 Lemma found_pattern num v inner inputs l n w : all_hold num v inputs -> Forall (runs num v inner) l ->
@@ -32,20 +23,8 @@ Proof.
   apply Z.eqb_eq in E; subst w; exact (proj1 (intervals_hold num v inner l inputs known I R K n i L)).
 Qed.
 
-(** Whether a number is below 0. *)
-Lemma negative_fixed z : 0 <= z < 2 ^ 128 -> negative (words_of z) = if 2 ^ 127 <=? z then W - 1 else 0.
-Proof.
-  intros [Z0 Z1]; unfold negative, words_of; cbn [high_word]; pose proof (Z.div_mod z W ltac:(discriminate)); pose proof (mod_word z) as [M0 M1].
-  change (W / 2) with 9223372036854775808; change (2 ^ 127) with (9223372036854775808 * W).
-  destruct (Z.leb_spec 9223372036854775808 (z / W)), (Z.leb_spec (9223372036854775808 * W) z); try reflexivity; unfold W in *; lia.
-Qed.
-Lemma negative_long z : 0 <= z < 2 ^ 256 -> (bits256 / 2 <=? long_pattern (long_of z)) = (2 ^ 255 <=? z).
-Proof. intros H; rewrite (proj2 (long_of_is z H)); reflexivity. Qed.
-
 (** ** The plane. *)
 
-Definition is_negative_fixed n := Called "hc_fixed_negative" [Named n].
-Definition is_negative_long n := Called "hc_long_is_negative" [Named n].
 Definition minus_one := Infix "-" (Constant Int 0) (Constant Int 1).
 (** The steps before W, the discriminant and the sides. *)
 Definition before_size := firstn 11 C_waist.
@@ -85,24 +64,13 @@ Proof.
   apply Forall_forall; intros s I; apply (proj1 (Forall_forall _ _) Runs); rewrite <- (firstn_skipn from C_waist); apply in_or_app; right.
   rewrite <- (firstn_skipn l (skipn from C_waist)); apply in_or_app; left; exact I.
 Qed.
-Lemma of_themselves n f : look n of_longs = Some f -> look n of_longs = Some f.
-Proof. trivial. Qed.
-
-(** Questions to a number that is there. *)
-Lemma ask_fixed now n : there num now n 128 -> eval of_longs now (is_negative_fixed n) = Some (Of U64 (if 2 ^ 127 <=? num n then W - 1 else 0)).
-Proof. intros (_ & L & B); rewrite <- negative_fixed by exact B; unfold is_negative_fixed; cbn [eval map every]; rewrite L; reflexivity. Qed.
-Lemma ask_long now n : there num now n 256 -> eval of_longs now (is_negative_long n) = Some (Of Int (if 2 ^ 255 <=? num n then 1 else 0)).
-Proof. intros (_ & L & B); rewrite <- negative_long by exact B; unfold is_negative_long; cbn [eval map every]; rewrite L; reflexivity. Qed.
-
-Ltac steps_of H S := erewrite (proj1 H), ?app_nil_r; pose proof (proj2 H) as S.
-
 Theorem run_text : called functions of_longs [] "hc_position_in_plane" [Rec (words_of_lengths ls)]
   = Some (Of Int (code (in_plane (2 ^ 255 <=? num "excess") (2 ^ 127 <=? num "W") (2 ^ 127 <=? num "W_p_2") (2 ^ 255 <=? num "room")))).
 Proof.
   unfold called; rewrite text_is; cbn [takes does List.length firstn map].
   destruct (bound_all [Named "lengths"] [Rec (words_of_lengths ls)] constants) as [now |] eqn:E; [| discriminate].
   change steps with (6 + (11 + S (3 + S (6 + 72))))%nat; rewrite (beginning_runs _ _ _ E); clear E now.
-  destruct (steps_run num v false [] of_longs of_themselves before_size (of_lengths 6) (widths_after (of_lengths 6) before_size) (steps_in (of_lengths 6) before_size) begun
+  destruct (steps_run num v false [] of_longs (fun n f E => E) before_size (of_lengths 6) (widths_after (of_lengths 6) before_size) (steps_in (of_lengths 6) before_size) begun
     (S (3 + S (6 + 72))) (Set_ "hc_fixed" "size" (Choice (is_negative_fixed "W") (Named "opposite") (Named "W")) :: steps_in with_size of_excess
     ++ If (Infix "==" (is_negative_long "excess") (Constant Int 0)) [Returns (Constant Int 0)] [] :: steps_in (widths_after with_size of_excess) of_sides ++ sides)%list)
     as [G S1]; [vm_compute; reflexivity | exact begun_sound | discriminate | vm_compute; reflexivity | vm_compute; reflexivity | exact (run_of 11 0) |].
@@ -110,7 +78,7 @@ Proof.
   assert (there_W : there num now "W" 128) by (apply S1; vm_compute; reflexivity).
   assert (there_opposite : there num now "opposite" 128) by (apply S1; vm_compute; reflexivity).
   assert (value : eval of_longs now (Choice (is_negative_fixed "W") (Named "opposite") (Named "W")) = Some (datum_of 128 (num "size"))).
-  { rewrite (eval_chosen _ _ _ _ _ _ _ (ask_fixed now "W" there_W)), Size; destruct (2 ^ 127 <=? num "W"); apply eval_named; [apply there_opposite | apply there_W]. }
+  { rewrite (eval_chosen _ _ _ _ _ _ _ (ask_fixed num of_longs (fun n f E => E) now "W" there_W)), Size; destruct (2 ^ 127 <=? num "W"); apply eval_named; [apply there_opposite | apply there_W]. }
   assert (Size_fits : 0 <= num "size" < 2 ^ 128) by (rewrite Size; destruct (2 ^ 127 <=? num "W"); [apply there_opposite | apply there_W]).
   cbn [app].
   erewrite (go_put _ _ _ _ "hc_fixed" "size"); [| vm_compute; reflexivity | exact value | reflexivity].
@@ -119,25 +87,25 @@ Proof.
   { intros n w L; cbn [with_size look] in L; destruct (String.eqb_spec "size" n) as [<- | D].
     - injection L as <-; split; [right; left; reflexivity |]; split; [reflexivity | exact Size_fits].
     - destruct (S1 n w L) as (K & L' & B); split; [exact K |]; unfold now'; cbn [look]; rewrite (proj2 (String.eqb_neq _ _) D); split; assumption. }
-  destruct (steps_run num v false [] of_longs of_themselves of_excess with_size (widths_after with_size of_excess) (steps_in with_size of_excess) now'
+  destruct (steps_run num v false [] of_longs (fun n f E => E) of_excess with_size (widths_after with_size of_excess) (steps_in with_size of_excess) now'
     (S (6 + 72)) (If (Infix "==" (is_negative_long "excess") (Constant Int 0)) [Returns (Constant Int 0)] [] :: steps_in (widths_after with_size of_excess) of_sides ++ sides)%list)
     as [G S2]; [vm_compute; reflexivity | exact S' | discriminate | vm_compute; reflexivity | vm_compute; reflexivity | exact (run_of 3 11) |].
   change (List.length of_excess) with 3%nat in G; rewrite G; clear G; set (now2 := after num with_size of_excess now') in *.
   assert (asked : eval of_longs now2 (Infix "==" (is_negative_long "excess") (Constant Int 0)) = Some (Of Int (if 2 ^ 255 <=? num "excess" then 0 else 1))).
-  { eapply eval_infix; [reflexivity | apply ask_long, S2; vm_compute; reflexivity | reflexivity |]; destruct (2 ^ 255 <=? num "excess"); reflexivity. }
+  { eapply eval_infix; [reflexivity | apply (ask_long num of_longs (fun n f E => E)), S2; vm_compute; reflexivity | reflexivity |]; destruct (2 ^ 255 <=? num "excess"); reflexivity. }
   rewrite (go_chosen _ _ _ _ _ _ _ _ _ _ asked); clear asked; unfold in_plane; destruct (2 ^ 255 <=? num "excess"); cbn [Z.eqb negb app];
     [| change (6 + 72)%nat with (S 77); erewrite go_return by reflexivity; reflexivity].
-  destruct (steps_run num v false [] of_longs of_themselves of_sides (widths_after with_size of_excess) (widths_after (widths_after with_size of_excess) of_sides)
+  destruct (steps_run num v false [] of_longs (fun n f E => E) of_sides (widths_after with_size of_excess) (widths_after (widths_after with_size of_excess) of_sides)
     (steps_in (widths_after with_size of_excess) of_sides) now2 72 sides) as [G S3];
     [vm_compute; reflexivity | exact S2 | discriminate | vm_compute; reflexivity | vm_compute; reflexivity | exact (run_of 6 14) |].
   change (List.length of_sides) with 6%nat in G; rewrite G; clear G; set (now3 := after num _ of_sides now2) in *; unfold sides.
-  assert (asked : eval of_longs now3 (is_negative_fixed "W") = Some (Of U64 (if 2 ^ 127 <=? num "W" then W - 1 else 0))) by (apply ask_fixed, S3; vm_compute; reflexivity).
+  assert (asked : eval of_longs now3 (is_negative_fixed "W") = Some (Of U64 (if 2 ^ 127 <=? num "W" then W - 1 else 0))) by (apply (ask_fixed num of_longs (fun n f E => E)), S3; vm_compute; reflexivity).
   rewrite (go_chosen _ _ _ _ _ _ _ _ _ _ asked); clear asked; destruct (2 ^ 127 <=? num "W"); cbn [Z.eqb app].
   - change (W - 1 =? 0) with false; cbv iota; cbn [app].
     rewrite (go_return _ _ _ _ _ _ (Of Int (if 2 ^ 127 <=? num "W_p_2" then 0 else -1))); [destruct (2 ^ 127 <=? num "W_p_2"); reflexivity |].
-    rewrite (eval_chosen _ _ _ _ _ _ _ (ask_fixed now3 "W_p_2" ltac:(apply S3; vm_compute; reflexivity))); destruct (2 ^ 127 <=? num "W_p_2"); reflexivity.
+    rewrite (eval_chosen _ _ _ _ _ _ _ (ask_fixed num of_longs (fun n f E => E) now3 "W_p_2" ltac:(apply S3; vm_compute; reflexivity))); destruct (2 ^ 127 <=? num "W_p_2"); reflexivity.
   - rewrite (go_return _ _ _ _ _ _ (Of Int (if 2 ^ 255 <=? num "room" then 2 else 1))); [destruct (2 ^ 255 <=? num "room"); reflexivity |].
-    rewrite (eval_chosen _ _ _ _ _ _ _ (ask_long now3 "room" ltac:(apply S3; vm_compute; reflexivity))); destruct (2 ^ 255 <=? num "room"); reflexivity.
+    rewrite (eval_chosen _ _ _ _ _ _ _ (ask_long num of_longs (fun n f E => E) now3 "room" ltac:(apply S3; vm_compute; reflexivity))); destruct (2 ^ 255 <=? num "room"); reflexivity.
 Qed.
 End Run.
 

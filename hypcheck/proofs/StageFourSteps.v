@@ -57,6 +57,12 @@ Definition of_longs : list (string * (list datum -> option datum)) := [
   ("hc_long_is_zero", fun given => match given with [Lng a] => Some (Of Int (if long_pattern a =? 0 then 1 else 0)) | _ => None end);
   ("hc_long_is_negative", fun given => match given with [Lng a] => Some (Of Int (if bits256 / 2 <=? long_pattern a then 1 else 0)) | _ => None end)].
 
+(** ** Lengths by their names. *)
+
+Definition named := StageThreeRuns.lengths.
+Definition words_of_lengths (ls : string -> Z) := combine ["0"; "1"; "2"; "3"; "4"; "5"; "6"] (map (fun n => Of U64 (ls n)) named).
+Definition names_lengths count := map (fun p => Set_ "uint64_t" (snd p) (Part (Named "lengths") (Constant Int (fst p)))) (firstn count (combine [0; 1; 2; 3; 4; 5; 6] named)).
+
 (** ** A step as a statement. *)
 
 Definition datum_of w z := if w =? 64 then Of U64 z else if w =? 128 then Fix (words_of z) else Lng (long_of z).
@@ -82,6 +88,23 @@ Fixpoint statements_of (kinds : widths) (l : list step) : option (list tree * wi
   | s :: rest => try w <- width_of kinds s;
     if existsb (fun t => String.eqb (name t) (name s)) rest then None else
     try (k, last) <- statements_of ((name s, w) :: kinds) rest; Some (Set_ (type_of_bits w) (name s) (value_of_step s) :: k, last) end.
+
+Definition steps_in kinds l := match statements_of kinds l with Some (k, _) => k | None => [] end.
+Definition widths_after kinds l := match statements_of kinds l with Some (_, last) => last | None => [] end.
+Definition of_lengths count : widths := map (fun n => (n, 64)) (firstn count named).
+
+(** Whether a number is below 0. *)
+Lemma negative_fixed z : 0 <= z < 2 ^ 128 -> negative (words_of z) = if 2 ^ 127 <=? z then W - 1 else 0.
+Proof.
+  intros [Z0 Z1]; unfold negative, words_of; cbn [high_word]; pose proof (Z.div_mod z W ltac:(discriminate)); pose proof (mod_word z) as [M0 M1].
+  change (W / 2) with 9223372036854775808; change (2 ^ 127) with (9223372036854775808 * W).
+  destruct (Z.leb_spec 9223372036854775808 (z / W)), (Z.leb_spec (9223372036854775808 * W) z); try reflexivity; unfold W in *; lia.
+Qed.
+Lemma negative_long z : 0 <= z < 2 ^ 256 -> (bits256 / 2 <=? long_pattern (long_of z)) = (2 ^ 255 <=? z).
+Proof. intros H; rewrite (proj2 (long_of_is z H)); reflexivity. Qed.
+
+Definition is_negative_fixed n := Called "hc_fixed_negative" [Named n].
+Definition is_negative_long n := Called "hc_long_is_negative" [Named n].
 
 Section Run.
 Variables (num v : string -> Z) (inner : bool) (procedures : list (string * (nat * (list datum -> option (list datum))))).
@@ -171,6 +194,28 @@ Proof.
     cbn [operation] in *; unfold is in Side; rewrite RO in Side; specialize (Side eq_refl); cbn [eval]; unfold knows_side in Side; rewrite Side; destruct inner; cbn [Z.eqb]; [rewrite LA | rewrite LC]; split; trivial.
 Qed.
 
+(** More names, and other numbers. *)
+Lemma look_pushed {A} (pushed now : list (string * A)) n : is_in n (map fst pushed) = false -> look n (pushed ++ now) = look n now.
+Proof.
+  induction pushed as [| [m d] pushed IH]; intros H; [reflexivity |]; cbn in H; apply orb_false_elim in H as [H1 H2].
+  cbn [app look]; rewrite String.eqb_sym, H1; exact (IH H2).
+Qed.
+Lemma sound_pushed kinds pushed now : sound kinds now -> forallb (fun p => negb (is_in (fst p) (map fst pushed))) kinds = true -> sound kinds (pushed ++ now)%list.
+Proof.
+  intros S O n w E; destruct (S n w E) as (K & L & B); split; [exact K |]; rewrite look_pushed; [split; assumption |].
+  apply look_in in E; rewrite forallb_forall in O; apply negb_true_iff, (O (n, w) E).
+Qed.
+
+(** Questions to a number that is there. *)
+Lemma ask_fixed now n : there now n 128 -> eval known now (is_negative_fixed n) = Some (Of U64 (if 2 ^ 127 <=? num n then W - 1 else 0)).
+Proof.
+  intros (_ & L & B); rewrite <- negative_fixed by exact B; unfold is_negative_fixed; cbn [eval map every]; rewrite L, (Known "hc_fixed_negative" _ eq_refl); reflexivity.
+Qed.
+Lemma ask_long now n : there now n 256 -> eval known now (is_negative_long n) = Some (Of Int (if 2 ^ 255 <=? num n then 1 else 0)).
+Proof.
+  intros (_ & L & B); rewrite <- negative_long by exact B; unfold is_negative_long; cbn [eval map every]; rewrite L, (Known "hc_long_is_negative" _ eq_refl); reflexivity.
+Qed.
+
 Lemma held_datum w z : is_width w -> held (type_of_bits w) (datum_of w z) = Some (datum_of w z).
 Proof. intros [-> | [-> | ->]]; reflexivity. Qed.
 Lemma bound_datum n w z now : is_width w -> bound n (datum_of w z) now = (n, datum_of w z) :: now.
@@ -202,11 +247,17 @@ Proof.
 Qed.
 End Run.
 
+Lemma sound_alike num num' kinds now : sound num kinds now -> (forall n w, In (n, w) kinds -> num' n = num n) -> sound num' kinds now.
+Proof. intros S A n w E; destruct (S n w E) as (K & L & B); split; [exact K |]; rewrite (A n w (look_in _ _ _ E)); split; assumption. Qed.
+
 (** A name, a choice and a branch. *)
 Lemma eval_named known now n d : look n now = Some d -> eval known now (Named n) = Some d.
 Proof. intros E; cbn [eval]; rewrite E; reflexivity. Qed.
 Lemma eval_chosen known now c a b t z : eval known now c = Some (Of t z) -> eval known now (Choice c a b) = if z =? 0 then eval known now b else eval known now a.
 Proof. intros E; cbn [eval]; rewrite E; reflexivity. Qed.
+Lemma eval_or known now l r t x u y : eval known now l = Some (Of t x) -> eval known now r = Some (Of u y) ->
+  eval known now (Infix "||" l r) = Some (Of Int (if x =? 0 then if y =? 0 then 0 else 1 else 1)).
+Proof. intros L R; cbn [eval]; rewrite L; destruct (x =? 0); [rewrite R; cbn; destruct (y =? 0) |]; reflexivity. Qed.
 Lemma go_chosen known procedures f now c yes no rest t z : eval known now c = Some (Of t z) ->
   go known procedures (S f) now (If c yes no :: rest) = go known procedures f now ((if z =? 0 then no else yes) ++ rest)%list.
 Proof. intros E; cbn [go]; rewrite E; reflexivity. Qed.

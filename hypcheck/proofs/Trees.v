@@ -2,8 +2,9 @@
 
     As in Limbs.v, but a number of words is one value, whatever its words are, structs have fields by name, and arguments that are
     addresses of variables get what the function called puts there. A function that is called computes what is said of it. What is
-    read declares constants and variables, puts values into them, calls functions, branches, counts and returns. An integer of any length
-    has room for so many bits, and is a whole number with a sign as soon as a function has filled it.
+    read declares constants and variables, puts values into them and into arrays, calls functions, branches, counts and returns. An integer
+    of any length has room for so many bits, and is a whole number with a sign as soon as a function has filled it. An array of structs
+    is a struct of arrays.
 
     A float that a step computes is known by the name of that step alone, and what operators make of it is said of them as of functions. *)
 
@@ -17,7 +18,8 @@ Open Scope Z_scope.
 
 Inductive tree := Set_ (type : string) (n : string) (e : expression) (* "" for a variable that is there *)
   | Calling (f : string) (given : list expression) | If (c : expression) (yes no : list tree)
-  | Turns (i : string) (count by_ : expression) (l : list tree) (* for (; i < count; i += by) *) | Returns (e : expression).
+  | Turns (i : string) (count by_ : expression) (l : list tree) (* for (; i < count; i += by) *)
+  | Place (a : string) (i e : expression) (* a[i] = e *) | Returns (e : expression).
 Record deciding := Deciding { takes : list string; does : list tree }.
 
 (** Fields of what a pointer leads to are named like others, and so is what it points at; an address is a name. *)
@@ -32,9 +34,11 @@ Fixpoint tidy (ws : list string) : list string := match ws with
 Definition types := ["int"; "uint64_t"; "double"; "hc_fixed"; "hc_long"; "hc_parts"; "hc_fixed_terms"; "hc_fixed_cubic"; "hc_bits"; "HC_NUMBER"; "HC_TRUTH"].
 
 (** A function that returns a value and puts others: the value is the first that it puts. *)
-Definition answering := ["hc_fixed_position"].
+Definition answering := ["hc_fixed_position"; "hc_short_lengths"].
 Definition setting t n e := match e with
-  | Called f (given :: rest) => if is_in f answering then Calling f (given :: Named n :: rest) else Set_ t n e | _ => Set_ t n e end.
+  | Called f (given :: rest) => if is_in f answering then Calling f (given :: Named n :: rest) else Set_ t n e
+  | Choice c a (Called f (given :: rest)) => if is_in f answering then If c [Set_ t n a] [Calling f (given :: Named n :: rest)] else Set_ t n e
+  | _ => Set_ t n e end.
 
 (** Names behind a type, those with values; and assignments. *)
 Fixpoint names_of (fuel : nat) (t : string) (ws : list string) : option (list tree * list string) := match fuel, ws with
@@ -64,17 +68,21 @@ Fixpoint statement_of (fuel : nat) (ws : list string) : option (list tree * list
       match behind ["else"] more' with
       | Some (_, other) => try (no, last) <- statement_of f other; Some ([If c yes no], last)
       | None => Some ([If c yes []], more') end
-    else if is "for" w then match behind ["("; ""; "="; "0"; ";"; ""; "<"] rest with
-      | Some ([i; j], inner) => try (count, more) <- expression_to ";" inner; match behind [""; "+="] more with
-        | Some ([k], more') => try (by_, body) <- expression_to ")" more'; try (l, last) <- statement_of f body;
-          if is i j && is i k then Some ([Set_ "" i (Constant Int 0); Turns i count by_ l], last) else None
-        | _ => None end
+    else if is "for" w then match behind ["("; ""; "="; ""; ";"; ""; "<"] rest with
+      | Some ([i; first; j], inner) => try start <- atom first; try (count, more) <- expression_to ";" inner;
+        try (k, by_, body) <- match behind [""; "+="] more, behind [""; "++"; ")"] more with
+          | Some ([k], more'), _ => try (by_, body) <- expression_to ")" more'; Some (k, by_, body)
+          | _, Some ([k], body) => Some (k, Constant Int 1, body)
+          | _, _ => None end;
+        try (l, last) <- statement_of f body; if is i j && is i k then Some ([Set_ "" i start; Turns i count by_ l], last) else None
       | _ => None end
     else if is "const" w then match rest with t :: names => if is_in t types then names_of enough t names else None | [] => None end
     else if is_in w types then names_of enough w rest
-    else match behind ["|"; "="] rest with
-    | Some (_, value) => try (e, more) <- expression_to ";" value; Some ([Set_ "" w (Infix "|" (Named w) e)], more)
-    | None => match behind ["("] rest with
+    else match behind ["|"; "="] rest, behind ["["] rest with
+    | Some (_, value), _ => try (e, more) <- expression_to ";" value; Some ([Set_ "" w (Infix "|" (Named w) e)], more)
+    | _, Some (_, inner) => try (i, more) <- expression_to "]" inner; try (_, value) <- behind ["="] more;
+      try (e, last) <- expression_to ";" value; Some ([Place w i e], last)
+    | _, _ => match behind ["("] rest with
     | Some (_, inner) => try (l, more) <- listed_to enough ")" inner; try (_, last) <- behind [";"] more; Some ([calling w l], last)
     | None => names_of enough "" ws end end
   | _, _ => None end
@@ -141,9 +149,10 @@ Fixpoint eval (now : environment) (e : expression) : option datum := match e wit
       if String.eqb o "&&" then if x =? 0 then Some (Of Int 0) else try v <- eval now r; truth v
       else if String.eqb o "||" then if x =? 0 then try v <- eval now r; truth v else Some (Of Int 1)
       else match eval now r with Some (Of u y) => plain_infix o t x u y
-        | Some (Opaque n k) => try m <- look o known; m [Of t x; Opaque n k] | _ => None end
+        | Some v => try m <- look o known; m [Of t x; v] | None => None end
     | Some (Opaque n k) => try v <- eval now r; try m <- look o known; m [Opaque n k; v]
-    | Some (Double m k) => match eval now r with Some (Double n j) => try z <- compare_doubles o m k n j; Some (Of Int z) | _ => None end
+    | Some (Double m k) => match eval now r with Some (Double n j) => try z <- compare_doubles o m k n j; Some (Of Int z)
+      | Some v => try f <- look o known; f [Double m k; v] | None => None end
     | _ => None end
   | Choice c a b => match eval now c with Some (Of _ z) => if z =? 0 then eval now b else eval now a | _ => None end
   | Called f given => try m <- look f known; try l <- every (map (eval now) given); m l
@@ -167,8 +176,20 @@ Definition held t v := match t, v with
 Definition is_new t n (now : environment) := is "" t || match look n now with Some _ => false | None => true end.
 
 (** Without the variables that a block declares. *)
-Definition declared (l : list tree) := flat_map (fun t => match t with Set_ t n _ => if is "" t then [] else [n] | _ => [] end) l.
+Fixpoint declared_in (s : tree) : list string := match s with
+  | Set_ t n _ => if is "" t then [] else [n] | If _ yes no => flat_map declared_in yes ++ flat_map declared_in no
+  | Turns _ _ _ l => flat_map declared_in l | _ => [] end.
+Definition declared (l : list tree) := flat_map declared_in l.
 Definition outside l (now : environment) := filter (fun v => negb (is_in (fst v) (declared l))) now.
+
+(** A place in an array: an int that is put into one of doubles is 0; where there was no value yet, it is not below 0. *)
+Definition placed a p v (now : environment) : option environment := let n := a ++ "." ++ p in match v with
+  | Rec l => Some (app (map (fun f => (a ++ "." ++ fst f ++ "." ++ p, snd f)) l) now)
+  | Of u z => match look n now with
+    | Some (Of t _) => try x <- converted u t z; Some ((n, Of t x) :: now)
+    | Some (Double _ _) => if z =? 0 then Some ((n, Double 0 (-4096)) :: now) else None
+    | _ => if 0 <=? z then Some ((n, v) :: now) else None end
+  | _ => Some ((n, v) :: now) end.
 
 Fixpoint bound_all (given : list expression) (got : list datum) (now : environment) : option environment := match given, got with
   | [], [] => Some now
@@ -189,6 +210,8 @@ Fixpoint go (fuel : nat) (now : environment) (l : list tree) : option (option da
       | Some _ => Some (v, now')
       | None => let now'' := outside l now' in try j <- eval now'' (Infix "+" (Named i) by_); go f (bound i j now'') turn end
     | _ => None end
+  | S f, Place a i e :: rest => match eval now i with
+    | Some (Of Int k) => try v <- eval now e; try p <- place k; try now' <- placed a p v now; go f now' rest | _ => None end
   | O, _ => None end.
 
 Definition steps := 100%nat.

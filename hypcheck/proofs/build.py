@@ -57,7 +57,7 @@ COMPOSED = (
     *("Stages", "StageTwoAnswers", "Underflow", "StageOne", "StageTwoRuns"),
     *("StageThree", "StageFive", "Long", "StageFour", "Limbs", "LimbsRuns", "ShiftRuns"),
     *("Trees", "Computed", "StageThreeRuns", "StageThreeAnswers", "StageThreeNumbers", "StageThreePosition"),
-    *("StageFourSteps", "StageFourPlane"),
+    *("PlainerTexts", "StageFourSteps", "StageFourPlane", "StageFourGuesses", "StageFourShort"),
     *("LongIntegers", "LongOutcomes", "LongRuns", "LongSums", "LongProducts", "LongUnits"),
     *("StageFiveAnswers", "StageFiveLimbs", "StageFiveIntegers", "StagesRuns", "Doubles", "StagesOnDoubles"),
     *("FloatSteps", "FloatTexts", "SingleBound", "SingleRuns", "CertifiedText", "CertifiedAnswers", "StagesOfFloats"),

@@ -50,7 +50,7 @@ ROOM = "HC_INTEGER"
 OF_DOUBLES = ("hc_parts_of", "hc_fixed_parts_of", "hc_valid")
 """The functions of the header that read the bits of doubles."""
 
-BESIDE_TANGENCY = ("hc_position_in_plane",)
+BESIDE_TANGENCY = ("hc_position_in_plane", "hc_touches_by_short")
 """The functions of the header that decide beside an exact tangency."""
 
 FLOATS = ("hc_single", "hc_certified")
@@ -74,9 +74,13 @@ PROVED_IN = {
     "hc_position_in_plane": "StageFourPlane",
     "hc_single": "FloatTexts",
     "hc_certified": "CertifiedText",
+    "hc_touches_by_short": "StageFourShort",
 }
 """The Coq file that says what each of them computes."""
 
+_TANGENCY_MACRO = re.compile(
+    r"^#define (HC_NAMED_LENGTHS\(lengths\)|HC_TANGENCY_BITS|HC_TANGENCY_TURNS|HC_HAIR)[\s\\]+(.*?)(?: +/\*.*)?$", re.MULTILINE
+)
 _FUNCTION = r"^static (?:inline )?\w+ {}\((?:[^\n]*\}}$|.*?^\}}$)"
 _OF_LEVEL = r"^HC_TARGET static (\w+) HC_NAME\({}\)(\([^\n]*\{{$.*?^\}}$)"
 _HEAD = "Require Import List String ZArith.\nImport ListNotations.\nOpen Scope string_scope.\n"
@@ -148,10 +152,11 @@ def deciding(header: str) -> list[str]:
 
 
 def beside_tangency(header: str) -> list[str]:
-    """The texts of the functions that decide beside a tangency, the macro of their lengths written out."""
-    macro = re.search(r"^#define HC_NAMED_LENGTHS\(lengths\)\s+\\\n +(.*)$", header, re.MULTILINE)
-    lengths = macro[1] if macro else ""
-    return [text.replace("HC_NAMED_LENGTHS(lengths)", lengths) for text in _texts(BESIDE_TANGENCY, header)]
+    """The texts of the functions that decide beside a tangency, the macros of their lengths and numbers written out."""
+    texts = _texts(BESIDE_TANGENCY, header)
+    for macro, value in _TANGENCY_MACRO.findall(header):
+        texts = [text.replace(macro, value) for text in texts]
+    return texts
 
 
 def integers(header: str) -> list[str]:
