@@ -318,7 +318,7 @@ Qed.
 (** What whole numbers answer, limbs answer. *)
 Theorem goes_as_whole f : forall now now' m l v now'' (R : datum -> Prop), is_right_text f l = true -> agree now now' m -> go known [] f now l = Some (Some v, now'') -> R v -> goes f now' m l R.
 Proof.
-  induction f as [| f IH]; intros now now' m l v now'' R T A G Post; [discriminate |]; destruct l as [| [t n e | g given | c yes no | i count by_ turn | e] rest]; try discriminate; cbn [StageFiveLimbs.is_right_text go StageFiveLimbs.goes] in *.
+  induction f as [| f IH]; intros now now' m l v now'' R T A G Post; [discriminate |]; destruct l as [| [t n e | g given | c yes no | i count by_ turn | a i e | e] rest]; try discriminate; cbn [StageFiveLimbs.is_right_text go StageFiveLimbs.goes] in *.
   - apply andb_prop in T as [Rest T]; destruct (is_new t n now) eqn:New; [| discriminate].
     destruct (eval known now e) as [x |] eqn:E; [| discriminate]; destruct (held t x) as [w |] eqn:H; [| discriminate].
     destruct (is "hc_integer" t) eqn:I.

@@ -12,6 +12,12 @@ Open Scope Z_scope.
 
 (** ** Floats. *)
 
+(** A call, by the values of its arguments. *)
+Lemma eval_given known now f given m l v : look f known = Some m -> every (map (eval known now) given) = Some l -> m l = v -> eval known now (Called f given) = v.
+Proof. intros F G <-; cbn [eval]; rewrite F, G; reflexivity. Qed.
+Lemma given_more known now e given v l : eval known now e = Some v -> every (map (eval known now) given) = Some l -> every (map (eval known now) (e :: given)) = Some (v :: l).
+Proof. intros E G; cbn [map every]; rewrite E, G; reflexivity. Qed.
+
 Section Floats.
 Variables (float : string -> list datum -> Z) (less : datum -> datum -> bool) (nearest word : Z -> Z).
 

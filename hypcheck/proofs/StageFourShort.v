@@ -91,8 +91,8 @@ Qed.
 (** The floats, and the guess. *)
 Lemma half_more_is now n o given : look n now = Some (made_by o given) -> look "_0.5" now = Some (Opaque "0.5" 0) -> eval known now (half_more n) = Some (Of U64 (rounded (made_by o given))).
 Proof.
-  intros E H; eapply eval_called with (l := [made_by "+" [made_by o given; Opaque "0.5" 0]]); [reflexivity | | reflexivity].
-  apply every_more; [| reflexivity]; apply eval_operation; [reflexivity | exact I | reflexivity | apply eval_named, E | apply eval_named, H].
+  intros E H; eapply eval_given with (l := [made_by "+" [made_by o given; Opaque "0.5" 0]]); [reflexivity | | reflexivity].
+  apply given_more; [| reflexivity]; apply eval_operation; [reflexivity | exact I | reflexivity | apply eval_named, E | apply eval_named, H].
 Qed.
 Lemma guess_run f rest : go known [] (7 + f) multiplied (guess ++ rest)%list =
   if is_in_range then go known [] f ([("e", Of U64 (num "e")); ("M", Of U64 (num "M")); ("most", limit); ("e_", e_of_guess); ("m_", m_of_guess); ("size", size_of_guess)] ++ multiplied)%list rest
@@ -276,3 +276,12 @@ Proof.
   exists (answer float less about base_here num_here); split; [exact text_here | exact (answer_is_side float less ls about base_here num_here passed_here)].
 Qed.
 End Short.
+
+(** Each of its answers occurs, where a guess of 1 is right: for a unit sphere 2 from the axis of the unit hyperboloid, which touches it
+    from without, one in its centre, which touches it from within, and one that crosses it. *)
+Definition answer_at (less : datum -> datum -> bool) l := called_on (fun _ _ => 0) less (fun _ => 1) (fun _ => 1) functions "hc_touches_by_short"
+  [Rec (words_of_lengths (fun n => match look n (combine named l) with Some z => z | None => 0 end)); Opaque "" 0].
+Definition above_0 (_ c : datum) := match c with Of _ _ => false | _ => true end.
+Theorem every_answer_occurs : [answer_at above_0 [1; 1; 1; 1; 2; 0; 0]; answer_at (fun _ _ => true) [1; 1; 1; 1; 0; 0; 0]; answer_at above_0 [1; 1; 1; 1; 1; 0; 0]]
+  = map (fun z => Some (Of Int z)) [1; -1; 2].
+Proof. vm_compute; reflexivity. Qed.

@@ -216,6 +216,12 @@ Proof.
   intros (_ & L & B); rewrite <- negative_long by exact B; unfold is_negative_long; cbn [eval map every]; rewrite L, (Known "hc_long_is_negative" _ eq_refl); reflexivity.
 Qed.
 
+Lemma ask_zero now n : there now n 256 -> eval known now (Called "hc_long_is_zero" [Named n]) = Some (Of Int (if num n =? 0 then 1 else 0)).
+Proof.
+  intros (_ & L & B); cbn [eval map every]; rewrite L, (Known "hc_long_is_zero" _ eq_refl); cbn [datum_of Z.eqb Pos.eqb].
+  rewrite (proj2 (long_of_is (num n) B)); reflexivity.
+Qed.
+
 Lemma held_datum w z : is_width w -> held (type_of_bits w) (datum_of w z) = Some (datum_of w z).
 Proof. intros [-> | [-> | ->]]; reflexivity. Qed.
 Lemma bound_datum n w z now : is_width w -> bound n (datum_of w z) now = (n, datum_of w z) :: now.

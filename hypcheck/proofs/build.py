@@ -58,6 +58,7 @@ COMPOSED = (
     *("StageThree", "StageFive", "Long", "StageFour", "Limbs", "LimbsRuns", "ShiftRuns"),
     *("Trees", "Computed", "StageThreeRuns", "StageThreeAnswers", "StageThreeNumbers", "StageThreePosition"),
     *("PlainerTexts", "StageFourSteps", "StageFourPlane", "StageFourGuesses", "StageFourShort"),
+    *("StageFourTurns", "StageFourTouches"),
     *("LongIntegers", "LongOutcomes", "LongRuns", "LongSums", "LongProducts", "LongUnits"),
     *("StageFiveAnswers", "StageFiveLimbs", "StageFiveIntegers", "StagesRuns", "Doubles", "StagesOnDoubles"),
     *("FloatSteps", "FloatTexts", "SingleBound", "SingleRuns", "CertifiedText", "CertifiedAnswers", "StagesOfFloats"),

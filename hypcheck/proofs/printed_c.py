@@ -50,7 +50,7 @@ ROOM = "HC_INTEGER"
 OF_DOUBLES = ("hc_parts_of", "hc_fixed_parts_of", "hc_valid")
 """The functions of the header that read the bits of doubles."""
 
-BESIDE_TANGENCY = ("hc_position_in_plane", "hc_touches_by_short")
+BESIDE_TANGENCY = ("hc_position_in_plane", "hc_touches_by_short", "hc_touches_by")
 """The functions of the header that decide beside an exact tangency."""
 
 FLOATS = ("hc_single", "hc_certified")
@@ -75,6 +75,7 @@ PROVED_IN = {
     "hc_single": "FloatTexts",
     "hc_certified": "CertifiedText",
     "hc_touches_by_short": "StageFourShort",
+    "hc_touches_by": "StageFourTurns",
 }
 """The Coq file that says what each of them computes."""
 
