@@ -175,7 +175,7 @@ Theorem go_steps : forall steps trees have now f rest, map step_in trees = map S
 Proof.
   induction steps as [| s steps IH]; intros trees have now f rest E F H N; destruct trees as [| t trees]; try discriminate; [reflexivity |].
   cbn [map] in E; injection E as E1 E2; cbn [fits] in F; repeat (apply andb_prop in F as [F ?F]).
-  destruct t as [ty n e | | | |]; try discriminate; cbn [step_in] in E1; destruct (is_in ty ["double"; "HC_NUMBER"; "HC_TRUTH"]) eqn:Y; [| discriminate].
+  destruct t as [ty n e | | | | |]; try discriminate; cbn [step_in] in E1; destruct (is_in ty ["double"; "HC_NUMBER"; "HC_TRUTH"]) eqn:Y; [| discriminate].
   pose proof (value_is now have n e s H E1 F F2 F1) as V; assert (M : name s = n).
   { destruct e; try discriminate; cbn [value_in] in E1; [destruct (is "-" o && is_zero e1) | destruct (is_in f0 comparisons); [| discriminate]];
       apply made_is in E1 as (w & a & _ & _ & ->); reflexivity. }

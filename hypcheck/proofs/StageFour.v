@@ -364,10 +364,10 @@ Definition in_plane (excess_negative W_negative W_p_2_negative room_negative : b
 
 Let asks n (c : bool) := if c then negative n (bits_of n) else ~ negative n (bits_of n).
 
-Theorem waist_is_right e n o r a : asks "excess" e -> asks "W" n -> asks "W_p_2" o -> asks "room" r -> in_plane e n o r = Some a ->
-  answers (I "alpha" * u) (I "gamma" * w) (I "b" * u) (I "d" * w) (I "x" * u) (I "y" * u) 0 a.
+Theorem waist_is_right e n o r a x y : asks "excess" e -> asks "W" n -> asks "W_p_2" o -> asks "room" r -> in_plane e n o r = Some a ->
+  x ^ 2 = (I "x" * u) ^ 2 -> y ^ 2 = (I "y" * u) ^ 2 -> answers (I "alpha" * u) (I "gamma" * w) (I "b" * u) (I "d" * w) x y 0 a.
 Proof.
-  intros H1 H2 H3 H4 F; destruct waist_values as (E1 & E2 & E3 & E4).
+  intros H1 H2 H3 H4 F X Y; destruct waist_values as (E1 & E2 & E3 & E4).
   assert (Pb : 0 < I "b" /\ 0 < I "d" /\ 0 < I "alpha" /\ 0 < I "gamma") by (unfold I; repeat split; apply IZR_lt; assumption).
   destruct Pb as (Pb & Pd & Pa & Pg).
   assert (q0 : 0 < q) by (apply pow_lt, Rmult_lt_0_compat; assumption); assert (q2 : 0 < q ^ 2) by (apply pow_lt; exact q0).
@@ -385,11 +385,11 @@ Proof.
   destruct (by_factor _ _ _ _ u2 q0 E3) as [O1 O2]; destruct (by_factor 1 _ _ _ Rlt_0_1 bd ltac:(rewrite Rmult_1_r; exact E4)) as [R1 R2].
   unfold in_plane in F; destruct e; cbn [negb] in F.
   - apply X1 in H1; destruct n; [apply W1 in H2; destruct o; injection F as <- | apply W2 in H2; destruct r; [discriminate |]; injection F as <-].
-    + apply waist_crossing; [reflexivity |]; fold A P; apply O1 in H3; right; lra.
-    + apply waist_inside; try reflexivity; fold A P; apply O2 in H3; lra.
-    + apply waist_clear; try reflexivity; fold A B P; apply R2 in H4; try lra.
+    + apply waist_crossing; [reflexivity |]; rewrite X, Y; fold A P; apply O1 in H3; right; lra.
+    + apply waist_inside; try reflexivity; rewrite X, Y; fold A P; apply O2 in H3; lra.
+    + apply waist_clear; try reflexivity; rewrite ?X, ?Y; fold A B P; apply R2 in H4; try lra.
       destruct H2 as [H2 | H2]; [exact H2 |]; rewrite <- H2 in H1; assert (0 < A) by (apply pow_lt, over_lt; apply Rmult_lt_0_compat; assumption); lra.
-  - injection F as <-; apply waist_crossing; [reflexivity |]; fold A P; apply X2 in H1; left; lra.
+  - injection F as <-; apply waist_crossing; [reflexivity |]; rewrite X, Y; fold A P; apply X2 in H1; left; lra.
 Qed.
 
 End Waist.

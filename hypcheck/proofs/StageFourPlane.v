@@ -150,8 +150,8 @@ Qed.
 
 (** What the text of the C returns, for lengths in two units: the position, or nothing. *)
 Theorem plane_text : exists o, called functions of_longs [] "hc_position_in_plane" [Rec (words_of_lengths ls)] = Some (Of Int (code o)) /\
-  forall a u w, (0 < u)%R -> (0 < w)%R -> o = Some a ->
-  answers (IZR (ls "alpha") * u) (IZR (ls "gamma") * w) (IZR (ls "b") * u) (IZR (ls "d") * w) (IZR (ls "x") * u) (IZR (ls "y") * u) 0 a.
+  forall a u w x y, (0 < u)%R -> (0 < w)%R -> o = Some a -> (x ^ 2 = (IZR (ls "x") * u) ^ 2)%R -> (y ^ 2 = (IZR (ls "y") * u) ^ 2)%R ->
+  answers (IZR (ls "alpha") * u) (IZR (ls "gamma") * w) (IZR (ls "b") * u) (IZR (ls "d") * w) x y 0 a.
 Proof.
   pose proof plane_runs as Runs; pose proof plane_begins as Begin; pose proof plane_inputs as Inputs; destruct plane_size as (Size & Exact & _).
   assert (Size' : num "size" = if 2 ^ 127 <=? num "W" then num "opposite" else num "W").
@@ -162,12 +162,12 @@ Proof.
     - rewrite (Z.mod_small w) by lia; destruct (Z.leb_spec (2 ^ 127) w); lia. }
   exists (in_plane (2 ^ 255 <=? num "excess") (2 ^ 127 <=? num "W") (2 ^ 127 <=? num "W_p_2") (2 ^ 255 <=? num "room")); split.
   - exact (run_text ls num v Lengths (fun n I => proj1 (Begin n I)) Runs Size').
-  - intros a u w U V E.
+  - intros a u w x y U V E X Y.
     assert (same : forall n, In n named -> IZR (ls n) = IZR (v n)) by (intros n I; rewrite (proj2 (Begin n I)); reflexivity).
     assert (pos : forall n, In n ["alpha"; "gamma"; "b"; "d"] -> 0 < v n) by (intros n I; rewrite (proj2 (Begin n ltac:(clear - I; cbn in *; tauto))); apply Sizes, I).
-    rewrite !same by (cbn; tauto).
+    rewrite !same in * by (cbn; tauto).
     apply (waist_is_right num v false Inputs Runs (pos "alpha" ltac:(cbn; tauto)) (pos "gamma" ltac:(cbn; tauto)) (pos "b" ltac:(cbn; tauto)) (pos "d" ltac:(cbn; tauto))
-      (eq_trans Exact eq_refl) u w U V (2 ^ 255 <=? num "excess") (2 ^ 127 <=? num "W") (2 ^ 127 <=? num "W_p_2") (2 ^ 255 <=? num "room")); [.. | exact E].
+      (eq_trans Exact eq_refl) u w U V (2 ^ 255 <=? num "excess") (2 ^ 127 <=? num "W") (2 ^ 127 <=? num "W_p_2") (2 ^ 255 <=? num "room")); [| | | | exact E | exact X | exact Y].
     all: match goal with |- context [?c <=? ?x] => destruct (Z.leb_spec c x) end; [assumption | apply Zlt_not_le; assumption].
 Qed.
 End Plane.
