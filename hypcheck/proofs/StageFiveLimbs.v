@@ -121,7 +121,7 @@ Fixpoint goes (fuel : nat) (now : environment) m (l : list tree) (R : datum -> P
 (** It returns one thing. *)
 Theorem goes_one f : forall now m l R R', goes f now m l R -> goes f now m l R' -> meet R R'.
 Proof.
-  induction f as [| f IH]; intros now m l R R' H H'; cbn [goes] in H, H'; [contradiction |]; destruct l as [| [t n e | g given | c yes no | i count by_ turn | e] rest]; try contradiction.
+  induction f as [| f IH]; intros now m l R R' H H'; cbn [goes] in H, H'; [contradiction |]; destruct l as [| [t n e | g given | c yes no | i count by_ turn | a i e | e] rest]; try contradiction.
   - destruct (is "hc_integer" t).
     + destruct e as [| | | | h given | | |]; try contradiction; destruct given as [| g given]; try contradiction; destruct g as [| u k | | | | | |]; try contradiction.
       destruct u; try contradiction; destruct given; try contradiction; destruct H as (_ & _ & _ & H), H' as (_ & _ & _ & H'); exact (IH _ _ _ _ _ H H').

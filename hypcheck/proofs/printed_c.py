@@ -80,7 +80,8 @@ PROVED_IN = {
 """The Coq file that says what each of them computes."""
 
 _TANGENCY_MACRO = re.compile(
-    r"^#define (HC_NAMED_LENGTHS\(lengths\)|HC_TANGENCY_BITS|HC_TANGENCY_TURNS|HC_HAIR)[\s\\]+(.*?)(?: +/\*.*)?$", re.MULTILINE
+    r"^#define (HC_NAMED_LENGTHS\(lengths\)|HC_TANGENCY_BITS|HC_TANGENCY_TURNS|HC_HAIR)[\s\\]+(.*?)(?: +/\*.*)?$",
+    re.MULTILINE,
 )
 _FUNCTION = r"^static (?:inline )?\w+ {}\((?:[^\n]*\}}$|.*?^\}}$)"
 _OF_LEVEL = r"^HC_TARGET static (\w+) HC_NAME\({}\)(\([^\n]*\{{$.*?^\}}$)"
