@@ -7,7 +7,7 @@
     the one that the exact stages read. *)
 
 Require Import List String ZArith Reals Lia Bool.
-From Hypcheck Require Import Geometry Positions Stages Steps FixedRuns Limbs Trees StageThreeRuns StageThreeAnswers StageThreeNumbers StageThreePosition
+From Hypcheck Require Import Geometry Positions Stages Steps FixedRuns Long Limbs Trees StageThreeRuns StageThreeAnswers StageThreeNumbers StageThreePosition
   StageFiveAnswers StagesRuns Doubles StagesOnDoubles CertifiedAnswers.
 From Hypcheck Require Ranges FloatTexts CertifiedText SingleRuns StageTwoRuns.
 Import ListNotations.
@@ -102,7 +102,7 @@ Hypothesis Floats : floats <> 0 -> single_runs m e x pre greater /\ stage_two_ru
 Theorem floats_on_doubles : exists a, called_with floats functions (stage_calls (text_of_single greater) (text_of_certified mask) (valid_on_bits w)
   (exact_answer_of_text lowest guessed power_guessed guess power_of_guess tangency)) [] "hc_position_of" [row m e] = Some (Of Int (code (Some a))) /\ is_position (pair_of_bits w) a.
 Proof.
-  apply stages_on_doubles; try assumption; rewrite <- (pair_is w Words).
+  apply stages_on_doubles; try assumption; [rewrite <- (pair_is w Words) .. |].
   - intros F; exact (single_answers m e x pre greater (proj1 (Floats F))).
   - intros F; exact (stage_two_answers m e x' pre' mask Masks (proj2 (Floats F))).
   - intros _; exact (stage_two_ends m e mask Masks).
