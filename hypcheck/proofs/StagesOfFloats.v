@@ -1,5 +1,4 @@
-(** All stages of one row from the text of the C, those of floats too: hc_position_of returns the position, on a valid row and on the bits
-    of seven doubles that hc_valid accepts.
+(** All stages of one row from the text of the C, those of floats too: hc_position_of returns the position.
 
     StagesRuns.v supposes of one pair and of stage 2 that they answer with the position or not at all. Here their texts are run, and of
     floats alone is supposed what SingleRuns.v and StageTwoRuns.v do: that each step rounds in some mode, that comparisons which hold
@@ -7,8 +6,8 @@
     the one that the exact stages read. *)
 
 Require Import List String ZArith Reals Lia Bool.
-From Hypcheck Require Import Geometry Positions Stages Steps FixedRuns Long Limbs Trees StageThreeRuns StageThreeAnswers StageThreeNumbers StageThreePosition
-  StageFiveAnswers StagesRuns Doubles StagesOnDoubles CertifiedAnswers.
+From Hypcheck Require Import Geometry Positions Stages Steps FixedRuns Limbs Trees StageThreeRuns StageThreeAnswers StageThreeNumbers StageThreePosition
+  StageFiveAnswers StagesRuns CertifiedAnswers.
 From Hypcheck Require Ranges FloatTexts CertifiedText SingleRuns StageTwoRuns.
 Import ListNotations.
 Open Scope string_scope.
@@ -82,30 +81,3 @@ Proof.
 Qed.
 
 End Row.
-
-(** ** On the bits of seven doubles that hc_valid accepts. *)
-
-Section Bits.
-
-Variable w : string -> Z.
-Hypotheses (Words : forall n, In n lengths -> is_word (w n)) (Accepted : returned "hc_valid" [words_of w] = Some (Of Int 1)).
-Let m n := whole_of (w n).
-Let e n := power_of (w n).
-Variables (x pre x' pre' : string -> R) (greater : argument -> argument -> bool) (mask : Z -> string -> Z).
-Hypothesis Masks : forall at_ n, 0 <= mask at_ n < 2 ^ 1.
-Variables (guessed power_guessed : list datum -> Z) (guess power_of_guess : Z) (tangency : list datum -> option datum) (floats : Z).
-Let value n := value_of_bits (w n).
-Hypothesis Fourth : exists o, tangency [row m e; Double guess power_of_guess] = Some (Of Int (code o)) /\ forall a, o = Some a ->
-  answers (value "alpha") (value "gamma") (value "b") (value "d") (value "x") (value "y") (value "z") a.
-Hypothesis Floats : floats <> 0 -> single_runs m e x pre greater /\ stage_two_runs m e x' pre' mask.
-
-Theorem floats_on_doubles : exists a, called_with floats functions (stage_calls (text_of_single greater) (text_of_certified mask) (valid_on_bits w)
-  (exact_answer_of_text lowest guessed power_guessed guess power_of_guess tangency)) [] "hc_position_of" [row m e] = Some (Of Int (code (Some a))) /\ is_position (pair_of_bits w) a.
-Proof.
-  apply stages_on_doubles; try assumption; [rewrite <- (pair_is w Words) .. |].
-  - intros F; exact (single_answers m e x pre greater (proj1 (Floats F))).
-  - intros F; exact (stage_two_answers m e x' pre' mask Masks (proj2 (Floats F))).
-  - intros _; exact (stage_two_ends m e mask Masks).
-Qed.
-
-End Bits.

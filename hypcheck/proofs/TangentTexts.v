@@ -20,7 +20,7 @@ Theorem steps_are_read : [C_beyond; C_within] = map steps_in ["tangent-beyond"; 
 Proof. vm_compute; reflexivity. Qed.
 
 (** What a text puts into the two fields of the line. *)
-Definition puts_line (fuel : nat) known defined n given : option (datum * datum) := try f <- look n functions;
+Definition puts_line functions (fuel : nat) known defined n given : option (datum * datum) := try f <- look n functions;
   try now <- bound_all (map Named (firstn 2 (takes f))) given defined; try (v, now') <- go known [] fuel now (Trees.does f);
   match v, look "line.K" now', look "line.M" now' with None, Some k, Some m => Some (k, m) | _, _, _ => None end.
 
@@ -32,8 +32,8 @@ Definition known_beyond := (of_floats [] C_beyond ++ of_comparisons)%list.
 Definition known_within := (of_floats [] C_within ++ of_comparisons)%list.
 Definition sizes := Rec (combine (map snd places) (map (fun n => Opaque n always) ["alpha"; "gamma"; "b"; "d"])).
 Definition of_lines : environment := map (fun n => ("HC_" ++ n, Opaque n always)%string) ["u_8"; "more"; "less"; "least_constant"; "greatest_slope"; "NEVER"].
-Definition text_of_beyond := puts_line (6 + (List.length C_beyond + 4)) known_beyond of_lines "hc_tangent_beyond" [sizes; Opaque "lambda_" always].
-Definition text_of_within := puts_line (6 + (List.length C_within + 4)) known_within of_lines "hc_tangent_within" [sizes; Opaque "mu" always].
+Definition text_of_beyond := puts_line functions (6 + (List.length C_beyond + 4)) known_beyond of_lines "hc_tangent_beyond" [sizes; Opaque "lambda_" always].
+Definition text_of_within := puts_line functions (6 + (List.length C_within + 4)) known_within of_lines "hc_tangent_within" [sizes; Opaque "mu" always].
 
 Definition proves_beyond := greater (Name "lambda_") (Number 0) && greater (Name "gap_least") (Number 0) && at_least (Name "K_most") (Name "least_constant")
   && at_least (Name "greatest_slope") (Name "M_most").

@@ -62,7 +62,7 @@ COMPOSED = (
     *("LongIntegers", "LongOutcomes", "LongRuns", "LongSums", "LongProducts", "LongUnits"),
     *("StageFiveAnswers", "StageFiveLimbs", "StageFiveIntegers", "StagesRuns", "Doubles", "StagesOnDoubles"),
     *("FloatSteps", "FloatTexts", "SingleBound", "SingleRuns", "CertifiedText", "CertifiedAnswers", "StagesOfFloats"),
-    *("DoubleValues", "AllStages"),
+    *("TangentTexts", "DoubleValues", "AllStages"),
 )
 """All stages in one theorem, Stages.whatever_stage_answers; from a stage's numbers to the position; the C of words; the
 functions of the C that decide; the C of long integers."""
@@ -335,6 +335,7 @@ def changed_decisions() -> tuple[Weakened, ...]:
         ("beside_tangency", printed_c.tangency_changes()),
         ("of_doubles", printed_c.double_changes()),
         ("floats", printed_c.float_changes()),
+        ("tangents", printed_c.tangent_changes()),
     )
     return tuple(
         Weakened(printed_c.PROVED_IN[name], f"HeaderText.{texts}", new, what)

@@ -56,6 +56,9 @@ BESIDE_TANGENCY = ("hc_position_in_plane", "hc_touches_by_short", "hc_touches_by
 FLOATS = ("hc_single", "hc_certified")
 """The functions of the header that decide by floats; the second is one of each level."""
 
+TANGENTS = ("hc_tangent_beyond", "hc_tangent_within")
+"""The functions of the header that make the half planes of a scene."""
+
 MACROS = ("HC_MAX_OF", "HC_MIN_OF")
 """The macros of two ints that they use, read as functions."""
 
@@ -76,6 +79,7 @@ PROVED_IN = {
     "hc_certified": "CertifiedText",
     "hc_touches_by_short": "StageFourShort",
     "hc_touches_by": "StageFourTurns",
+    **dict.fromkeys(TANGENTS, "TangentTexts"),
 }
 """The Coq file that says what each of them computes."""
 
@@ -180,6 +184,11 @@ def of_doubles(header: str) -> list[str]:
     return _texts(OF_DOUBLES, header)
 
 
+def tangents(header: str) -> list[str]:
+    """The texts of the functions that make half planes."""
+    return _texts(TANGENTS, header)
+
+
 def _texts(names: tuple[str, ...], header: str) -> list[str]:
     found = [re.search(_FUNCTION.format(name), header, re.MULTILINE | re.DOTALL) for name in names]
     return [text[0] for text in found if text]
@@ -190,11 +199,11 @@ def header_text() -> str:
     text = HEADER.read_text(encoding="utf-8")
     rows = ";\n".join(f"  ({_quoted(name)}, {_quoted(part)}%text)" for name, part in parts(text))
     bounds = "; ".join(f'("{name.lower()}", {value})' for name, value in _BOUND.findall(text))
-    words, trees, beside, long, doubles, of_floats = (
+    words, trees, beside, long, doubles, of_floats, of_tangents = (
         ";\n".join(f"  {_quoted(function)}%text" for function in found)
         for found in (
             *(functions(text), deciding(text), beside_tangency(text), integers(text)),
-            *(of_doubles(text), floats(text)),
+            *(of_doubles(text), floats(text), tangents(text)),
         )
     )
     return (
@@ -206,6 +215,7 @@ def header_text() -> str:
         f"Definition integers : list text := [\n{long}].\n"
         f"Definition of_doubles : list text := [\n{doubles}].\n"
         f"Definition floats : list text := [\n{of_floats}].\n"
+        f"Definition tangents : list text := [\n{of_tangents}].\n"
         "Definition parts := map (fun part => (fst part, string_of (snd part))) texts.\n"
     )
 
@@ -250,6 +260,11 @@ def tangency_changes() -> Iterator[tuple[str, str, str]]:
 def float_changes() -> Iterator[tuple[str, str, str]]:
     """The same of the functions that decide by floats."""
     yield from _changes_of(FLOATS, floats(HEADER.read_text(encoding="utf-8")))
+
+
+def tangent_changes() -> Iterator[tuple[str, str, str]]:
+    """The same of the functions that make half planes."""
+    yield from _changes_of(TANGENTS, tangents(HEADER.read_text(encoding="utf-8")))
 
 
 def integer_changes() -> Iterator[tuple[str, str, str]]:

@@ -211,16 +211,16 @@ def test_changes_of_functions_that_decide_reach_every_function_in_the_file_that_
     header = printed_c.HEADER.read_text(encoding="utf-8")
     of_doubles = printed_c.of_doubles(header)
     deciding = (*printed_c.deciding(header), *printed_c.beside_tangency(header))
-    texts = (*deciding, *of_doubles, *printed_c.floats(header))
+    texts = (*deciding, *of_doubles, *printed_c.floats(header), *printed_c.tangents(header))
     exact = (*printed_c.MACROS, *printed_c.DECIDING, *printed_c.BESIDE_TANGENCY)
-    names = (*exact, *printed_c.OF_DOUBLES, *printed_c.FLOATS)
+    names = (*exact, *printed_c.OF_DOUBLES, *printed_c.FLOATS, *printed_c.TANGENTS)
     assert [re.search(r"(\w+)\(", text)[1] for text in texts] == list(names)
     found = build.changed_decisions()
     assert {re.search(r" in (\w+),", change.allows)[1] for change in found} == set(names)
     for change in found:
         name = re.search(r" in (\w+),", change.allows)[1]
         source = build.source(change.file)
-        called = rf'(called\w* functions|puts functions|returned) [^"]*"{name}"|look "{name}" functions'
+        called = rf'(called\w* functions|puts\w* functions|returned) [^"]*"{name}"|look "{name}" functions'
         assert re.search(called, source)
         assert source.count(change.old) == 1
 
