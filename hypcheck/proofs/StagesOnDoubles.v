@@ -69,11 +69,18 @@ Proof.
   - exists a; rewrite <- pair_is; split; assumption.
 Qed.
 
+(** So there is a function that returns what the text returns on limbs. *)
+Corollary function_on_limbs bits memory : bits = 32 \/ bits = 64 -> exists integers : list datum -> option datum, forall v,
+  ends_on_limbs lowest bits StageFiveAnswers.functions "hc_position_by_integers" [row m e] memory (fun x => x = v) -> integers [row m e] = Some v.
+Proof.
+  intros Bits; destruct (limbs_on_doubles bits memory Bits) as (a & _ & E); exists (fun _ => Some (Of Int (code (Some a)))); intros v H.
+  destruct (one_is_returned _ _ _ _ _ _ _ _ E H) as (x & -> & <-); reflexivity.
+Qed.
+
 (** The stages one after another, with the text of stage 5 on limbs. *)
 Section Stages.
 Variables (bits : Z) (memory : memory) (integers : list datum -> option datum).
 Hypothesis Bits : bits = 32 \/ bits = 64.
-(** There is one thing that it returns: StageFiveIntegers.one_is_returned. *)
 Hypothesis On_limbs : forall v, ends_on_limbs lowest bits StageFiveAnswers.functions "hc_position_by_integers" [row m e] memory (fun x => x = v) -> integers [row m e] = Some v.
 Variables (guessed power_guessed : list datum -> Z) (guess power_of_guess : Z) (tangency single certified : list datum -> option datum) (floats : Z).
 Hypotheses
