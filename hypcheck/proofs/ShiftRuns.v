@@ -19,10 +19,10 @@ Definition called n given := try f <- look n functions; result models f given.
 
 Ltac value text := eval cbv -[Z.add Z.sub Z.mul Z.div Z.modulo Z.pow Z.land Z.lor Z.lxor Z.log2 carry same chosen counted unless_zero in_int
   W bits128 negative plus shifted_up long_pattern] in text.
-Ltac run := unfold called; lazymatch goal with |- context [look ?n ?l] => let f := eval vm_compute in (look n l) in change (look n l) with f end;
-  lazymatch goal with |- ?text = ?answer => let v := value text in change (v = answer) end.
 (** A little further, where something was found out. *)
 Ltac further := lazymatch goal with |- ?text = ?answer => let v := value text in change (v = answer) end.
+Ltac text_called := unfold called; lazymatch goal with |- context [look ?n ?l] => let f := eval vm_compute in (look n l) in change (look n l) with f end.
+Ltac run := text_called; further.
 
 Lemma in_int_is z : - 2 ^ 31 <= z < 2 ^ 31 -> in_int z = true.
 Proof. intros [L H]; unfold in_int; apply andb_true_intro; split; [apply Z.leb_le | apply Z.ltb_lt]; assumption. Qed.
@@ -33,6 +33,35 @@ Proof. intros N; unfold unless_zero; rewrite (proj2 (Z.eqb_neq k 0) N); reflexiv
 
 (** Shifts and ints are within what C defines. *)
 Ltac defined := repeat (first [rewrite in_int_is by lia | rewrite counted_is by (cbn [width]; lia)]; further).
+
+(** One statement after another. *)
+Lemma run_declares known now k n e rest v c r : value_of known now e = Some v -> kept k v = Some c -> Limbs.run known ((n, c) :: now) rest = r ->
+  Limbs.run known now (Declare k n (Some e) :: rest) = r.
+Proof. intros E K <-; cbn [Limbs.run]; rewrite E, K; reflexivity. Qed.
+Lemma run_names known now k n rest r :
+  Limbs.run known ((n, match k with Plain t => Plainly t None | Struct s => Fields (repeat None s) end) :: now) rest = r ->
+  Limbs.run known now (Declare k n None :: rest) = r.
+Proof. intros E; exact E. Qed.
+Lemma run_puts known now target o e rest now' r : put known now target o e = Some now' -> Limbs.run known now' rest = r ->
+  Limbs.run known now (Put target o e :: rest) = r.
+Proof. intros E <-; cbn [Limbs.run]; rewrite E; reflexivity. Qed.
+Lemma run_returns known now e rest r : value_of known now e = r -> Limbs.run known now (Return e :: rest) = r.
+Proof. intros E; exact E. Qed.
+Lemma result_is known f given now v w :
+  every (map (fun p => try c <- kept (fst (fst p)) (snd p); Some (snd (fst p), c)) (combine (parameters f) given)) = Some now ->
+  Limbs.run known now (body f) = Some v -> match returns f, v with
+    | Plain t, Val u z => try x <- converted u t z; Some (Val t x)
+    | Struct n, Record r => if Nat.eqb (List.length r) n then Some v else None | _, _ => None end = w ->
+  result known f given = w.
+Proof. intros E R <-; unfold result; rewrite E, R; reflexivity. Qed.
+(** All of them; what they return is left to be shown the same. *)
+Ltac gets := further; defined; reflexivity.
+Ltac statement := lazymatch goal with
+  | |- Limbs.run _ _ (Declare _ _ (Some _) :: _) = _ => eapply run_declares; [gets | gets |]
+  | |- Limbs.run _ _ (Declare _ _ None :: _) = _ => apply run_names; cbn [repeat]
+  | |- Limbs.run _ _ (Put _ _ _ :: _) = _ => eapply run_puts; [gets |]
+  | |- Limbs.run _ _ (Return _ :: _) = _ => apply run_returns; gets end.
+Ltac runs := text_called; cbv iota; eapply eq_trans; [eapply result_is; [gets | cbn [body]; repeat statement | gets] |].
 
 (** ** Sizes and signs. *)
 
@@ -108,7 +137,7 @@ Theorem sign_text n error grown : is_number n -> 0 <= error -> 0 <= grown < 128 
 Proof.
   destruct n as [a b]; intros [A B] E0 G L; cbn [low_word high_word] in A, B; destruct (turned_words a b A B) as (LW & _ & E).
   pose proof (proj2 (signed_range (Words a b) (conj A B))) as S; cbn [high_word] in S.
-  run; defined; unfold shifted_up, pattern, words_of; cbn [low_word high_word]; change (0 mod W) with 0; rewrite Z.mul_0_r, Z.add_0_r.
+  runs; unfold shifted_up, pattern, words_of; cbn [low_word high_word]; change (0 mod W) with 0; rewrite Z.mul_0_r, Z.add_0_r.
   assert (P : 0 <= error * 2 ^ grown) by (apply Z.mul_nonneg_nonneg; [exact E0 | apply Z.pow_nonneg; lia]).
   set (bound := error * 2 ^ grown) in *; rewrite (Z.mod_small bound bits128) by lia.
   rewrite words_compare by (exact LW || apply word_mod); rewrite E, <- (Z.add_comm (W * _)), <- Z.div_mod by discriminate.
@@ -129,8 +158,9 @@ Qed.
 Theorem is_negative_text n : is_long n ->
   called "hc_long_is_negative" [long_record n] = Some (Val Int (if bits256 / 2 <=? long_pattern n then 1 else 0)).
 Proof.
-  destruct n as [a b c d]; intros (A & B & C & D); cbn [w0 w1 w2 w3] in A, B, C, D; run; defined; rewrite (sign_bit d D).
-  replace (bits256 / 2 <=? long_pattern _) with (W / 2 <=? d); [destruct (W / 2 <=? d); rewrite in_int_is by lia; reflexivity |].
+  destruct n as [a b c d]; intros (A & B & C & D); cbn [w0 w1 w2 w3] in A, B, C, D.
+  assert (S : 0 <= d / 2 ^ 63 <= 1) by (rewrite (sign_bit d D); destruct (W / 2 <=? d); lia); runs; rewrite (sign_bit d D); clear S.
+  replace (bits256 / 2 <=? long_pattern _) with (W / 2 <=? d); [destruct (W / 2 <=? d); reflexivity |].
   unfold long_pattern, bits256, bits128; cbn [w0 w1 w2 w3]; change (W / 2) with 9223372036854775808; change (W * W * (W * W) / 2) with (9223372036854775808 * W * W * W).
   unfold is_word, W in *; match goal with |- (?x <=? ?y) = (?z <=? ?t) => destruct (Z.leb_spec x y), (Z.leb_spec z t) end; lia.
 Qed.
@@ -238,8 +268,8 @@ Proof. intros <-; reflexivity. Qed.
 
 Theorem up_text n k : is_number n -> 0 <= k < 128 -> called "hc_fixed_up" [record n; Val Int k] = Some (record (shifted_up n k)).
 Proof.
-  destruct n as [a b]; intros [A B] K; cbn [low_word high_word] in A, B; run.
-  destruct (parts_of_shift k K) as (r & -> & R & O); defined; rewrite !kept_is, out_in_two_is by lia.
+  destruct n as [a b]; intros [A B] K; cbn [low_word high_word] in A, B; destruct (parts_of_shift k K) as (r & ER & R & O).
+  runs; rewrite ER; rewrite !kept_is, out_in_two_is by lia.
   destruct O as [(E & ->) | (E & ->)]; cbn [chosen Z.eqb];
     destruct (split_at a r A R) as (P & Q & EW & _ & _ & _ & EA & A1 & A2); destruct (split_at b r B R) as (_ & _ & _ & _ & _ & _ & EB & B1 & B2);
     apply recorded; unfold shifted_up, pattern; cbn [low_word high_word].
@@ -268,11 +298,10 @@ Proof. intros A B; symmetry; apply Z.div_unique with (a + p * q * b'); [left; ni
 Theorem down_text n k : is_number n -> 0 <= k -> called "hc_fixed_down" [record n; Val Int k] = Some (record (shifted_down n k)).
 Proof.
   intros N K; unfold shifted_down; rewrite (far_down _ k (proj1 (signed_range n N)) K).
-  destruct n as [a b], N as [A B]; cbn [low_word high_word] in A, B; run; rewrite signed_is.
-  assert (M : exists m, chosen (carry k 127) k 127 = m /\ 0 <= m < 128 /\ m = Z.min k 127).
-  { exists (Z.min k 127); unfold chosen, carry; destruct (Z.ltb_spec k 127); cbn [Z.eqb]; lia. }
-  destruct M as (m & E & M & <-); rewrite E; clear E.
-  destruct (parts_of_shift m M) as (r & -> & R & O); defined; rewrite !in_two_is by lia.
+  assert (M : 0 <= chosen (carry k 127) k 127 < 128 /\ chosen (carry k 127) k 127 = Z.min k 127)
+    by (unfold chosen, carry; destruct (Z.ltb_spec k 127); cbn [Z.eqb]; lia).
+  destruct n as [a b], N as [A B]; cbn [low_word high_word] in A, B; destruct M as [M <-], (parts_of_shift _ M) as (r & ER & R & O).
+  runs; rewrite signed_is, ER; set (m := chosen (carry k 127) k 127) in *; clearbody m; rewrite !in_two_is by lia.
   destruct (split_at a r A R) as (P & Q & EW & EA & A1 & A2 & _); destruct (split_at b r B R) as (_ & _ & _ & EB & B1 & B2 & _).
   assert (N : is_word (negative (Words a b))) by (unfold negative; cbn [high_word]; destruct (W / 2 <=? b); split; reflexivity || discriminate).
   assert (H : is_word (negative (Words a b) mod 2 ^ r * 2 ^ (64 - r) + b / 2 ^ r)).
