@@ -64,15 +64,15 @@ def _prove(names: tuple[str, ...], built: Path) -> None:
         file = build.compile_file(name, built)
         done.append(file)
         click.echo(f"{name + '.v':20} {file.statements:3} statements {file.lines:4} lines {file.seconds:6.1f} s")
-    groups = (build.OF_STAGES, build.OF_RUNS) if "Stages" in names else ()
-    composed = [(group, sorted(build.assumptions(group, built))) for group in groups]
-    found = build.demand_known_axioms(names, built)
+    others, floats = build.demand_known_axioms(names, built)
     statements, lines = sum(file.statements for file in done), sum(file.lines for file in done)
     click.echo(f"{statements} statements in {lines} lines are proved. They assume, of the real numbers:")
-    for axiom in sorted(found):
+    for axiom in sorted(others | floats):
         click.echo(f"    {axiom}" + " (Flocq alone)" * (axiom == build.OF_FLOCQ))
-    for group, axioms in composed:
-        click.echo(f"Print Assumptions of {', '.join(group)}: {', '.join(axioms)}")
+    if "Stages" in names:
+        for group, which, axioms in ((build.OF_STAGES, "without", others), (build.OF_RUNS, "on", floats)):
+            among = f"all {which} Flocq, {', '.join(group)} among them"
+            click.echo(f"Print Assumptions of {among}: {', '.join(sorted(axioms))}")
 
 
 def _refuse(changes: list[Weakened], count: int, built: Path) -> None:

@@ -216,17 +216,18 @@ def assumptions(names: tuple[str, ...], built: Path = BUILT) -> set[str]:
     return set(re.findall(r"^(\w[\w.']*)(?=\s*:|$)", found.stdout.partition("Axioms:")[2], re.MULTILINE))
 
 
-def demand_known_axioms(names: tuple[str, ...], built: Path = BUILT) -> set[str]:
-    """The axioms of these compiled files. Raises ProofError where one is not allowed."""
-    found = assumptions(tuple(name for name in names if name not in ON_FLOCQ), built)
-    unknown = found - set(AXIOMS)
-    if of_floats := tuple(name for name in ON_FLOCQ if name in names):
-        further = assumptions(of_floats, built)
-        unknown |= further - {*AXIOMS, OF_FLOCQ}
-        found |= further
+def demand_known_axioms(names: tuple[str, ...], built: Path = BUILT) -> tuple[set[str], set[str]]:
+    """The axioms of these compiled files: of those without floats of Flocq, and of those with them.
+
+    Raises ProofError where one is not allowed.
+    """
+    others = assumptions(tuple(name for name in names if name not in ON_FLOCQ), built)
+    on_flocq = tuple(name for name in ON_FLOCQ if name in names)
+    floats = assumptions(on_flocq, built) if on_flocq else set()
+    unknown = (others - set(AXIOMS)) | (floats - {*AXIOMS, OF_FLOCQ})
     if unknown:
         raise ProofError(f"the proofs assume {', '.join(sorted(unknown))}; that is not allowed")
-    return found
+    return others, floats
 
 
 def refuse_changes(each: int, built: Path = BUILT) -> int:

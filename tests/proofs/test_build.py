@@ -130,12 +130,13 @@ def test_prove_names_each_file_its_axioms_and_the_refused_statements(tools):
     assert lines[len(build.FILES)].startswith(f"{total} statements in ")
     made, given = len(weakenings.made(build.source)), "for a reason that is given"
     long = len(build.changed_integers())
+    stages, runs = ", ".join(build.OF_STAGES), ", ".join(build.OF_RUNS)
     assert lines[-11:] == [
         "    ClassicalDedekindReals.sig_not_dec",
         f"    {build.OF_FLOCQ} (Flocq alone)",
         "    FunctionalExtensionality.functional_extensionality_dep",
-        f"Print Assumptions of {', '.join(build.OF_STAGES)}: {build.AXIOMS[0]}, {build.AXIOMS[2]}",
-        f"Print Assumptions of {', '.join(build.OF_RUNS)}: {build.AXIOMS[0]}, {build.AXIOMS[2]}",
+        f"Print Assumptions of all without Flocq, {stages} among them: {build.AXIOMS[0]}, {build.AXIOMS[2]}",
+        f"Print Assumptions of all on Flocq, {runs} among them: {build.OF_FLOCQ}",
         f"{len(printed_c.changes(2, seed=45))} changes of the printed C are refused",
         f"{len(build.weakened())} weakened statements are written by hand; 2 are tried: all are refused",
         f"{len(build.changed_functions())} changes of the header's functions of words; 2 are tried: all are refused",
