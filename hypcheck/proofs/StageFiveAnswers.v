@@ -140,6 +140,8 @@ Definition length_of n := in_units (Z.sgn (m n)) (exponent n) (mantissa_of zeros
 Hypotheses (Begins : forall n, In n lengths -> v n = length_of n) (Right : Forall (is_right v) C_integers)
   (Fits : forall n, In n lengths -> Z.abs (v n) < 2 ^ 2098) (Parts : forall n, In n lengths -> are_parts (Z.sgn (m n)) (mantissa_of zeros (m n)) = true).
 
+Lemma name_stays s : name (meaning s) = name s.
+Proof. unfold meaning; destruct (String.eqb _ _); [destruct (arguments s) as [| ? [|]] |]; reflexivity. Qed.
 Lemma all_fit : Forall (fun s => Z.abs (v (name s)) < 2 ^ room_of s) C_fillings.
 Proof.
   assert (G : bounded v given).
@@ -147,9 +149,7 @@ Proof.
     split; [lia | apply Fits; exact I]. }
   apply Forall_forall; intros s I; destruct (rooms_suffice v (meaning s) G Right) as (k & E & B).
   - change C_integers with (map meaning C_fillings); apply in_map; exact I.
-  - assert (N : name (meaning s) = name s).
-    { revert I; apply (proj1 (Forall_forall (fun s => name (meaning s) = name s) C_fillings)); repeat apply Forall_cons; try reflexivity; apply Forall_nil. }
-    rewrite N in *; unfold room_of; rewrite E; exact B.
+  - rewrite name_stays in *; unfold room_of; rewrite E; exact B.
 Qed.
 Lemma all_right : Forall (fun s => is_right v (meaning s)) C_fillings.
 Proof. apply Forall_map; exact Right. Qed.
@@ -198,16 +198,20 @@ Definition begun := with_lengths (bound "axial_unit" (Of Int axial) (bound "radi
     (match bound_all [Named "row"] [row m e] constants with Some now => now | None => [] end)))).
 
 Ltac open text := eval cbv -[Z.min Z.sgn Z.eqb Z.leb exponent_of mantissa_of in_room in_units are_parts provided said most_grown W] in text.
-Ltac of_length n := exact (length_is n ltac:(cbn; tauto)).
-Ltac next := erewrite go_put; [| reflexivity | lazymatch goal with |- ?text = _ => let v := open text in change text with v end;
-  first [reflexivity | of_length "alpha" | of_length "b" | of_length "x" | of_length "y" | of_length "gamma" | of_length "d" | of_length "z"]
-  | reflexivity]; cbv [bound app map fst snd append].
+Lemma held_as_is {A} (o : option A) w : o = Some w -> (try v <- o; Some v) = Some w.
+Proof. intros ->; reflexivity. Qed.
+Ltac of_length n := exact (held_as_is _ _ (length_is n ltac:(cbn; tauto))).
+Definition begun_values := (map (fun n => Rec (parts_of_double zeros (m n) (e n))) lengths ++ [Of Int radial; Of Int axial] ++ map (fun _ => Room 2098) lengths
+  ++ map (fun n => Whole (v n)) ["alpha"; "b"; "x"; "y"; "gamma"; "d"; "z"])%list.
 
 Lemma beginning_runs f rest now : bound_all [Named "row"] [row m e] constants = Some now ->
   go known [] (23 + f) now (beginning ++ rest)%list = go known [] f begun rest.
 Proof.
   intros E; unfold begun; rewrite E; vm_compute in E; injection E as <-.
-  cbv [beginning lengths combine map app fst snd append declares]; cbn [Nat.add]; do 23 next; reflexivity.
+  rewrite (go_straight known [] f rest beginning _ begun_values); [reflexivity | vm_compute; reflexivity |].
+  lazymatch goal with |- Forall is_asked ?l => let v := open l in change (Forall is_asked v) end.
+  repeat (apply Forall_cons; [unfold is_asked; cbn [fst snd]; first [reflexivity | of_length "alpha" | of_length "b" | of_length "x" | of_length "y"
+    | of_length "gamma" | of_length "d" | of_length "z"] |]); apply Forall_nil.
 Qed.
 
 (** Which sign answers what. *)
@@ -418,5 +422,5 @@ Qed.
 
 Corollary integers_are_right : (answer_of_integers = Some (Of Int 1) -> exterior p) /\ (answer_of_integers = Some (Of Int (-1)) -> interior p)
   /\ (answer_of_integers = Some (Of Int 0) -> contact p).
-Proof. destruct text_answers_by_integers as (a & E & H); rewrite E; destruct a; repeat split; intros F; try discriminate; exact H. Qed.
+Proof. destruct text_answers_by_integers as (a & E & H); revert E; generalize answer_of_integers; intros o ->; destruct a; repeat split; intros F; try discriminate; exact H. Qed.
 End Position.
