@@ -27,7 +27,7 @@ factor; if it cannot, bisection of exponents and then of intervals finds the fac
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
@@ -118,11 +118,7 @@ class EndedFlip:
         pair = self.pair
         low = _times(pair.z_min, 1 + longer if pair.z_min < 0 else 1 - longer)
         high = _times(pair.z_max, 1 + longer if pair.z_max > 0 else 1 - longer)
-        if factor <= 0 or not low < high:
-            return None
-        b, d = factor * Fraction(pair.b), factor * Fraction(pair.d)
-        row = (pair.alpha, pair.gamma, b, d, pair.x, pair.y, pair.z, *pair.axis, low, high, pair.solid)
-        return exact.position(Lengths.of(row))
+        return _scaled_position(pair, factor, (low, high)) if factor > 0 and low < high else None
 
     def _sure_side(self, off: Fraction) -> Position | None:
         """The side of the centre after every relative change up to `off`; None if it can be on both sides."""
@@ -141,6 +137,13 @@ class EndedFlip:
         if outward * less > along * more + 1:
             return Position.EXTERIOR
         return Position.INTERIOR if between and all(apart) and outward * more <= along * less + 1 else None
+
+
+def _scaled_position(pair: Pair, factor: Fraction, ends: Sequence[float | Fraction]) -> Position:
+    """The position of the spheroid times `factor` beside a wall with these ends."""
+    b, d = factor * Fraction(pair.b), factor * Fraction(pair.d)
+    row = (pair.alpha, pair.gamma, b, d, pair.x, pair.y, pair.z, *pair.axis, *ends, pair.solid)
+    return exact.position(Lengths.of(row))
 
 
 def _times(height: float, factor: Fraction) -> float | Fraction:
@@ -192,6 +195,4 @@ def _bracket(pair: Pair) -> tuple[Fraction, Fraction]:
 
 
 def _meets(pair: Pair, factor: Fraction) -> bool:
-    b, d = factor * Fraction(pair.b), factor * Fraction(pair.d)
-    scaled = (pair.alpha, pair.gamma, b, d, pair.x, pair.y, pair.z, *pair.axis, *pair.heights)
-    return exact.position(Lengths.of(scaled)) is Position.CONTACT
+    return _scaled_position(pair, factor, (pair.z_min, pair.z_max)) is Position.CONTACT

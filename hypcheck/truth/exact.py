@@ -95,7 +95,7 @@ def _without_ends(lengths: Lengths) -> Decision:
 def kind_of(lengths: Lengths) -> Kind:
     """The kind of an upright pair: the row of the table of root patterns (kinds.py)."""
     g = cubic(lengths)
-    where, discriminant = _upright_position(g), cubic_discriminant(g.n3, g.n2, g.n1, g.n0)
+    where, discriminant = _upright_position(g), cubic_discriminant(*g.coefficients)
     if where is Position.EXTERIOR:
         return Kind.EXTERIOR if discriminant > 0 else Kind.EXTERIOR_RING
     return Kind.INTERIOR if where is Position.INTERIOR else _contact_kind(g, discriminant)

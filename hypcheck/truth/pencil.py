@@ -52,6 +52,11 @@ class Cubic:
     s: int
     t: int
 
+    @property
+    def coefficients(self) -> tuple[int, ...]:
+        """n3, n2, n1, n0."""
+        return (self.n3, self.n2, self.n1, self.n0)
+
 
 def cubic(lengths: Lengths) -> Cubic:
     """The cubic of equation (14) of the paper over the common denominator b² d²."""

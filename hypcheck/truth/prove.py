@@ -60,9 +60,8 @@ def _cubic_multiplier(g: Cubic) -> Fraction:
     """The local maximum of g, rounded to the fewest bits at which g stays positive; their number is a power of two."""
     for bits in precisions():
         at = rounded(Fraction(*local_maximum(g, bits)), bits)
-        u, v = at.numerator, at.denominator
-        inside = u < 0 or u * g.t < v * g.s  # below 0, g > 0 means λ > −A: g(−A) ≤ 0, and g rises up to there
-        if inside and ((g.n3 * u + g.n2 * v) * u + g.n1 * v * v) * u + g.n0 * v**3 > 0:
+        # Below 0, g > 0 means λ > −A: g(−A) ≤ 0, and g rises up to there.
+        if (at < 0 or at * g.t < g.s) and sign_at(g.coefficients, at) > 0:
             return at
     raise AssertionError("unreachable: the precisions do not end")
 

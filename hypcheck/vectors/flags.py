@@ -16,13 +16,14 @@ from numpy.typing import NDArray
 from hypcheck.derivation.evaluation import EXACT, evaluate
 from hypcheck.derivation.float_arithmetic import float_arithmetic, unit_roundoff
 from hypcheck.derivation.formulas import FORMULAS, answers
+from hypcheck.geometry.arithmetic import cross
 from hypcheck.geometry.pair import COLUMNS, SWEEP_COLUMNS, Pair, Position, to_integers
 from hypcheck.geometry.rows import Mask, Rows, within
 from hypcheck.truth import backward_error, exact
 from hypcheck.truth.certificate import PassageCertificate
 from hypcheck.truth.exact import Decision, discriminant
 from hypcheck.truth.kinds import Kind
-from hypcheck.truth.pencil import cubic, quartic
+from hypcheck.truth.pencil import cubic, quartic, side_of_center
 from hypcheck.truth.swept import sweep_of
 from hypcheck.vectors.family import Row, rows_of
 
@@ -224,8 +225,6 @@ def _of_pair(pair: Pair, decision: Decision) -> set[str]:
     """The flags that exact arithmetic decides."""
     g, kind = cubic(pair.lengths), decision.kind
     a, square = Fraction(pair.alpha) / Fraction(pair.b), (Fraction(pair.gamma) / Fraction(pair.d)) ** 2
-    x, y, z = Fraction(pair.x), Fraction(pair.y), Fraction(pair.z)
-    level = (x * x + y * y) / Fraction(pair.alpha) ** 2 - (z / Fraction(pair.gamma)) ** 2
     held = {
         "tangent": decision.tangent,
         "ring": kind is Kind.EXTERIOR_RING,
@@ -236,9 +235,9 @@ def _of_pair(pair: Pair, decision: Decision) -> set[str]:
         "a=1": a == 1,
         "c^2<a": square < a,
         "c^2=a": square == a,
-        "axis": x == y == 0,
-        "waist": z == 0,
-        "on-surface": level == 1,
+        "axis": pair.x == pair.y == 0,
+        "waist": pair.z == 0,
+        "on-surface": side_of_center(pair.lengths) == 0,
     }
     return {name for name, holds in held.items() if holds}
 
@@ -305,22 +304,20 @@ def _tilted_flags(rows: Sequence[Row], decisions: Sequence[Decision]) -> list[tu
 def _of_tilted_pair(pair: Pair, decision: Decision) -> tuple[str, ...]:
     sizes = pair.row[:7]
     double = not pair.is_upright and discriminant(quartic(pair.lengths)) == 0
-    alpha, gamma, _, _, x, y, z = to_integers(sizes)
-    v_x, v_y, v_z = to_integers(pair.axis)
-    across = x * v_y - y * v_x
+    across = cross(to_integers((pair.x, pair.y, pair.z)), to_integers(pair.axis))
     largest = max(map(abs, pair.axis))
     conditions = {
         "tangent": decision.tangent,
         "quartic-ring": double and decision.position is not Position.CONTACT,
         "quartic-delta=0": double,
         "tilt-matters": exact.position(Pair(*sizes).lengths) is not decision.position,
-        "vertical-axis": v_x == v_y == 0,
-        "horizontal-axis": v_z == 0,
+        "vertical-axis": pair.axis_x == pair.axis_y == 0,
+        "horizontal-axis": pair.axis_z == 0,
         "sphere": pair.b == pair.d,
-        "meridian-plane": across == 0,
-        "through-the-origin": across == y * v_z - z * v_y == z * v_x - x * v_z == 0,
-        "on-axis": x == y == 0,
-        "on-surface": (x**2 + y**2) * gamma**2 == alpha**2 * (gamma**2 + z**2),
+        "meridian-plane": across[2] == 0,
+        "through-the-origin": not any(across),
+        "on-axis": pair.x == pair.y == 0,
+        "on-surface": side_of_center(pair.lengths) == 0,
         "long-axis": not _SHORTEST <= largest <= _LONGEST,
         "extreme": not within(np.asarray([sizes]))[0],
     }

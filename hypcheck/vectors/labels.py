@@ -11,9 +11,10 @@ from fractions import Fraction
 from itertools import chain, count
 from typing import Any
 
-from hypcheck.geometry.arithmetic import dot, sign_of
+from hypcheck.geometry.arithmetic import sign_of
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.geometry.rows import PAIRS
+from hypcheck.proof_text import height_of_point, reach_of_point
 from hypcheck.truth import exact
 from hypcheck.truth.backward_error import Bracket, bracket, quick_bracket
 from hypcheck.truth.certificate import Certificate
@@ -160,16 +161,11 @@ def shows_crossing(row: Row, offsets: Sequence[Offset]) -> bool:
     A spheroid that only touches has all its points on one side or on the surface, and no inner point on the surface. So
     two points strictly on different sides, or an inner point on the surface, prove a crossing.
     """
-    alpha, gamma, b, d, _, _, _, *axis = map(Fraction, row)
-    sides = set()
-    for offset in offsets:
-        reach = dot(offset, offset)
-        if axis:
-            reach += (b * b / (d * d) - 1) * dot(offset, axis) ** 2 / dot(axis, axis)
+    pair, sides = Pair.from_row(row), set()
+    for point in (point_at(row, offset) for offset in offsets):
+        reach, level = reach_of_point(pair, point), height_of_point(pair, point)
         if reach > 1:
             return False
-        u, v, height = point_at(row, offset)
-        level = (u * u + v * v) / alpha**2 - (height / gamma) ** 2 - 1
         if level == 0 and reach < 1:
             return True
         sides.add(sign_of(level))
