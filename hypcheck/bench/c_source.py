@@ -33,13 +33,13 @@ def procedures_source() -> str:
 def _both() -> Iterator[str]:
     """The printed and the repaired procedures, which store the same numbers of a craft."""
     for repaired, prefix in ((procedures.PRINTED, ""), (procedures.PUT_RIGHT, "repaired_")):
-        asked, inside = procedures.hull_steps(repaired)
+        in_contact, inside = procedures.hull_steps(repaired)
         (hull_before, hull), (rotor_before, rotors) = (
             procedures.hull_programs(repaired),
             procedures.rotor_programs(repaired),
         )
         yield _asked(f"{prefix}rotors", rotor_before, rotors, ("valid",), "return valid;")
-        yield _asked(f"{prefix}hull", hull_before, hull, (asked, inside), f"return {asked} ? 2 : {inside};")
+        yield _asked(f"{prefix}hull", hull_before, hull, (in_contact, inside), f"return {in_contact} ? 2 : {inside};")
         yield _PROCEDURES.replace("{prefix}", prefix)
 
 

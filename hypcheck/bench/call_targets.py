@@ -154,12 +154,12 @@ def textbook(alpha: float, gamma: float, b: float, d: float, x: float, y: float,
 def one_call(rounds: int) -> Iterator[KernelLine]:
     """Targets of calls about one pair in a Python loop; the time of the empty loop is subtracted."""
     rows = [tuple(row) for row in tower_rows(uniform_columns(CALLS)).tolist()]
-    each = "for alpha, gamma, b, d, x, y, z in rows:"
-    ask = f"{each} ask(alpha, gamma, b, d, x, y, z)"
+    loop = "for alpha, gamma, b, d, x, y, z in rows:"
+    ask = f"{loop} ask(alpha, gamma, b, d, x, y, z)"
     functions: dict[str, object] = {"plain": exact_position, "textbook": textbook}
     if choice().kernel == "compiled":
         functions |= {"position": hypcheck.position, "nothing": extension().nothing}
-    entries = [timing.TimingEntry("loop", CALLS, statement(f"{each} pass", rows=rows))]
+    entries = [timing.TimingEntry("loop", CALLS, statement(f"{loop} pass", rows=rows))]
     entries += [
         timing.TimingEntry(name, CALLS, statement(ask, rows=rows, ask=function)) for name, function in functions.items()
     ]

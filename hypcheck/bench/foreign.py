@@ -154,7 +154,7 @@ class RunningForeign(LoadedMethod):
         if self._clock is None:
             return None
         answers = partial(self._asked, rows, by_scene=False)
-        return PreparedWork(len(rows), self._times(rows, answers, each=True), answers, self._clock)
+        return PreparedWork(len(rows), self._times(rows, answers, row_by_row=True), answers, self._clock)
 
     def empty(self, rows: Rows, mode: str) -> EmptyCall | None:
         """The empty call: of a library one that does nothing, of a command without a clock a question about one row."""
@@ -162,7 +162,7 @@ class RunningForeign(LoadedMethod):
         if self._clock is None and mode == "batch":
             return EmptyCall(name, PreparedWork(1, self._round_trips(rows[:1]), partial(self.answer, rows[:1])))
         if self.kind == "library" and mode == "single":
-            calls = self._times(rows[:0], _none, each=True)
+            calls = self._times(rows[:0], _none, row_by_row=True)
             return EmptyCall(name, PreparedWork(1, calls, _none))
         return None
 
@@ -184,14 +184,14 @@ class RunningForeign(LoadedMethod):
         return answered.answers
 
     def _times(
-        self, rows: Rows, answers: Callable[[], Answers], *, by_scene: bool = False, each: bool = False
+        self, rows: Rows, answers: Callable[[], Answers], *, by_scene: bool = False, row_by_row: bool = False
     ) -> Clocked:
         """The time by the clock of the implementation, whose checksum Implementation.time checks."""
         right = int(answers().sum(dtype=np.int64))
 
         def run(repeat: int) -> tuple[int, int]:
             try:
-                took = self.implementation.time(rows, repeat, by_scene=by_scene, each=each)
+                took = self.implementation.time(rows, repeat, by_scene=by_scene, row_by_row=row_by_row)
             except TimingError as error:
                 raise TimingRefusedError(str(error)) from None
             return took or 0, right

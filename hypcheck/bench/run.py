@@ -247,22 +247,27 @@ class MethodsRun:
                 self.answers += answered
                 advance(1)
         methods, workloads = list(self.contenders), list(truths)
-        self.answers.sort(key=lambda given: (workloads.index(given.workload), methods.index(given.method)))
-        for given in self.answers:
-            self._judge(given, truths[given.workload])
+        self.answers.sort(
+            key=lambda method_answers: (workloads.index(method_answers.workload), methods.index(method_answers.method))
+        )
+        for method_answers in self.answers:
+            self._judge(method_answers, truths[method_answers.workload])
 
-    def _judge(self, given: MethodAnswers, truth: WorkloadTruth) -> None:
-        contender = self.contenders[given.method]
-        if given.trouble:
+    def _judge(self, method_answers: MethodAnswers, truth: WorkloadTruth) -> None:
+        contender = self.contenders[method_answers.method]
+        if method_answers.trouble:
             self.recorder.add(
                 measurements.RefusedLine(
-                    method=given.method, workload=given.workload, mode="batch", reason=given.trouble
+                    method=method_answers.method,
+                    workload=method_answers.workload,
+                    mode="batch",
+                    reason=method_answers.trouble,
                 )
             )
             self.outcome.codes.add(Exit.WRONG)
-        if len(given.places):
+        if len(method_answers.places):
             tried = accuracy.FEW_TRIED if self.plan.quick and self.plan.question == PASSAGE else accuracy.WORST_TRIED
-            line = accuracy.accuracy_line(contender, given, truth, tried)
+            line = accuracy.accuracy_line(contender, method_answers, truth, tried)
             self.recorder.add(line)
             if contender.exact and (line.wrong or line.abstained):
                 self.outcome.codes.add(Exit.WRONG)

@@ -59,15 +59,15 @@ class SceneKernel:
         """All rows by one call each, from C."""
         return self._called("one_by_one", len(rows), len(rows), np.ascontiguousarray(rows))
 
-    def _called(self, name: str, count: int, *given: Floats | int) -> PreparedWork:
+    def _called(self, name: str, count: int, *arguments: Floats | int) -> PreparedWork:
         """Work that calls a function of the library with the given arguments and an array for `count` answers."""
         function, answers = getattr(self.library, name), np.zeros(count, dtype=np.int8)
         words = [
             ctypes.c_size_t(array) if isinstance(array, int) else ctypes.c_void_p(array.ctypes.data)
-            for array in (*given, answers)
+            for array in (*arguments, answers)
         ]
 
-        def work(_kept: object = given) -> Positions:  # pointers would not keep the arrays alive
+        def work(_kept: object = arguments) -> Positions:  # pointers would not keep the arrays alive
             function(*words)
             return answers
 

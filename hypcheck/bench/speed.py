@@ -200,9 +200,13 @@ Measurements = dict[MeasurementKey, list[Measurement]]
 def expected_prints(answers: list[MethodAnswers]) -> dict[MeasurementKey, str]:
     """The hashes of the judged answers, by method, workload and mode."""
     prints: dict[MeasurementKey, str] = {}
-    for given in answers:
-        prints[given.method, given.workload, "batch"] = NOT_ANSWERED if given.trouble else given.batch_print
-        prints[given.method, given.workload, "single"] = NOT_ANSWERED if given.trouble else given.single_print
+    for method_answers in answers:
+        prints[method_answers.method, method_answers.workload, "batch"] = (
+            NOT_ANSWERED if method_answers.trouble else method_answers.batch_print
+        )
+        prints[method_answers.method, method_answers.workload, "single"] = (
+            NOT_ANSWERED if method_answers.trouble else method_answers.single_print
+        )
     return prints
 
 

@@ -140,9 +140,9 @@ def _swept(pair: Pair, end: tuple[str, str, str], *, as_json: bool) -> str:
 
 
 def _refuse(options: dict[str, bool], reason: str) -> None:
-    given = [option for option, is_given in options.items() if is_given]
-    if given:
-        raise InputError(f"{given[0]} {reason}")
+    used = [option for option, is_given in options.items() if is_given]
+    if used:
+        raise InputError(f"{used[0]} {reason}")
 
 
 def _answer_table(

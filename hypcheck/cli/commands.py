@@ -100,8 +100,8 @@ _ENDINGS: tuple[tuple[type[BaseException], Callable[[BaseException], Ending]], .
 class CommandGroup(click.Group):
     """A group whose message about a missing command is one sentence; click prints the whole help."""
 
-    def __init__(self, *given: Any, **named: Any) -> None:  # noqa: ANN401 - click's
-        super().__init__(*given, **{**named, "no_args_is_help": False})
+    def __init__(self, *arguments: Any, **named: Any) -> None:  # noqa: ANN401 - click's
+        super().__init__(*arguments, **{**named, "no_args_is_help": False})
 
     def resolve_command(
         self, ctx: click.Context, args: list[str]

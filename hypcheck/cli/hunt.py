@@ -238,9 +238,9 @@ def minimise(spec: str, case: str, **subject: Any) -> None:  # noqa: ANN401
     from hypcheck.vectors.labels import labelled
     from hypcheck.vectors.showing import sweep_answer_lines
 
-    given = case_of(case)
+    simplified_case = case_of(case)
     with _target(spec, **subject) as target:
-        run = simplify(replace(target, extreme=is_extreme(given.name)), given)
+        run = simplify(replace(target, extreme=is_extreme(simplified_case.name)), simplified_case)
     for line in minimised_lines(run):
         click.echo(printable(line))
     row = run.last.case.row

@@ -268,7 +268,7 @@ def verify(context: click.Context, /, specs: tuple[str, ...], **values: Any) -> 
     """
     chosen = _chosen_specs(context, specs, self_check=values.pop("self_check"))
     unused = _WITHOUT_SPEC if chosen else _WITH_SPEC
-    _refuse_unused(context, unused, chosen=chosen, given=specs)
+    _refuse_unused(context, unused, chosen=chosen, named_in_file=specs)
     resume = values["resume"]
     if resume and context.get_parameter_source("out") is not ParameterSource.COMMANDLINE:
         values["out"] = resume if resume.is_dir() else resume.parent
@@ -303,10 +303,10 @@ def _chosen_specs(context: click.Context, specs: tuple[str, ...], *, self_check:
 
 
 def _refuse_unused(
-    context: click.Context, unused: Collection[str], *, chosen: tuple[str, ...], given: tuple[str, ...]
+    context: click.Context, unused: Collection[str], *, chosen: tuple[str, ...], named_in_file: tuple[str, ...]
 ) -> None:
     """Raise InputError about an option on the command line that the run does not have."""
     for option in context.command.params:
         if option.name in unused and context.get_parameter_source(option.name) is ParameterSource.COMMANDLINE:
-            hint = f"; {FILE} names one; --self ignores it" if chosen != given else ""
+            hint = f"; {FILE} names one; --self ignores it" if chosen != named_in_file else ""
             raise InputError(f"{option.opts[0]} is for a run {'without' if chosen else 'with'} SPEC{hint}")

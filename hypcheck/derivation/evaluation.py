@@ -41,7 +41,7 @@ class Evaluator:
     """A program made ready for one arithmetic: a function from inputs by name to the wanted values, in their order.
 
     Only the steps that the wanted names depend on are evaluated, and only the inputs that these read are asked for;
-    `inputs` names them. `given` are values by name that stay the same from call to call, converted once. Names are
+    `inputs` names them. `fixed_values` are values by name that every call uses, converted once. Names are
     looked up once, so that a call on small arrays spends its time on arithmetic; an intermediate value is freed after
     its last use, so that large arrays take no more memory than they must.
 
@@ -54,10 +54,10 @@ class Evaluator:
         program: Program,
         arithmetic: Arithmetic,
         wanted: Iterable[str],
-        given: Mapping[str, Any] | None = None,
+        fixed_values: Mapping[str, Any] | None = None,
     ) -> None:
         layout = _layout(program, tuple(wanted))
-        fixed = given or {}
+        fixed = fixed_values or {}
         self.inputs = tuple(name for name in layout.inputs if name not in fixed)
         self._program, self._arithmetic, self._wanted = program, arithmetic, layout.wanted
         self._varying = tuple((name, layout.places[name]) for name in self.inputs)

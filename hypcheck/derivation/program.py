@@ -147,11 +147,13 @@ def kind_of(step: Step, kinds: dict[str, str]) -> str:
         raise ValueError(f"there is no operation {step.operation!r}")
     if len(step.arguments) != len(operation.takes):
         raise ValueError(f"{step.operation} takes {len(operation.takes)} arguments, not {len(step.arguments)}")
-    given = tuple(_kind_of_argument(argument, kinds) for argument in step.arguments)
-    if (step.operation, given) in _OF_BOOLEANS:
+    kinds_of_arguments = tuple(_kind_of_argument(argument, kinds) for argument in step.arguments)
+    if (step.operation, kinds_of_arguments) in _OF_BOOLEANS:
         return BOOLEAN
-    if given != operation.takes:
-        raise ValueError(f"{step.operation} takes ({', '.join(operation.takes)}), not ({', '.join(given)})")
+    if kinds_of_arguments != operation.takes:
+        raise ValueError(
+            f"{step.operation} takes ({', '.join(operation.takes)}), not ({', '.join(kinds_of_arguments)})"
+        )
     return operation.gives
 
 
@@ -186,17 +188,17 @@ def cut(program: Program, known: Iterable[str], wanted: Iterable[str]) -> Progra
     The known names, inputs or steps, become the first inputs, in the order given; original inputs that are still
     needed follow. Raises KeyError where a name does not exist.
     """
-    given = tuple(dict.fromkeys(known))
-    for name in given:
+    first_inputs = tuple(dict.fromkeys(known))
+    for name in first_inputs:
         if name not in program.inputs:
             program.step(name)
-    others = tuple(name for name in program.inputs if name not in given)
+    others = tuple(name for name in program.inputs if name not in first_inputs)
     remaining = Program(
-        program.name, (*given, *others), tuple(step for step in program.steps if step.name not in given)
+        program.name, (*first_inputs, *others), tuple(step for step in program.steps if step.name not in first_inputs)
     )
     steps = needed(remaining, tuple(dict.fromkeys(wanted)))
     read = {name for step in steps for name in step.reads}
-    return Program(program.name, (*given, *(name for name in others if name in read)), steps)
+    return Program(program.name, (*first_inputs, *(name for name in others if name in read)), steps)
 
 
 @dataclass(frozen=True, slots=True)

@@ -109,16 +109,16 @@ def _term_of(step: Step, terms: dict[str, _Term], written: list[Step]) -> _Term:
     rule = RULES.get(step.operation)
     if rule is None:
         raise ValueError(f"step {step.name}: no bound is derived for {step.operation}")
-    given = [_argument(argument, terms) for argument in step.arguments]
+    arguments = [_argument(argument, terms) for argument in step.arguments]
     try:
-        count, one_signed, sign = rule(step, given)
+        count, one_signed, sign = rule(step, arguments)
     except ValueError as error:
         raise ValueError(f"step {step.name}: {error}") from None
     if step.operation in {"neg", "abs"}:
-        return _Term(count, given[0].magnitude, one_signed, sign)
+        return _Term(count, arguments[0].magnitude, one_signed, sign)
     name = f"magnitude_{step.name}"
     operation = "add" if step.operation == "sub" else step.operation
-    written.append(Step(name, operation, tuple(term.magnitude for term in given)))
+    written.append(Step(name, operation, tuple(term.magnitude for term in arguments)))
     return _Term(count, name, one_signed, sign)
 
 
@@ -131,16 +131,16 @@ def _argument(argument: Argument, terms: dict[str, _Term]) -> _Term:
 _Rule = tuple[int, bool, int | None]
 
 
-def _sum(step: Step, given: list[_Term]) -> _Rule:
-    left, right = given
+def _sum(step: Step, terms: list[_Term]) -> _Rule:
+    left, right = terms
     right_sign = _flipped(right.sign) if step.operation == "sub" else right.sign
     shared = left.sign is not None and left.sign == right_sign
     alike = left.one_signed and right.one_signed and shared
     return max(left.count, right.count) + 1, alike, left.sign if alike else None
 
 
-def _product(step: Step, given: list[_Term]) -> _Rule:
-    left, right = given
+def _product(step: Step, terms: list[_Term]) -> _Rule:
+    left, right = terms
     exact = any(_is_power_of_two(argument) for argument in step.arguments)
     one_signed = left.one_signed and right.one_signed
     is_square = step.arguments[0] == step.arguments[1]
@@ -148,28 +148,28 @@ def _product(step: Step, given: list[_Term]) -> _Rule:
     return left.count + right.count + (0 if exact else 1), one_signed, sign if one_signed else None
 
 
-def _quotient(_step: Step, given: list[_Term]) -> _Rule:
-    left, right = given
+def _quotient(_step: Step, terms: list[_Term]) -> _Rule:
+    left, right = terms
     if not right.one_signed:
         raise ValueError("the divisor may be a sum of terms of different signs")
     one_signed = left.one_signed
     return left.count + right.count + 1, one_signed, _times(left.sign, right.sign) if one_signed else None
 
 
-def _root(_step: Step, given: list[_Term]) -> _Rule:
-    (term,) = given
+def _root(_step: Step, terms: list[_Term]) -> _Rule:
+    (term,) = terms
     if not term.one_signed or term.sign != 1:
         raise ValueError("the root's argument may be a sum of terms of different signs, or negative")
     return -(-term.count // 2) + 1, True, 1
 
 
-def _negated(_step: Step, given: list[_Term]) -> _Rule:
-    (term,) = given
+def _negated(_step: Step, terms: list[_Term]) -> _Rule:
+    (term,) = terms
     return term.count, term.one_signed, _flipped(term.sign)
 
 
-def _absolute(_step: Step, given: list[_Term]) -> _Rule:
-    (term,) = given
+def _absolute(_step: Step, terms: list[_Term]) -> _Rule:
+    (term,) = terms
     if not term.one_signed:
         raise ValueError("the absolute value's argument may be a sum of terms of different signs")
     return term.count, True, 1

@@ -350,17 +350,17 @@ def _run(parts: tuple[Part, ...], values: dict[str, Any], arithmetic: Arithmetic
         if isinstance(part, Half | Stored):
             values[part.name] = values[part.pair][part.low] if isinstance(part, Half) else values[part.value]
             continue
-        given = [
+        arguments = [
             values[argument] if isinstance(argument, str) else arithmetic.convert(argument)
             for argument in part.arguments
         ]
-        if isinstance(part, Step) and part.operation == "select" and isinstance(given[1], tuple):
-            values[part.name] = given[1] if given[0] else given[2]
+        if isinstance(part, Step) and part.operation == "select" and isinstance(arguments[1], tuple):
+            values[part.name] = arguments[1] if arguments[0] else arguments[2]
         elif isinstance(part, Step):
-            values[part.name] = arithmetic.operations[part.operation](*given)
+            values[part.name] = arithmetic.operations[part.operation](*arguments)
         else:
             names = (*part.routine.inputs, *part.routine.record)
-            values[part.name] = run(part.routine, arithmetic, dict(zip(names, given, strict=True)))
+            values[part.name] = run(part.routine, arithmetic, dict(zip(names, arguments, strict=True)))
 
 
 def _run_loop(loop: Loop, values: dict[str, Any], arithmetic: Arithmetic) -> None:

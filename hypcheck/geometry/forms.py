@@ -149,8 +149,8 @@ def _require_known(named: Mapping[str, Argument], form: CallForm) -> None:
 def _spread(named: Mapping[str, Argument], form: CallForm) -> dict[str, Argument]:
     """Values by the names of columns; some names mean three columns. Raises InputError for a column given twice."""
     columns: dict[str, Argument] = {}
-    for given, value in named.items():
-        name = form.other_names.get(given, given)
+    for keyword, value in named.items():
+        name = form.other_names.get(keyword, keyword)
         _add(columns, named_points(name, value, form.named[name]) if name in form.named else {name: value})
     return columns
 

@@ -199,14 +199,15 @@ _DEFAULTS: Mapping[str, float] = dict(zip((*AXIS, *HEIGHTS), (*UPRIGHT, *WITHOUT
 """What a column that is missing stands for."""
 
 
-def as_columns(names: Sequence[str], given: Sequence[ArrayLike]) -> tuple[Floats, ...]:
+def as_columns(names: Sequence[str], arguments: Sequence[ArrayLike]) -> tuple[Floats, ...]:
     """The values of x, y, z …, each a number or an array (n,), as float64 columns of one length n.
 
     Raises InputError naming the value that is neither, or the shapes that do not fit together.
     """
     wanted = "it must be a number or an array (n,) of numbers"
     values = [
-        truth_values_as_numbers(value) if name == "solid" else value for name, value in zip(names, given, strict=True)
+        truth_values_as_numbers(value) if name == "solid" else value
+        for name, value in zip(names, arguments, strict=True)
     ]
     columns = [
         np.atleast_1d(as_numbers(f"{name} is", value, wanted)) for name, value in zip(names, values, strict=True)

@@ -320,10 +320,10 @@ class BuiltinSession:
         repeat: int,
         *,
         by_scene: bool = False,  # noqa: ARG002
-        each: bool = False,
+        row_by_row: bool = False,
     ) -> tuple[int, int]:
-        """Nanoseconds for `repeat` times the rows, and the sum of the answers; `each` makes a call for each row."""
-        parts = [rows[place : place + 1] for place in range(len(rows))] if each else [rows]
+        """Nanoseconds for `repeat` times the rows, and the sum of the answers; `row_by_row`: one call for each row."""
+        parts = [rows[place : place + 1] for place in range(len(rows))] if row_by_row else [rows]
         answers: list[NDArray[np.int8]] = []
         start = time.perf_counter_ns()
         for _ in range(repeat):

@@ -123,8 +123,10 @@ class PythonFunction:
             raise LoadError(f"{target!r} has no function {name!r}; it has {has}")
         _require_one_argument(function, target, name)
         self._function: Callable[[Rows], Any] = function
-        given = getattr(module, "hypcheck", None)  # a module after `import hypcheck`
-        self.description = "" if given is None or isinstance(given, ModuleType) else description_as_json(given)
+        description = getattr(module, "hypcheck", None)  # a module after `import hypcheck`
+        self.description = (
+            "" if description is None or isinstance(description, ModuleType) else description_as_json(description)
+        )
 
     def classify(self, rows: Rows, call: CallForm) -> GivenAnswers:
         """Answers to rows; raises ContractError if the function returns no array of n integers, or no times beside."""

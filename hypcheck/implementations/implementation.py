@@ -149,10 +149,10 @@ class Implementation:
             growth = _GROWTH if seconds < target / _GROWTH else 2
             self.proven_batch = max(self.proven_batch, min(self._supervisor.max_batch, rows * growth))
 
-    def time(self, rows: Rows, repeat: int, *, by_scene: bool = False, each: bool = False) -> int | None:
+    def time(self, rows: Rows, repeat: int, *, by_scene: bool = False, row_by_row: bool = False) -> int | None:
         """Nanoseconds, by its own clock, for `repeat` times the rows, 65,536 at most; None where it offers no timing.
 
-        `each`: by a call for each row. Of a library no rows may be timed too: what a call takes.
+        `row_by_row` makes one call for each row. A library may be timed on no rows too: that is the cost of a call.
 
         Raises TimingError where it fails, where it took far longer than it says, or where its checksum is not the sum
         of its answers, taken once or for each repetition.
@@ -161,12 +161,12 @@ class Implementation:
         self._check_scene(rows, by_scene=by_scene)
         least = 0 if self.spec.kind == "library" else 1
         if not least <= len(rows) <= LARGEST or repeat < 1:
-            asked = f"{counted(len(rows), 'row')} cannot be timed {counted(repeat, 'time')}"
-            raise InputError(f"{asked}; {least} to {LARGEST} rows can be timed, once or more")
+            request = f"{counted(len(rows), 'row')} cannot be timed {counted(repeat, 'time')}"
+            raise InputError(f"{request}; {least} to {LARGEST} rows can be timed, once or more")
         try:
             session = self._supervisor.session()
             began = time.monotonic_ns()
-            times = session.time(rows, repeat, by_scene=by_scene, each=each)
+            times = session.time(rows, repeat, by_scene=by_scene, row_by_row=row_by_row)
             took = time.monotonic_ns() - began
         except FaultError as fault:
             reason = self._supervisor.note_fault(fault)
@@ -179,7 +179,7 @@ class Implementation:
             raise
         if times is None:
             return None
-        questions = len(rows) if each else 1
+        questions = len(rows) if row_by_row else 1
         if took > _SLACK_NS * max(1, questions) + _MAX_RATIO * times[0]:
             raise TimingError(f"{self.spec} says that it took {times[0]:,} ns for what took {took:,} ns by our clock")
         answered = self.classify(rows, by_scene=by_scene)
@@ -237,10 +237,10 @@ class RowQuestions:
 
     def _question(self, start: int, stop: int) -> None:
         rows = self._rows[start:stop]
-        given = self._supervisor.session().classify(rows, by_scene=self._by_scene)
+        reply = self._supervisor.session().classify(rows, by_scene=self._by_scene)
         self._supervisor.note_answer()
-        answers, times = given
-        understood = self._allowed.understood(given, rows)
+        answers, times = reply
+        understood = self._allowed.understood(reply, rows)
         self.result.answers[start:stop] = np.where(understood, answers, CANNOT_SAY)
         self.result.status[start:stop] = Outcome.ANSWERED
         if self.result.times is not None and times is not None:

@@ -191,10 +191,10 @@ class _Memory:
     def scene(self, rows: Rows) -> list[int]:
         """The addresses of sizes, the axis of rows of ten, x, y, z, which nothing can be written to."""
         x, y, z = rows[:, 4:7].T
-        given = {"the sizes": rows[0, :4], "the axis": rows[0, 7:], "the x": x, "the y": y, "the z": z}
+        arguments = {"the sizes": rows[0, :4], "the axis": rows[0, 7:], "the x": x, "the y": y, "the z": z}
         if not PAIRS.has_axis(rows):
-            del given["the axis"]
-        return [self._placed(self._parts[name], part) for name, part in given.items()]
+            del arguments["the axis"]
+        return [self._placed(self._parts[name], part) for name, part in arguments.items()]
 
     @staticmethod
     def _placed(memory: GuardedMemory, part: NDArray[np.float64]) -> int:

@@ -280,16 +280,16 @@ class CommandSession(ProcessSession):
         repeat: int,
         *,
         by_scene: bool = False,  # noqa: ARG002
-        each: bool = False,
+        row_by_row: bool = False,
     ) -> tuple[int, int] | None:
         """Nanoseconds for `repeat` times the rows, and the sum of the answers; None if it does not offer timing.
 
-        `each` asks a question for each row.
+        `row_by_row` asks a question for each row.
         """
         if not self.description.time:
             return None
         rows = self._columns(rows)
-        parts = [rows[place : place + 1] for place in range(len(rows))] if each else [rows]
+        parts = [rows[place : place + 1] for place in range(len(rows))] if row_by_row else [rows]
         nanoseconds, totals = zip(*(self._time(part, repeat) for part in parts), strict=True)
         return sum(nanoseconds), sum(totals)
 

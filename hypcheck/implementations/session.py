@@ -107,10 +107,12 @@ class Session(Protocol):
         """Ask the rows: an integer for each and, if the description says so, times; neither is checked."""
         ...
 
-    def time(self, rows: Rows, repeat: int, *, by_scene: bool = False, each: bool = False) -> tuple[int, int] | None:
+    def time(
+        self, rows: Rows, repeat: int, *, by_scene: bool = False, row_by_row: bool = False
+    ) -> tuple[int, int] | None:
         """Nanoseconds for `repeat` times the rows, and the sum of the answers; None if it does not offer timing.
 
-        `each` makes a call for each row.
+        `row_by_row` makes a call for each row.
         """
         ...
 
@@ -178,9 +180,9 @@ class AllowedAnswers:
         self._usable = np.zeros(256, dtype=np.bool_)
         self._usable[[answer % 256 for answer in (*self.answers, CANNOT_SAY, *[REFUSED] * self._refuses)]] = True
 
-    def understood(self, given: GivenAnswers, rows: Rows) -> Mask:
+    def understood(self, reply: GivenAnswers, rows: Rows) -> Mask:
         """A mask (n,) of the allowed answers. REFUSED is allowed for invalid rows only; a time is from 0 to 1."""
-        answers, times = given
+        answers, times = reply
         short = answers.astype(np.int8, copy=False)
         usable = self._usable.take(short.view(np.uint8))
         if answers.dtype != np.int8:

@@ -120,15 +120,15 @@ def _reply(subject: ForeignCode, kind: bytes, call: CallForm, repeat: int, rows:
         if kind != frames.CLASSIFY:
             seconds = subject.seconds_each if kind == frames.TIME_EACH else subject.seconds
             return frames.TIMED, frames.TIMES.pack(*seconds(rows, repeat, call)), 8
-        given = subject.classify(rows, call)
-        answers = np.ascontiguousarray(given.integers)
+        reply = subject.classify(rows, call)
+        answers = np.ascontiguousarray(reply.integers)
     except ContractError as error:
         return frames.PROTOCOL, _sentence(str(error)), 1
     except BaseException as error:  # noqa: BLE001 - foreign code raises anything, SystemExit too
         traceback.print_exc()
         return frames.ERROR, _sentence(f"it {error_text(error)}"), 1
-    if given.times is not None:
-        return frames.ANSWERS, answers.tobytes() + given.times.astype("<f8", copy=False).tobytes(), answers.itemsize
+    if reply.times is not None:
+        return frames.ANSWERS, answers.tobytes() + reply.times.astype("<f8", copy=False).tobytes(), answers.itemsize
     return frames.ANSWERS, answers.data.cast("B"), answers.itemsize
 
 

@@ -118,10 +118,10 @@ class WorkerSession(ProcessSession):
         answers = frames.integers(body[: width * n], width)
         return GivenAnswers(answers, np.frombuffer(body[width * n :], dtype="<f8") if times else None)
 
-    def time(self, rows: Rows, repeat: int, *, by_scene: bool = False, each: bool = False) -> tuple[int, int]:
-        """Nanoseconds for `repeat` times the rows, and the sum of the answers; `each` makes a call for each row."""
-        call = self._call._replace(scene=by_scene and not each)
-        _, body = self._ask(frames.TIME_EACH if each else frames.TIME, call, rows, repeat, frames.TIMED)
+    def time(self, rows: Rows, repeat: int, *, by_scene: bool = False, row_by_row: bool = False) -> tuple[int, int]:
+        """Nanoseconds for `repeat` times the rows, and the sum of the answers; `row_by_row`: one call for each row."""
+        call = self._call._replace(scene=by_scene and not row_by_row)
+        _, body = self._ask(frames.TIME_EACH if row_by_row else frames.TIME, call, rows, repeat, frames.TIMED)
         if len(body) != frames.TIMES.size:
             raise _broken(f"{counted(len(body), 'byte')} of times")
         nanoseconds, total = frames.TIMES.unpack(body)

@@ -392,10 +392,10 @@ class Scene(PreparedScene):
         wanted = "it must be three numbers, or an array (n, 3) of them"
         if axis is None:
             raise InputError(f"no axis is given, and the scene leaves the mover's free; {wanted}")
-        given = as_numbers("axis is", axis, wanted)
-        if given.ndim not in (1, 2) or given.shape[-1] != 3:
-            raise InputError(f"axis is of shape {given.shape}; {wanted}")
-        return given[..., 0], given[..., 1], given[..., 2]
+        axes = as_numbers("axis is", axis, wanted)
+        if axes.ndim not in (1, 2) or axes.shape[-1] != 3:
+            raise InputError(f"axis is of shape {axes.shape}; {wanted}")
+        return axes[..., 0], axes[..., 1], axes[..., 2]
 
     def _replies(
         self, query: Indices, body: Indices, centres: Floats, heading: Floats, movers: Floats | None

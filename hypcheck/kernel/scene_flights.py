@@ -72,11 +72,11 @@ def paths_of(path: ArrayLike | Sequence[ArrayLike]) -> Paths:
     A path of one point has one segment, which stays there.
     """
     many = isinstance(path, (list, tuple)) and len(path) > 0 and _is_of_points(path[0])
-    given = path if many else as_numbers("the path is", path, _PATH)
-    single = not many and np.ndim(given) == 2  # type: ignore[arg-type]  # numbers by now
-    if not many and np.ndim(given) not in (2, 3):  # type: ignore[arg-type]
-        raise InputError(f"the path is of shape {np.shape(given)}; {_PATH}")  # type: ignore[arg-type]
-    points: list[Any] = [given] if single else list(given)  # type: ignore[arg-type]  # an array, or a list
+    paths = path if many else as_numbers("the path is", path, _PATH)
+    single = not many and np.ndim(paths) == 2  # type: ignore[arg-type]  # numbers by now
+    if not many and np.ndim(paths) not in (2, 3):  # type: ignore[arg-type]
+        raise InputError(f"the path is of shape {np.shape(paths)}; {_PATH}")  # type: ignore[arg-type]
+    points: list[Any] = [paths] if single else list(paths)  # type: ignore[arg-type]  # an array, or a list
     if not points:
         raise InputError("there is no path; there must be one at least")
     named = [("the path" if single else f"path {number}", track) for number, track in enumerate(points)]
@@ -190,9 +190,9 @@ class FirstContact:
         return LeastDistance(lower, upper, segment, time, index, center)
 
     def _of_hits(self, values: Any, otherwise: float) -> Any:  # noqa: ANN401 - an array, or its number
-        given = np.asarray(values)
-        of_flights = np.full(len(self.paths.first) - 1, otherwise, given.dtype)
-        of_flights[np.atleast_1d(self.hit)] = given
+        hit_values = np.asarray(values)
+        of_flights = np.full(len(self.paths.first) - 1, otherwise, hit_values.dtype)
+        of_flights[np.atleast_1d(self.hit)] = hit_values
         return of_flights[0].item() if self.paths.single else of_flights
 
 

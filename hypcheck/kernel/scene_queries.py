@@ -88,8 +88,8 @@ def are_one(center: Sequence[ArrayLike], heading: ArrayLike, axis: ArrayLike | N
 def sweeps_of(start: ArrayLike, end: ArrayLike, heading: ArrayLike, axes: Sequence[ArrayLike]) -> tuple[Floats, ...]:
     """The ends of sweeps, (n, 3) each, headings (n,), and the numbers of axes. Raises InputError where they are not."""
     points = []
-    for name, given in (("start", start), ("end", end)):
-        point = as_numbers(f"{name} is", given, POINTS)
+    for name, value in (("start", start), ("end", end)):
+        point = as_numbers(f"{name} is", value, POINTS)
         if point.ndim not in (1, 2) or point.shape[-1] != len(CENTER):
             raise InputError(f"{name} is of shape {point.shape}; {POINTS}")
         points.append(point.reshape(-1, len(CENTER)).T)
@@ -102,9 +102,9 @@ def sweeps_of(start: ArrayLike, end: ArrayLike, heading: ArrayLike, axes: Sequen
     return np.stack(columns[:3], axis=1), np.stack(columns[3:6], axis=1), *columns[6:]
 
 
-def finite_columns(names: Sequence[str], given: Sequence[ArrayLike]) -> tuple[Floats, ...]:
+def finite_columns(names: Sequence[str], arguments: Sequence[ArrayLike]) -> tuple[Floats, ...]:
     """The columns as as_columns makes them. Raises InputError about the first number that is not finite."""
-    columns = as_columns(names, given)
+    columns = as_columns(names, arguments)
     for name, values in zip(names, columns, strict=True):
         finite = np.isfinite(values)
         if not finite.all():

@@ -248,9 +248,9 @@ def near_of(bodies: Bodies, reaches: Floats, limits: Floats, index: int) -> Near
     return (x, y, z), float(reaches[index]), (low, high), (alpha, gamma), (z_min, z_max, float(bodies.solid[index]))
 
 
-def point_at_once(given: object) -> Place | None:
+def point_at_once(point: object) -> Place | None:
     """Three finite numbers in a list, a tuple or an array, and None for everything else that may be a point."""
-    values = given.tolist() if type(given) is np.ndarray and given.shape == (3,) else given
+    values = point.tolist() if type(point) is np.ndarray and point.shape == (3,) else point
     if not isinstance(values, (list, tuple)) or len(values) != 3:
         return None
     if not all(isinstance(value, float) or type(value) is int for value in values):

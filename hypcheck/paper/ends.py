@@ -93,22 +93,22 @@ def _positions(craft: Craft, sizes: Sizes, at: Columns) -> Positions:
     return np.asarray(classify(np.column_stack([np.tile(sizes, (len(at[0]), 1)), *at, fixed])), dtype=np.int8)
 
 
-def beside_trees(scene: SceneModel, at: Floats, asked: Mask, exterior: Mask) -> dict[str, Any]:
+def beside_trees(scene: SceneModel, at: Floats, at_height: Mask, exterior: Mask) -> dict[str, Any]:
     """The errors of the test by the centre's height at these places, (n, 3), for the trees, (m,), for JSON.
 
-    `asked` (n, m) is a mask of centres at a tree's height, `exterior` (n, m) a mask of movers that are exterior to the
-    tree without ends.
+    `at_height` (n, m) is a mask of centres at a tree's height, `exterior` (n, m) a mask of movers that are exterior to
+    the tree without ends.
     """
     walker = replace(scene.mover, parts=())
     ended = [
         Scene(replace(scene, question="position", hyperboloids=(tree,), mover=walker)) for tree in scene.hyperboloids
     ]
-    positions = np.stack([tree.classify(*at.T) for tree in ended], axis=1) if len(at) else np.empty(asked.shape)
-    by_center, by_ends = exterior | ~asked, positions == Position.EXTERIOR
+    positions = np.stack([tree.classify(*at.T) for tree in ended], axis=1) if len(at) else np.empty(at_height.shape)
+    by_center, by_ends = exterior | ~at_height, positions == Position.EXTERIOR
     free_by_center, free_by_ends = np.asarray(by_center.all(axis=1)), np.asarray(by_ends.all(axis=1))
     places = np.argwhere(by_center != by_ends)[:SHOWN].tolist()
     return {
-        "questions": {"asked": int(asked.size), **_differing(by_center, by_ends)},
+        "questions": {"asked": int(at_height.size), **_differing(by_center, by_ends)},
         "steps": {"asked": len(at), **_differing(free_by_center, free_by_ends)},
         "places": [
             {"at": at[place].tolist(), "tree": scene.hyperboloids[tree].name, "dangerous": bool(by_center[place, tree])}

@@ -222,8 +222,8 @@ def judged(trees: Trees, at: Places) -> Verdicts:
         for put_right in (False, True)
     )
     questions = (trees.modelled, trees.exterior, trees.proved_by_line)
-    asked, exterior, line = (_in_parts(trees, at, question) for question in questions)
-    return Verdicts(asked, exterior, line, printed, repaired)
+    at_height, exterior, line = (_in_parts(trees, at, question) for question in questions)
+    return Verdicts(at_height, exterior, line, printed, repaired)
 
 
 def _in_parts(trees: Trees, at: Places, ask: Callable[[Places], Mask]) -> Mask:
@@ -270,10 +270,10 @@ def steps_in_contact(trees: Trees, steps: WalkSteps) -> dict[str, Any]:
     """The number of made steps that touch an existing tree, decided exactly, and first contacts of some of them."""
     start, end = steps.start[steps.made], steps.end[steps.made]
     here, there = ((x, y, z) for x, y, z in (start.T, end.T))
-    asked, touched = trees.modelled(end), np.zeros((len(end), len(trees.sizes)), dtype=np.bool_)
+    at_height, touched = trees.modelled(end), np.zeros((len(end), len(trees.sizes)), dtype=np.bool_)
     for place, tree in enumerate(trees.scene.hyperboloids):
         exterior = stays_on_side(Position.EXTERIOR, _four(trees.sizes[place]), here, there, tree.center)
-        touched[:, place] = asked[:, place] & ~exterior
+        touched[:, place] = at_height[:, place] & ~exterior
     touching = np.flatnonzero(touched.any(axis=1))
     return {
         "made": len(end),
@@ -346,11 +346,11 @@ def simulate_forest(plan: ForestPlan, advance: Callable[[int], object] = lambda 
         require_ends(plan.scene)
     trees = Trees(plan.scene)
     steps = walk(trees, plan.rules, plan.scene.region, plan.count, plan.seed, advance)
-    asked = ~steps.edge
-    verdicts = judged(trees, steps.end[asked])
+    tested = ~steps.edge
+    verdicts = judged(trees, steps.end[tested])
     free = verdicts.by_all(verdicts.exterior)
     phantom = np.zeros_like(steps.edge)
-    phantom[asked] = free & steps.refused[asked]
+    phantom[tested] = free & steps.refused[tested]
     stops = _stops(trees, steps, phantom)
     blocking = {name for stop in stops if stop["kind"] == "phantom" for name in stop["trees"]}
     return {
@@ -378,7 +378,9 @@ def simulate_forest(plan: ForestPlan, advance: Callable[[int], object] = lambda 
         "stops": stops,
         "wall": _wall(trees, stops),
         **(
-            {"ends": beside_trees(plan.scene, steps.end[asked], verdicts.asked, verdicts.exterior)} if plan.ends else {}
+            {"ends": beside_trees(plan.scene, steps.end[tested], verdicts.asked, verdicts.exterior)}
+            if plan.ends
+            else {}
         ),
     }
 

@@ -152,12 +152,12 @@ class Procedures:
 
     def ask(self, at: Columns, heading: Direction) -> tuple[Mask, Mask]:
         """Procedure 2.b: masks of valid positions, and of positions whose rotors were tested (printed: for Δ ≤ 0)."""
-        _, asked, valid = self._body(dict(zip("xyz", at, strict=True)))
-        if asked.any():
-            some = np.flatnonzero(asked)
+        _, within, valid = self._body(dict(zip("xyz", at, strict=True)))
+        if within.any():
+            some = np.flatnonzero(within)
             x, y, z = (column[some] for column in at)
             valid[some] = self.ask_rotors((x, y, z), (heading[0][some], heading[1][some]))
-        return valid, asked
+        return valid, within
 
     def ask_rotors(self, at: Columns, heading: Direction) -> Mask:
         """Procedure 2.a: a mask of the positions at which it finds all four rotors interior."""

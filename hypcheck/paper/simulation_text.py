@@ -60,9 +60,9 @@ def _ends_of_trees(ends: dict[str, Any]) -> Iterator[str]:
     """The lines about the errors of a test by the centre's height for trees that end."""
     yield "Trees as they end, where the walk asks for the height of the centre alone:"
     for name, what in (("steps", "step"), ("questions", "question")):
-        asked, needless, dangerous = (ends[name][key] for key in ("asked", "needless", "dangerous"))
+        questions, needless, dangerous = (ends[name][key] for key in ("asked", "needless", "dangerous"))
         yield (
-            f"  of {counted(asked, what)} the centre's height decides {needless + dangerous:,} otherwise: "
+            f"  of {counted(questions, what)} the centre's height decides {needless + dangerous:,} otherwise: "
             f"{dangerous:,} dangerous, {needless:,} needlessly refused"
         )
     for place in ends["places"][:SHOWN]:
@@ -78,8 +78,8 @@ def _ends_of_tower(ends: dict[str, Any]) -> Iterator[str]:
         counts = ends[name]
         if counts is None:
             continue
-        asked, reaching, beyond, touching = (counts[key] for key in ("asked", "reaching", "beyond", "touching"))
-        moves = counted(asked, "move")
+        tested, reaching, beyond, touching = (counts[key] for key in ("asked", "reaching", "beyond", "touching"))
+        moves = counted(tested, "move")
         yield f"  flights {what}: of {moves} asked about the body reaches beyond an end in {reaching:,};"
         yield (
             f"    there the centre's height decides {counts['needless'] + counts['dangerous']:,} otherwise: "
@@ -97,9 +97,9 @@ def _regime_line(names: list[str]) -> Iterator[str]:
 
 
 def _question_lines(questions: dict[str, int]) -> Iterator[str]:
-    asked, line = questions["asked"], questions["line"]
-    share = f" ({100 * line / asked:.2f} %)" if asked else ""
-    yield f"{counted(asked, 'question')}, one for each step and tree: a line answers {line:,} of them{share} without Δ"
+    total, line = questions["asked"], questions["line"]
+    share = f" ({100 * line / total:.2f} %)" if total else ""
+    yield f"{counted(total, 'question')}, one for each step and tree: a line answers {line:,} of them{share} without Δ"
     outside = questions["outside_height"]
     if outside:
         verbs = ("is", "has") if outside == 1 else ("are", "have")

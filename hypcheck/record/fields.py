@@ -223,9 +223,9 @@ class RecordLine(LinePart, frozen=True, kw_only=True, tag_field="type", tag=_typ
 
 def require_possible(name: str, bins: Sequence[Bin]) -> None:
     """Raise ValueError if a bin lies beyond FARTHEST, or has more wrong answers than cases."""
-    for number, (across, up, asked, wrong) in enumerate(bins):
+    for number, (across, up, cases, wrong) in enumerate(bins):
         require_places((across, up), f"{name}[{number}]")
-        require_counts(asked, wrong, f"{name}[{number}]")
+        require_counts(cases, wrong, f"{name}[{number}]")
 
 
 def require_places(places: Sequence[int], where: str) -> None:
@@ -236,10 +236,10 @@ def require_places(places: Sequence[int], where: str) -> None:
             raise ValueError(f"{where} is at {shown}; it must be between −{FARTHEST} and {FARTHEST}")
 
 
-def require_counts(asked: int, wrong: int, where: str) -> None:
+def require_counts(cases: int, wrong: int, where: str) -> None:
     """Raise ValueError if there are more wrong answers than answers."""
-    if not 0 <= wrong <= asked:
-        few, many = shortened(str(wrong), 20), shortened(str(asked), 20)
+    if not 0 <= wrong <= cases:
+        few, many = shortened(str(wrong), 20), shortened(str(cases), 20)
         raise ValueError(f"{where} has {few} wrong answers of {many}")
 
 

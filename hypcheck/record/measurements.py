@@ -139,9 +139,9 @@ class AccuracyLine(fields.RecordLine, frozen=True, kw_only=True):
     worst: Annotated[list[Mistaken], Meta(max_length=3)]
 
     def __post_init__(self) -> None:
-        for number, (octave, asked, wrong) in enumerate(self.octaves):
+        for number, (octave, cases, wrong) in enumerate(self.octaves):
             fields.require_places(() if isinstance(octave, str) else (octave,), f"octaves[{number}]")
-            fields.require_counts(asked, wrong, f"octaves[{number}]")
+            fields.require_counts(cases, wrong, f"octaves[{number}]")
 
 
 class SpeedLine(fields.RecordLine, frozen=True, kw_only=True):
@@ -238,8 +238,8 @@ class BoundingLine(fields.RecordLine, frozen=True, kw_only=True):
     overlap: list[tuple[float, fields.Count, fields.Count, float | None]]
 
     def __post_init__(self) -> None:
-        for number, (_, asked, wrong, _) in enumerate(self.overlap):
-            fields.require_counts(asked, wrong, f"overlap[{number}]")
+        for number, (_, cases, wrong, _) in enumerate(self.overlap):
+            fields.require_counts(cases, wrong, f"overlap[{number}]")
 
 
 class Compared(fields.LinePart, frozen=True, kw_only=True):

@@ -49,8 +49,8 @@ class AccuracyFacts(LineFacts[measurements.AccuracyLine]):
         line, where = self.line, (self.line.method, self.line.workload)
         names = ("asked", "wrong", "false_clear", "false_contact", "wrong_side", "abstained", "reliable_above")
         yield from self.fields(*where, "", *names)
-        for exponent, asked, wrong in line.octaves:
-            for quantity, number in (("asked", asked), ("wrong", wrong)):
+        for exponent, cases, wrong in line.octaves:
+            for quantity, number in (("asked", cases), ("wrong", wrong)):
                 yield *where, f"octave {exponent}", quantity, number
 
     def failures(self) -> Iterator[Failure]:
@@ -260,8 +260,8 @@ class StabilityFacts(LineFacts[measurements.StabilityLine]):
 
     def measurements(self) -> Iterator[Measurement]:
         line = self.line
-        for across, up, asked, wrong in line.bins:
-            for quantity, number in (("asked", asked), ("wrong", wrong)):
+        for across, up, cases, wrong in line.bins:
+            for quantity, number in (("asked", cases), ("wrong", wrong)):
                 yield line.method, line.precision, f"bin {across} {up}", quantity, number
 
 

@@ -81,8 +81,8 @@ class RatioChange:
 
 def _bad(group: GroupLine) -> float:
     """The share of tested cases that are not right."""
-    asked = sum(cases for status, cases in group.counts.items() if status != "skipped")
-    return 1 - group.counts.get("right", 0) / asked if asked else 0.0
+    tested = sum(cases for status, cases in group.counts.items() if status != "skipped")
+    return 1 - group.counts.get("right", 0) / tested if tested else 0.0
 
 
 def status_changes(before: Record, after: Record) -> list[StatusChange]:

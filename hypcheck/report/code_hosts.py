@@ -265,8 +265,8 @@ def _badge_text(record: Record) -> tuple[str, str]:
     if record.footer is None or record.footer.exit_code in EXITS_UNFINISHED:
         return "unfinished", "lightgrey"
     if verdict(record).passed:
-        asked = sum(total.asked for total in implementations(record) if total.gated)
-        return (f"held on {counted(asked, 'case')}" if asked else "held"), "brightgreen"
+        cases = sum(total.asked for total in implementations(record) if total.gated)
+        return (f"held on {counted(cases, 'case')}" if cases else "held"), "brightgreen"
     if record.footer.exit_code == EXIT_INCONCLUSIVE:
         return "inconclusive", "yellow"
     number = sum(failure.count for failure in failures(record))

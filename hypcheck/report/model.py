@@ -180,11 +180,11 @@ def oracle_totals(record: Record) -> list[OracleTotal]:
 
 def _oracle_total(name: str, lines: list[OracleLine]) -> OracleTotal:
     stages: Counter[str] = sum((Counter(line.stages) for line in lines), Counter())
-    asked, disagreements = sum(line.asked for line in lines), sum(line.disagreeing for line in lines)
+    cases, disagreements = sum(line.asked for line in lines), sum(line.disagreeing for line in lines)
     undecided = sum(line.undecided for line in lines) - stages[REFUSED]
-    agreed = asked - undecided - disagreements
+    agreed = cases - undecided - disagreements
     seconds = sum(line.seconds for line in lines)
-    return OracleTotal(name, asked, agreed, undecided, disagreements, dict(sorted(stages.items())), seconds)
+    return OracleTotal(name, cases, agreed, undecided, disagreements, dict(sorted(stages.items())), seconds)
 
 
 def unlisted(finding: FindingLine) -> bool:

@@ -360,9 +360,9 @@ def _family(group: GroupLine) -> FamilySummary:
     return FamilySummary(**counts, fresh=group.fresh, not_asked=group.not_asked)
 
 
-def _counts(asked: int, statuses: dict[str, int], mistakes: dict[str, int], worst: WrongAnswer | None) -> Fields:
+def _counts(cases: int, statuses: dict[str, int], mistakes: dict[str, int], worst: WrongAnswer | None) -> Fields:
     return {
-        "asked": asked,
+        "asked": cases,
         **{status: statuses.get(status, 0) for status in ("right", "tolerated", "wrong", "excused")},
         "mistakes": _mistakes(mistakes),
         "worst_backward_error_u": model.worst_error_u(worst),

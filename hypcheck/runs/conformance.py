@@ -150,10 +150,10 @@ def add_exit_codes(recorded: Iterable[RecordLine], outcome: RunOutcome) -> None:
     The code is Exit.USAGE if no row of some implementation was judged, and Exit.INCONCLUSIVE if too few rows of one
     were judged. Raises NothingJudgedError if no case was tested, because such a run proves nothing.
     """
-    asked, judged, skipped = 0, 0, 0
+    cases, judged, skipped = 0, 0, 0
     for line in recorded:
         if isinstance(line, GroupLine):
-            asked += line.asked
+            cases += line.asked
             judged += line.judged
             skipped += line.skipped
             undecided = Status.UNDECIDED.value
@@ -169,7 +169,7 @@ def add_exit_codes(recorded: Iterable[RecordLine], outcome: RunOutcome) -> None:
                 outcome.codes |= set() if judged else {Exit.USAGE}
                 outcome.codes |= {Exit.INCONCLUSIVE} if too_few(judged, skipped) else set()
             judged, skipped = 0, 0
-    if not asked and Exit.NOT_STARTED not in outcome.codes:
+    if not cases and Exit.NOT_STARTED not in outcome.codes:
         raise NothingJudgedError(
             "no case was judged: every case is outside the domain, or the declared precision cannot hold its numbers"
         )
@@ -259,8 +259,8 @@ class ImplementationLines:
         """Reasons why the implementation fails as a whole, not in one family."""
         nothing_judged = finished and not any(group.judged for group in groups)
         if nothing_judged:
-            asked = sum(line.asked for line in groups)
-            why = f"it abstained from all {asked:,} cases" if asked else "it was asked none of them"
+            cases = sum(line.asked for line in groups)
+            why = f"it abstained from all {cases:,} cases" if cases else "it was asked none of them"
             yield f"no case of {self.used.name} was judged: {why}"
         abstained = sum(line.counts.get(Status.ABSTAINED.value, 0) for line in groups)
         if abstained > self.plan.max_abstained and not nothing_judged:

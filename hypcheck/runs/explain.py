@@ -121,8 +121,8 @@ def _possible_answers(rows: Floats, truth: Any, criterion: Criterion) -> Iterato
         first = np.array([passage_of(tuple(row)).first_lower for row in rows.tolist()], dtype=np.float64)
         for times in (1 - first, first + 2.0**-13, first - 2.0**-13):
             within = np.flatnonzero((first > 2.0**-10) & (first < 1 - 2.0**-10))
-            given = np.ones(len(within), dtype=np.int8)
-            yield replace(answered.part(within), given=given, times=np.ascontiguousarray(times[within]))
+            answers = np.ones(len(within), dtype=np.int8)
+            yield replace(answered.part(within), given=answers, times=np.ascontiguousarray(times[within]))
 
 
 def _is_wrong(answered: AnsweredRows) -> Mask:

@@ -308,10 +308,10 @@ def finding_lines(finding: HuntFinding, target: HuntTarget) -> Iterator[str]:
 
 def _command(target: HuntTarget, *words: str) -> str:
     """The start of a command about the target, with the options that opened it."""
-    given = [
+    options = [
         part for name, value in target.options if words[0] != "replay" or name != "--regimes" for part in (name, value)
     ]
-    return shlex.join(("hypcheck", *words, *given))
+    return shlex.join(("hypcheck", *words, *options))
 
 
 def decimals(row: Sequence[float]) -> str:

@@ -248,8 +248,8 @@ def _causes(truth: ProvedTruth, judgement: ReplayJudgement, criterion: Criterion
     """The causes about places whose rules give this wrong answer: all in exact arithmetic, else one about rounding."""
     if judgement.answer is None or judgement.mistake is None:
         return ()
-    truths, given = (np.array([value], dtype=np.int8) for value in (truth.decision.position, judgement.answer))
-    answered = AnsweredRows(np.array([truth.pair.row]), truths, given, criterion)
+    truths, answers = (np.array([value], dtype=np.int8) for value in (truth.decision.position, judgement.answer))
+    answered = AnsweredRows(np.array([truth.pair.row]), truths, answers, criterion)
     causes = [cause for cause in (*PLACES, *WIDER_ROUNDINGS) if cause.rule(answered)[0] == judgement.answer]
     exactly = [cause for cause in causes if cause.scope is Scope.PLACE]
     return tuple(exactly or causes[:1])

@@ -280,12 +280,12 @@ def _draws(lengths: tuple[int, ...], seed: int) -> tuple[NDArray[np.int64], NDAr
     An interrupted process has fewer rounds. Samples of one run have the same numbers, and the same draws.
     """
     generator = np.random.Generator(np.random.PCG64(seed))
-    number, rounds, each = len(lengths), max(lengths), np.array(lengths)
+    number, rounds, counts = len(lengths), max(lengths), np.array(lengths)
     drawn = generator.integers(0, number, (DRAWS, number))[..., None]
     shares = generator.random((DRAWS, number, rounds))
-    starts = np.cumsum(each) - each
-    places = (starts[drawn] + np.floor(shares * each[drawn]).astype(np.int64)).reshape(DRAWS, -1)
-    missing = (np.arange(rounds) >= each[drawn]).reshape(DRAWS, -1)
+    starts = np.cumsum(counts) - counts
+    places = (starts[drawn] + np.floor(shares * counts[drawn]).astype(np.int64)).reshape(DRAWS, -1)
+    missing = (np.arange(rounds) >= counts[drawn]).reshape(DRAWS, -1)
     return places, missing if missing.any() else None
 
 

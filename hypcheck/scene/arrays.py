@@ -31,8 +31,8 @@ def hyperboloids_of(
 ) -> tuple[Hyperboloid, ...]:
     """One hyperboloid for each center, (n, 3); other values are numbers or columns (n,). Raises InputError."""
     points, axes = named_points("center", center), named_points("axis", (0, 0, 1) if axis is None else axis, AXIS)
-    given = (alpha, gamma, *points.values(), *axes.values(), *heights)
-    columns = [column.tolist() for column in as_columns((*SIZES[:2], *CENTER, *AXIS, *HEIGHTS), given)]
+    values = (alpha, gamma, *points.values(), *axes.values(), *heights)
+    columns = [column.tolist() for column in as_columns((*SIZES[:2], *CENTER, *AXIS, *HEIGHTS), values)]
     count = len(columns[0])
     called = [f"hyperboloid {number + 1}" for number in range(count)] if names is None else list(map(str, names))
     if len(called) != count:

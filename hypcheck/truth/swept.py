@@ -303,7 +303,7 @@ def sweep_of(
     ends = [height for height in heights[:2] if math.isfinite(height)]
     alpha, gamma, b, d, x0, y0, z0 = _required(sizes, start)
     x1, y1, z1 = _required(sizes, end)[len(SIZES) :]
-    direction, tower = (checked_axis(UPRIGHT if given is None else given) for given in (axis, upward))
+    direction, tower = (checked_axis(UPRIGHT if vector is None else vector) for vector in (axis, upward))
     if (any(direction[:2]) and b != d) or any(tower[:2]):
         a, c, w, h, x, x1, y, y1, z, z1, *ended = integers(alpha, gamma, b, d, x0, x1, y0, y1, z0, z1, *ends)
         axes = _three(direction), _three(tower)

@@ -125,5 +125,5 @@ def test_unit_roundoff_is_half_the_gap_after_one():
 
 
 def test_float_arithmetic_refuses_an_unknown_format():
-    with pytest.raises(ValueError, match="none of the formats float16, float32, float64, longdouble"):
+    with pytest.raises(ValueError, match="not one of the formats float16, float32, float64, longdouble"):
         float_arithmetic("bfloat16")

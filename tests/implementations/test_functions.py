@@ -286,7 +286,7 @@ def test_a_function_is_timed_and_a_fault_while_timing_is_reported():
     with open_implementation(function("right"), LIMITS) as it:
         # the least of five, for whatever else the machine does may fall on any one of them
         assert 0 < min(it.time(some, 1) for _ in range(5)) < it.time(some, 30)
-        assert it.time(some, 1, each=True) > 0
+        assert it.time(some, 1, row_by_row=True) > 0
         with pytest.raises(InputError, match="0 rows cannot be timed 1 time;"):
             it.time(some[:0], 1)
         with pytest.raises(InputError, match="cannot be asked by scene"):

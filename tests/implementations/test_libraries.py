@@ -101,7 +101,7 @@ def test_a_library_answers_batches_of_every_size_and_its_description_is_read(rig
         for n, batch in ((70_000, None), (70_000, 70_000), (50, 1), (700, 77)):
             assert it.classify(some[:n], batch=batch).answers.tolist() == signs(some[:n]).tolist()
         assert it.time(some[:1000], 3) > 0
-        assert 0 < it.time(some[:1000], 3, each=True)
+        assert 0 < it.time(some[:1000], 3, row_by_row=True)
 
 
 @pytest.mark.parametrize("loop", ["in C", "by ctypes"])

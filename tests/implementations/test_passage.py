@@ -76,7 +76,7 @@ def test_a_python_function_returns_hits_and_times_and_refuses_an_invalid_way():
         answered = it.classify(some)
         refused = it.classify(bad)
         assert it.time(some[:3], 2) > 0
-        assert it.time(some[:3], 1, each=True) > 0
+        assert it.time(some[:3], 1, row_by_row=True) > 0
     assert answered.answers.tolist() == hits
     np.testing.assert_array_equal(answered.times, times)
     assert np.flatnonzero(refused.answers == 127).tolist() == [3]
@@ -94,7 +94,7 @@ def test_a_library_for_ways_is_called_by_its_function_for_passage(flags, tmp_pat
         assert not it.scene
         answered = it.classify(some)
         assert it.time(some, 3) > 0
-        assert it.time(some[:9], 2, each=True) > 0
+        assert it.time(some[:9], 2, row_by_row=True) > 0
     assert answered.answers.tolist() == hits
     if flags:
         np.testing.assert_array_equal(answered.times, times)

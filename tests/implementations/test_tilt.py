@@ -48,7 +48,7 @@ def test_an_implementation_with_tilt_is_asked_rows_of_ten_numbers_about_upright_
 def test_a_command_with_tilt_is_timed_on_rows_of_ten_numbers():
     with open_implementation(command("tilted", "binary"), LIMITS) as it:
         assert it.time(tilted_rows(4), 3) == 3000
-        assert it.time(rows(4, lucky=True), 2, each=True) == 8000
+        assert it.time(rows(4, lucky=True), 2, row_by_row=True) == 8000
 
 
 def test_an_implementation_without_tilt_refuses_rows_of_ten_numbers():

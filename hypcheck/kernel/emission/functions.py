@@ -40,8 +40,8 @@ def setting_function(plan: ScenePlan, stages: Stages, place: int, dialect: Diale
     """
     parts = list(_Body(plan, stages, place, dialect).lines())
     read = set(re.findall(r"\w+", "\n".join(parts)))
-    given = ("x", "y", "z", *(("axis",) if plan.free else ()), *(("c", "s") if shared else ()))
-    unused = (dialect.say("unused", name=name) for name in given if name not in read)
+    parameters = ("x", "y", "z", *(("axis",) if plan.free else ()), *(("c", "s") if shared else ()))
+    unused = (dialect.say("unused", name=name) for name in parameters if name not in read)
     lines = [line for part in (*unused, *parts) for line in part.splitlines() or [""]]
     heads = [] if shared else [dialect.say("note", text=line) for line in notes(plan, stages)]
     indented = [f"{INDENT}{line}" if line else "" for line in (*heads, *lines)]

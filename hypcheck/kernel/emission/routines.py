@@ -140,8 +140,8 @@ class _Printer:
             return value_of(part, self.spelling)
         if isinstance(part, Half):
             return self.say("low" if part.low else "high", pair=part.pair)
-        given = ", ".join(argument_of(argument, self.spelling) for argument in part.arguments)
-        return f"{part.routine.name}({given})"
+        arguments = ", ".join(argument_of(argument, self.spelling) for argument in part.arguments)
+        return f"{part.routine.name}({arguments})"
 
     def _loop(self, loop: Loop, kinds: dict[str, str]) -> Iterator[str]:
         for name, start, _ in loop.kept:

@@ -227,10 +227,10 @@ def _function(name: str, program: Program, wanted: tuple[str, ...]) -> list[str]
     kind = "bool" if name == "chord" else "float"
     of_lines = {"u_8": lines.U_8, "more": lines.MORE, "less": lines.LESS}
     constants = certified.SINGLE_CONSTANTS if program is certified.SINGLE else of_lines
-    given = [symbol for symbol in program.inputs if symbol not in constants]
+    parameters = [symbol for symbol in program.inputs if symbol not in constants]
     read = {symbol for step in needed(program, wanted) for symbol in step.reads}
     return [
-        f"def {name}({', '.join(f'{symbol}: float' for symbol in given)}) -> tuple[{kind}, ...]:",
+        f"def {name}({', '.join(f'{symbol}: float' for symbol in parameters)}) -> tuple[{kind}, ...]:",
         f'{INDENT}"""{", ".join(wanted)} of the program "{program.name}"."""',
         *(
             f"{INDENT}{symbol} = {constants[symbol]!r}  # {constants[symbol].hex()}"

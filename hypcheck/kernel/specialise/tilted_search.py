@@ -152,7 +152,7 @@ def _halving(times: int, mean: Program, low: tuple[str, str], high: tuple[str, s
 def _search() -> tuple[Part, ...]:
     nearly = _highs(*_COMPONENTS, *_POLES)
     return (
-        *(Call(name, WHOLE, (given,)) for name, given in zip("xyz", CENTRE, strict=True)),
+        *(Call(name, WHOLE, (argument,)) for name, argument in zip("xyz", CENTRE, strict=True)),
         *in_double_double(tilted.COMPONENTS, _COMPONENTS),
         *_nearly(*_COMPONENTS, *_POLES, *_GAPS),
         Call("is_interior", FALLING, (*nearly, *_highs(*_POLES))),
@@ -172,7 +172,7 @@ def _parts_at_the_maximum() -> tuple[Part, ...]:
     at = {"distance": "far", "near_zero": "near_zero", "inside": "inside"}
     values = ("lambda_", *_PLACES, "phi")
     return (
-        *(Call(f"{name}_there", WHOLE, (given,)) for name, given in at.items()),
+        *(Call(f"{name}_there", WHOLE, (argument,)) for name, argument in at.items()),
         *renamed(in_double_double(last_stages.PLACE, ("lambda_",)), {name: f"{name}_there" for name in at}),
         *in_double_double(tilted.PHI, ("phi", *_PLACES)),
         *_nearly(*values),
@@ -259,8 +259,8 @@ FREE_SEARCH = Routine(
             """
         ),
         *(
-            Call(name, WHOLE, (given,))
-            for name, given in zip(
+            Call(name, WHOLE, (argument,))
+            for name, argument in zip(
                 ("hx", "hy", "vx", "vy", "vz"),
                 ("across_x", "across_y", "along_x", "along_y", "along_z"),
                 strict=True,

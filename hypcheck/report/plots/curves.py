@@ -85,15 +85,15 @@ def curve(name: str, octaves: Mapping[float, tuple[int, int]]) -> Curve:
     """
     finite = [exponent for exponent in octaves if math.isfinite(exponent)]
     width = STEP if finite and max(finite) - min(finite) > MANY else 1
-    asked: Counter[float] = Counter()
+    totals: Counter[float] = Counter()
     wrong: Counter[float] = Counter()
     for exponent, (cases, errors) in octaves.items():
         if exponent == math.inf:  # no change of the inputs changes the answer, so the octave has no place on the axis
             continue
         start = exponent if exponent == TANGENT else exponent // width * width
-        asked[start] += cases
+        totals[start] += cases
         wrong[start] += errors
-    points = (Octave(start, asked[start], wrong[start], width) for start in sorted(asked) if asked[start])
+    points = (Octave(start, totals[start], wrong[start], width) for start in sorted(totals) if totals[start])
     return Curve(name, tuple(points))
 
 
@@ -204,14 +204,14 @@ def octave_plots(record: Record) -> Iterator[Plot]:
 
 def _octave_curve(implementation: ImplementationTotal) -> Curve:
     """The curve of an implementation, over all families together."""
-    asked: Counter[float] = Counter()
+    cases: Counter[float] = Counter()
     wrong: Counter[float] = Counter()
     for group in implementation.groups:
         for exponent, counts in group.octaves.items():
             for status, number in counts.items():
-                asked[float(exponent)] += number * (status != "skipped")
+                cases[float(exponent)] += number * (status != "skipped")
                 wrong[float(exponent)] += number * (status not in NOT_WRONG)
-    return curve(implementation.name, {exponent: (asked[exponent], wrong[exponent]) for exponent in asked})
+    return curve(implementation.name, {exponent: (cases[exponent], wrong[exponent]) for exponent in cases})
 
 
 FORMULAS = ("paper", "algebraic", "certified")
@@ -241,7 +241,7 @@ def _groups(methods: list[MeasuredMethod], workload: str) -> Iterator[tuple[str,
     for method in sorted(methods, key=lambda method: TIERS.index(method.tier)):
         line = method.accuracy.get(workload)
         if line is not None and line.asked:
-            octaves = {float(exponent): (asked, wrong) for exponent, asked, wrong in line.octaves}
+            octaves = {float(exponent): (cases, wrong) for exponent, cases, wrong in line.octaves}
             groups.setdefault(_group(method), []).append(curve(method.label, octaves))
     for name, curves in groups.items():
         parts = list(in_parts(curves))

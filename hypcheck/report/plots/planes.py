@@ -43,20 +43,20 @@ SIZES = ("α/b", "γ/d")
 """The quantities across and up."""
 
 
-def step(asked: int, wrong: int) -> str:
+def step(cases: int, wrong: int) -> str:
     """The role of the colour of a share."""
-    place = next(place for place, (end, _) in enumerate(STEPS) if wrong <= end * asked)
+    place = next(place for place, (end, _) in enumerate(STEPS) if wrong <= end * cases)
     return f"share-{place}"
 
 
 def cells(bins: Iterable[Sequence[int]], merged: int = 1) -> Cells:
     """The cells of [across, up, asked, wrong], with `merged` of them joined into one in each direction."""
-    asked: Counter[tuple[int, int]] = Counter()
+    totals: Counter[tuple[int, int]] = Counter()
     wrong: Counter[tuple[int, int]] = Counter()
     for across, up, cases, errors in bins:
-        asked[across // merged, up // merged] += cases
+        totals[across // merged, up // merged] += cases
         wrong[across // merged, up // merged] += errors
-    return {place: (asked[place], wrong[place]) for place in sorted(asked) if asked[place]}
+    return {place: (totals[place], wrong[place]) for place in sorted(totals) if totals[place]}
 
 
 def _heat_plots(prefix: str, width: float, maps: Mapping[str, Cells]) -> Iterator[style.Plot]:
@@ -93,8 +93,8 @@ def _heat_plot(name: str, title: str, width: float, bins: Cells, limits: Sequenc
         getattr(axes, f"set_{axis}lim")(*ends)
         getattr(axes, f"set_{axis}ticks")(ticks, [style.power_of_ten(exponent) for exponent in exponents])
         getattr(axes, f"set_{axis}label")(label)
-    asked, errors = (sum(counts[k] for counts in bins.values()) for k in (0, 1))
-    description = f"Share of wrong answers over {SIZES[0]} and {SIZES[1]}: {errors:,} of {asked:,} wrong."
+    cases, errors = (sum(counts[k] for counts in bins.values()) for k in (0, 1))
+    description = f"Share of wrong answers over {SIZES[0]} and {SIZES[1]}: {errors:,} of {cases:,} wrong."
     tips = {name: [_tip(width, place, counts) for place, counts in wrong.items()]} if wrong else {}
     return style.Plot(name, title, description, drawn, tips)
 
@@ -196,8 +196,8 @@ def _field_plot(name: str, implementation: ImplementationTotal, bins: Cells) -> 
     axes = drawn.subplots()
     image = np.zeros((CELLS, CELLS, 4))
     steps: Counter[str] = Counter()
-    for (across, up), (asked, wrong) in bins.items():
-        role = step(asked, wrong)
+    for (across, up), (cases, wrong) in bins.items():
+        role = step(cases, wrong)
         steps[role] += 1
         image[min(up, CELLS - 1), min(across, CELLS - 1)] = to_rgba(FAINT if role == "share-0" else style.colour(role))
     end = CELLS / PER_UNIT
@@ -206,10 +206,10 @@ def _field_plot(name: str, implementation: ImplementationTotal, bins: Cells) -> 
     axes.set(xlabel="r/α", ylabel="|z|/γ")
     axes.set_xticks(range(0, 9, 2))
     axes.set_yticks(range(0, 9, 2))
-    asked, wrong = (sum(counts[k] for counts in bins.values()) for k in (0, 1))
+    cases, wrong = (sum(counts[k] for counts in bins.values()) for k in (0, 1))
     some = sum(number for role, number in steps.items() if role != "share-0")
     description = (
-        f"Share of wrong answers over r/α and |z|/γ: {wrong:,} of {asked:,} wrong, in {some:,} of {len(bins):,} cells."
+        f"Share of wrong answers over r/α and |z|/γ: {wrong:,} of {cases:,} wrong, in {some:,} of {len(bins):,} cells."
     )
     return style.Plot(name, implementation.name, description, drawn)
 

@@ -171,11 +171,11 @@ def bounding_plots(record: Record) -> Iterator[Plot]:
 def _bounding_marks(line: BoundingLine, what: str) -> list[style.Mark]:
     """The marks over d/b, for the rows that have the quantity."""
     marks = []
-    for ratio, asked, contacts, excess in line.overlap:
-        value = excess if what == "excess" else contacts / asked if asked else None
-        if value is not None and asked:
+    for ratio, cases, contacts, excess in line.overlap:
+        value = excess if what == "excess" else contacts / cases if cases else None
+        if value is not None and cases:
             known = "" if excess is None else f", median excess clearance {figure(excess)} radii"
-            tip = f"{line.shape}, d/b {figure(ratio)}: {contacts:,.0f} of {asked:,.0f} false contacts{known}"
+            tip = f"{line.shape}, d/b {figure(ratio)}: {contacts:,.0f} of {cases:,.0f} false contacts{known}"
             marks.append(style.Mark(float(ratio), float(value), tip))
     return sorted(marks)
 

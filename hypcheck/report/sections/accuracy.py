@@ -317,13 +317,13 @@ def _overlaps(lines: list[measurements.BoundingLine]) -> document.TableBlock:
             line.shape,
             line.workload,
             document.measured(ratio),
-            document.count(int(asked)),
+            document.count(int(cases)),
             document.count(int(contacts)),
-            document.share(contacts, asked),
+            document.share(contacts, cases),
             document.measured(excess),
         )
         for line in lines
-        for ratio, asked, contacts, excess in line.overlap
+        for ratio, cases, contacts, excess in line.overlap
     ]
     columns = "shape | workload | # d/b | # asked | # false contact | # share | # median excess clearance, radii"
     return document.table("bounding volumes by shape of the spheroid", columns, rows)

@@ -158,10 +158,10 @@ def _matrix(methods: Sequence[model.ImplementationTotal]) -> tuple[document.Bloc
         (document.Code(family), *(cell(total.name, family) for total in methods)) for family in families
     ]
     columns = (document.Column("family"), *(document.number(document.Code(_plain_name(total))) for total in methods))
-    asked = max((group.asked for group in groups.values()), default=0)
+    most_cases = max((group.asked for group in groups.values()), default=0)
     return (
         document.Paragraph(
-            f"Wrong answers by family, of at most {counted(asked, 'case')} each ({document.NONE} none, "
+            f"Wrong answers by family, of at most {counted(most_cases, 'case')} each ({document.NONE} none, "
             f"{document.MISSING} nothing asked: outside the stated regimes or the format's range):"
         ),
         document.table("wrong answers by family", columns, rows),
