@@ -182,7 +182,7 @@ def test_first_sentences_say_position_relative_to_a_hyperboloid():
         (r"rows of ten numbers: more than ([\d,]+) further vectors", "tilted-positions"),
     ],
 )
-def test_readme_says_in_thousands_how_many_frozen_vectors_an_implementation_is_asked(words, content):
+def test_readme_states_in_thousands_how_many_frozen_vectors_test_an_implementation(words, content):
     (said,) = re.findall(words, " ".join((ROOT / "README.md").read_text("utf-8").split()))
     files = [json.loads(path.read_text("utf-8")) for path in sorted((ROOT / "cases").glob("*.json"))]
     asked = sum(

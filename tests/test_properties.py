@@ -328,7 +328,7 @@ def truth_of(row, groups):
 
 
 @pytest.mark.parametrize("groups", [named(groups) for groups in DRAWN if "end" in groups])
-def test_a_way_without_length_is_answered_as_the_position(groups):
+def test_a_sweep_without_length_is_answered_as_the_position(groups):
     position = tilted_fractions.exact_position if "axis" in groups else fractions_truth.exact_position
 
     def check(deciders, questions, draw):

@@ -117,7 +117,7 @@ def test_every_method_that_the_listing_names_is_built_in():
     assert [names - set(known[subject]) - elsewhere for subject, names in named.items()] == [set()] * len(known)
 
 
-def test_what_is_missing_is_recorded_once():
+def test_a_missing_requirement_is_recorded_once():
     recorder = Recorder(GrowingText(), {})
     for what in ("FCL", "Coal", "FCL"):
         run.note_absent(recorder, what, "it is not there")

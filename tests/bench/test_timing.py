@@ -79,7 +79,7 @@ def test_a_measurement_with_a_given_number_of_loops_keeps_that_number():
     assert measured([TimingEntry("a", 1, Clock("a", []), loops=17)])["a"].loops == 17
 
 
-def test_a_method_whose_answers_change_during_timing_is_refused_and_asked_no_more():
+def test_a_method_whose_answers_change_during_timing_is_refused_and_not_timed_again():
     order = []
     changing = Clock("b", order, checksums=[7, 7, 8])
     found = measured([TimingEntry("a", 1, Clock("a", order), 7, 1), TimingEntry("b", 1, changing, 7, 1)], rounds=5)
@@ -130,7 +130,7 @@ def test_a_round_of_timing_switches_garbage_collection_off_and_restores_it(enabl
         (gc.enable if before else gc.disable)()
 
 
-def test_a_method_that_refuses_to_be_timed_in_a_round_keeps_its_reason_and_is_asked_no_more():
+def test_a_method_that_cannot_be_timed_in_a_round_keeps_its_reason_and_is_not_timed_again():
     asked = []
 
     def refusing(repeat):

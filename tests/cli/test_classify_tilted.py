@@ -95,7 +95,7 @@ WIDE = wide_rows(32, 4)
         *(pytest.param(row, marks=pytest.mark.thorough) for row in WIDE[1::2]),
     ],
 )
-def test_every_proof_that_classify_prints_for_a_leaning_pair_can_be_checked_from_its_text(row):
+def test_every_proof_that_classify_prints_for_a_tilted_pair_can_be_checked_from_its_text(row):
     found = answer(Pair.from_row(row))
     printed = json.loads(answer_as_json(found))
     if max(map(abs, row)) < 1e9:
@@ -109,7 +109,7 @@ def test_every_proof_that_classify_prints_for_a_leaning_pair_can_be_checked_from
 
 
 @pytest.mark.parametrize("row", [TOUCHING[0], [1.0, 2.0, 1.0, 0.5, 2.5, 0.0, 0.0, 1.0, 1.0, 0.0]])
-def test_a_proof_for_a_leaning_pair_fails_its_check_if_one_number_is_changed(row):
+def test_a_proof_for_a_tilted_pair_fails_its_check_if_one_number_is_changed(row):
     proof = json.loads(answer_as_json(answer(Pair.from_row(row))))
     check_printed_proof(row, proof)
     for name in ("pivots", "f"):

@@ -81,7 +81,7 @@ def test_a_failed_marked_test_shows_the_case_with_the_greatest_error(tmp_path, m
     assert error_text(max(cases, key=lambda case: float(case.backward_error_u))) in worst.message
 
 
-def test_a_failure_that_the_verdict_names_and_no_command_shows_is_said_in_one_line(tmp_path):
+def test_a_failure_named_in_the_verdict_and_shown_by_no_command_takes_one_line(tmp_path):
     said = pytest_plugin.gate(("python:nowhere.py:f",), {"families": "ring", "count": 0, "isolate": "off"}, tmp_path)
     assert said == (
         "hypcheck: FAILED with exit code 5: python:nowhere.py:f could not be started: there is no file 'nowhere.py'."

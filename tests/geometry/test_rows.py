@@ -81,7 +81,7 @@ def test_valid_rows_give_no_error_message():
     assert first_trouble(np.array([GOOD])) is None
 
 
-def test_as_rows_of_ways_takes_ten_numbers_or_thirteen_with_an_axis():
+def test_as_rows_of_sweeps_takes_ten_numbers_or_thirteen_with_an_axis():
     assert as_rows([WAY], layout=SWEEPS).shape == (1, 10)
     assert as_rows([WAY + AXIS], frozenset({"axis"}), SWEEPS).shape == (1, 13)
     with pytest.raises(
@@ -99,22 +99,22 @@ def test_as_rows_of_ways_takes_ten_numbers_or_thirteen_with_an_axis():
         (11, -math.inf, "axis_y is -inf; it must be finite"),
     ],
 )
-def test_the_error_about_an_invalid_way_names_its_row_and_number(place, value, trouble):
+def test_the_error_about_an_invalid_sweep_names_its_row_and_number(place, value, trouble):
     rows = np.array([WAY + AXIS, WAY + AXIS])
     rows[1, place] = value
     assert first_trouble(rows, layout=SWEEPS) == f"row 1: {trouble}"
 
 
-def test_a_way_may_end_at_the_origin_but_its_axis_must_have_a_direction():
+def test_a_sweep_may_end_at_the_origin_but_its_axis_must_have_a_direction():
     assert not invalid(np.array([WAY[:7] + [0.0] * 3]), SWEEPS).any()
     assert invalid(np.array([WAY + [0.0] * 3]), SWEEPS).all()
 
 
-def test_with_axis_gives_an_upright_way_the_axis_0_0_1():
+def test_with_axis_gives_an_upright_sweep_the_axis_0_0_1():
     assert with_axis(np.array([WAY]), SWEEPS).tolist() == [[*WAY, 0.0, 0.0, 1.0]]
 
 
-def test_a_domain_limits_both_ends_of_a_way_and_not_its_axis():
+def test_a_domain_limits_both_ends_of_a_sweep_and_not_its_axis():
     far = [*WAY[:8], 1e9, 4.0, 0.0, 1e20, 0.0]
     near = [*WAY, 0.0, 1e20, 0.0]
     assert within(np.array([near, far]), layout=SWEEPS).tolist() == [True, False]

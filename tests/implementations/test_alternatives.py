@@ -174,7 +174,7 @@ def test_the_method_that_ignores_the_axis_is_right_for_spheres_and_wrong_for_oth
     assert (upright(tower) == hypcheck.classify(tower[:, :7])).all()
 
 
-def test_the_bounding_sphere_is_never_clear_where_the_leaning_spheroid_is_not():
+def test_the_bounding_sphere_is_never_clear_where_the_tilted_spheroid_is_not():
     rows = TILTED_FAMILIES["tilted-tower"].rows(3, 1000)
     found, truth = bounding_sphere(rows), hypcheck.classify(rows)
     assert ((found == truth) | (found == 0)).all()

@@ -175,7 +175,7 @@ def test_a_command_that_answered_once_may_time_out_as_often_as_restarts_allow():
     assert answered.status.tolist() == [Outcome.ANSWERED] + [Outcome.TIMEOUT] * 4 + [Outcome.ANSWERED] * 5
 
 
-def test_a_command_without_restarts_is_not_asked_after_the_first_row_that_fails():
+def test_a_command_without_restarts_gets_no_rows_after_the_first_row_that_fails():
     with open_implementation(command("segfaults"), Limits(restarts=0)) as it:
         answered = it.classify(rows())
     expected = [Outcome.ANSWERED] * UNLUCKY + [Outcome.CRASH] + [Outcome.NOT_RUN] * (39 - UNLUCKY)

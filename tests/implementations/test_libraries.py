@@ -133,7 +133,7 @@ def test_a_library_answers_with_times_and_is_timed_in_one_call(tmp_path):
     assert total == 1
 
 
-def test_a_tilted_scene_of_a_library_is_asked_with_its_axis(tmp_path):
+def test_a_library_gets_the_axis_of_a_tilted_scene(tmp_path):
     """It answers the sign of x and the axis's x together."""
     library = libraries.Library(str(compiled("tilted", tmp_path / "tilted.so", *SHARED)))
     some = np.ones((3, 10))

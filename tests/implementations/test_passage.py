@@ -49,7 +49,7 @@ def crossing(some):
         ("times", "leaning", "binary"),
     ],
 )
-def test_a_command_answers_ways_in_text_and_binary_with_and_without_times(words):
+def test_a_command_answers_sweeps_in_text_and_binary_with_and_without_times(words):
     some = ways()
     hits, times = truth(some)
     assert 0 < sum(hits) < len(hits)
@@ -61,13 +61,13 @@ def test_a_command_answers_ways_in_text_and_binary_with_and_without_times(words)
                 np.testing.assert_array_equal(answered.times, times)
 
 
-def test_a_command_is_timed_on_ways():
+def test_a_command_is_timed_on_sweeps():
     some = ways(8)
     with open_implementation(command("passage", "times", "binary"), NOT_ISOLATED) as it:
         assert it.time(some, 3) == 3000
 
 
-def test_a_python_function_returns_hits_and_times_and_refuses_an_invalid_way():
+def test_a_python_function_returns_hits_and_times_and_refuses_an_invalid_sweep():
     some = ways()
     hits, times = truth(some)
     bad = some.copy()
@@ -83,7 +83,7 @@ def test_a_python_function_returns_hits_and_times_and_refuses_an_invalid_way():
 
 
 @pytest.mark.parametrize("flags", [(), pytest.param(("-DTIMES",), marks=pytest.mark.thorough), ("-DTIMES", "-DTILT")])
-def test_a_library_for_ways_is_called_by_its_function_for_passage(flags, tmp_path):
+def test_a_library_for_sweeps_is_called_by_its_function_for_passage(flags, tmp_path):
     library = compiled("passage", tmp_path / "passage.so", *SHARED, *flags)
     some = ways(700)
     if "-DTILT" in flags:
@@ -112,7 +112,7 @@ def test_a_library_that_writes_one_time_too_many_breaks_the_protocol(tmp_path):
     assert all(reason.endswith(seen) for reason in answered.reasons.values()), answered.reasons
 
 
-def test_a_library_for_ways_without_the_function_for_passage_is_refused(tmp_path):
+def test_a_library_for_sweeps_without_the_function_for_passage_is_refused(tmp_path):
     library = compiled("passage", tmp_path / "lacks.so", *SHARED, "-DLACKS", "-DTILT")
     with pytest.raises(StartError) as caught:
         open_implementation(f"library:{library}", LIMITS)
@@ -133,7 +133,7 @@ def test_a_hit_without_a_time_from_0_to_1_breaks_the_protocol(words):
     assert answered.reasons[hits.index(1)] == "it answered 1 with the time nan; it must be a number from 0 to 1"
 
 
-def test_the_example_conversation_about_ways_on_the_protocol_page_is_right():
+def test_the_example_conversation_about_sweeps_on_the_protocol_page_is_right():
     text = (Path(__file__).parents[2] / "docs" / "protocol.md").read_text(encoding="utf-8")
     (said,) = re.findall(r"((?:^    [→←] .*\n)*)", text[text.index("    → classify 1 2 passage-text") :], re.MULTILINE)[
         :1
@@ -147,7 +147,7 @@ def test_the_example_conversation_about_ways_on_the_protocol_page_is_right():
     assert bits == [*ways[0], times[0]]
 
 
-def test_an_implementation_for_ways_refuses_rows_of_another_width():
+def test_an_implementation_for_sweeps_refuses_rows_of_another_width():
     with open_implementation(command("passage"), NOT_ISOLATED) as it:
         with pytest.raises(InputError, match=r"shape \(24, 7\); it must be \(n, 10\): alpha, .*, z1$"):
             it.classify(ways()[:, :7])

@@ -73,7 +73,7 @@ def test_scene_mesh_answers_rightly_farther_from_contact_than_its_deviation(engi
 
 @pytest.mark.slow
 @pytest.mark.parametrize("engine", ENGINES)
-def test_scene_mesh_answers_rightly_about_leaning_ellipsoids_away_from_contact(engine):
+def test_scene_mesh_answers_rightly_about_tilted_ellipsoids_away_from_contact(engine):
     rows = TILTED_FAMILIES["tilted-tower"].rows(1, 400)
     mesh = scene_mesh(engine, "ellipsoid", TOWER, height_of(TOWER, rows), 20_000)
     far = np.array([abs(nearest(Pair.from_row(row)).clearance) for row in rows.tolist()]) > 3 * mesh.deviation

@@ -196,7 +196,7 @@ def test_wrong_groups_of_a_description_are_refused_with_what_would_be_right(raw,
         described(raw, Description("it"))
 
 
-def test_columns_of_a_description_stand_in_one_order_whatever_the_order_of_its_groups():
+def test_columns_of_a_description_have_one_order_whatever_the_order_of_its_groups():
     taken = described({"question": "passage", "takes": ["heights", "axis"]}, Description("it"))
     assert taken.columns[7:] == ("x1", "y1", "z1", "axis_x", "axis_y", "axis_z", "z_min", "z_max", "solid")
     assert described({"question": "passage", "takes": ["end"]}, Description("it")).columns == taken.columns[:10]

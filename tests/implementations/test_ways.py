@@ -49,7 +49,7 @@ def test_solvers_that_step_by_distance_find_each_contact_and_its_time(name, foun
 
 
 @NEEDS_FCL
-def test_the_naive_way_solver_misses_a_contact_between_its_sample_times(found):
+def test_the_naive_sweep_solver_misses_a_contact_between_its_sample_times(found):
     assert found["passage-fcl-naive-10"][0].tolist() == [1, 1, 0, 0, 0, 1]
     assert found["passage-fcl-naive-100"][0].tolist() == [1, 1, 0, 0, 1, 1]
     times = found["passage-fcl-naive-10"][1]
@@ -57,7 +57,7 @@ def test_the_naive_way_solver_misses_a_contact_between_its_sample_times(found):
 
 
 @NEEDS_FCL
-def test_conservative_advancement_of_fcl_finds_contact_only_at_the_start_of_a_way(found):
+def test_conservative_advancement_of_fcl_finds_contact_only_at_the_start_of_a_sweep(found):
     assert found["passage-fcl-advancement"][0].tolist() == [1, 0, 0, 0, 0, 0]
 
 
@@ -78,13 +78,13 @@ def test_coal_exports_no_continuous_collision():
 
 
 @pytest.mark.skipif(COAL.trouble() is None, reason="coal is installed")
-def test_a_way_method_whose_engine_is_missing_names_the_engine():
+def test_a_sweep_method_whose_engine_is_missing_names_the_engine():
     with pytest.raises(InputError, match=r"^the built-in method 'passage-coal-distance' cannot be used: coal cannot"):
         builtin("passage-coal-distance")
 
 
 @pytest.mark.parametrize("name", HERE)
-def test_a_way_too_long_for_an_engine_is_answered_cannot_say(name):
+def test_a_sweep_too_long_for_an_engine_is_answered_cannot_say(name):
     far = ROWS[:2].copy()
     far[0, 7] = 1e120
     assert sweep_mesh(SWEEP_SOLVERS[name], SIZES, height_of_sweeps(SIZES, far), 100).answers(far)[0] == CANNOT_SAY
@@ -92,7 +92,7 @@ def test_a_way_too_long_for_an_engine_is_answered_cannot_say(name):
     assert hits_and_times(SWEEP_SOLVERS[name], far[:1])[0].tolist() == [CANNOT_SAY]
 
 
-def test_way_mesh_answers_cannot_say_if_the_engine_refuses_the_mesh():
+def test_sweep_mesh_answers_cannot_say_if_the_engine_refuses_the_mesh():
     refusing = replace(SWEEP_SOLVERS["passage-fcl-naive-10"], engine=replace(FCL, mesh=lambda *_: None))
     assert sweep_mesh(refusing, SIZES, 20.0).answers(ROWS).tolist() == [CANNOT_SAY] * len(ROWS)
 

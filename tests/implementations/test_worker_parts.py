@@ -123,7 +123,7 @@ def test_a_function_that_does_not_return_an_integer_for_each_row_raises_an_error
         ("([1, 0, 1], ['a', 'b', 'c'])", r"as times .* of <U1 for 3 rows"),
     ],
 )
-def test_a_function_for_ways_that_does_not_return_hits_and_times_raises_an_error(loaded, returned, reason):
+def test_a_function_for_sweeps_that_does_not_return_hits_and_times_raises_an_error(loaded, returned, reason):
     with pytest.raises(ContractError, match=reason):
         loaded(f"def f(rows):\n    return {returned}").classify(ROWS, TIMED)
 

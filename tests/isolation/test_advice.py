@@ -168,7 +168,7 @@ def test_an_error_that_comes_without_isolation_too_does_not_blame_it(ways, monke
         assert "it raised " in reason, line
 
 
-def test_a_program_that_is_not_isolated_is_not_said_to_be(monkeypatch, tmp_path, capsys):
+def test_a_program_that_is_not_isolated_is_not_reported_as_isolated(monkeypatch, tmp_path, capsys):
     monkeypatch.chdir(tmp_path)
     spec = function_that(tmp_path, "import os, signal; os.kill(os.getpid(), signal.SIGSYS)")
     main(["replay", ROW, spec, "--isolate", "off", "--restarts", "0"])

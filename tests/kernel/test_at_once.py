@@ -175,7 +175,7 @@ def test_columns_of_other_layouts_and_types_are_answered_in_c_as_the_same_number
 
 @pytest.mark.parametrize("count", [1, 5, 64, 100, 5000])
 @pytest.mark.parametrize("level", LEVELS)
-def test_points_and_an_axis_each_are_answered_in_c_as_rows(columns, count, level, alone):
+def test_points_with_an_axis_each_get_the_answers_of_rows_in_c(columns, count, level, alone):
     used = core.level()
     if not core.use_level(level):
         pytest.skip(f"this machine has no {level}")

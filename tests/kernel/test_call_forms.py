@@ -195,7 +195,7 @@ def test_one_sweep_is_answered_by_numbers(form):
     assert 0.22 < found.first_lower <= found.first_upper < 0.23
 
 
-def test_one_sweep_beside_several_ends_is_asked_once_for_each():
+def test_one_sweep_beside_several_ends_is_tested_once_for_each():
     tops = [4, 5, 6]
     for z_max in (tops, np.array(tops)):
         assert hypcheck.passage(SIZES, (3, 0, 5), (1.5, 0, 5), z_max=z_max).hit.tolist() == [False, True, True]
@@ -215,7 +215,7 @@ def test_one_sweep_beside_several_ends_is_asked_once_for_each():
         (lambda: hypcheck.passage({"alpha": 1}), "columns gamma, b, d, x, y, z, x1, y1, z1 are missing"),
     ],
 )
-def test_what_no_call_takes_is_refused_by_its_name(call, sentence):
+def test_an_argument_that_no_call_takes_is_refused_by_its_name(call, sentence):
     with pytest.raises(InputError, match=sentence):
         call()
 

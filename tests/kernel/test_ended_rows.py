@@ -103,7 +103,7 @@ def test_the_tool_of_agreement_names_a_wrong_answer_of_the_kernel(monkeypatch):
     assert counts["random", "asked of meshes"] == 2
 
 
-def test_a_run_of_agreement_that_ended_early_goes_on_from_its_log(tmp_path, monkeypatch, capsys):
+def test_an_interrupted_agreement_check_continues_from_its_log(tmp_path, monkeypatch, capsys):
     """Chunks of the log are not asked again, and count."""
     asked = []
 

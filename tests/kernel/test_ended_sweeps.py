@@ -266,7 +266,7 @@ def test_sweeps_beside_an_end_are_answered_alike_in_every_rounding_mode():
 
 
 @pytest.mark.parametrize("name", SWEEP_NAMES)
-def test_ends_that_are_infinite_or_far_away_change_no_answer_about_ways(name):
+def test_ends_that_are_infinite_or_far_away_change_no_answer_about_sweeps(name):
     rows = load(name).rows[:40]
     wide = with_axis(rows, SWEEPS)
     reach = 4 * np.abs(rows[:, :10]).max(axis=1)

@@ -146,7 +146,7 @@ def test_a_spheroid_far_out_at_the_waist_has_two_nearest_points_above_and_below(
     assert abs(near.nearest[2]) == pytest.approx(abs(nearest_on_the_wall(1.0, 0.5, (9.0, 0.0, 0.0))[2]), abs=1e-3)
 
 
-def test_on_the_axis_a_spheroid_that_leans_has_one_of_its_nearest_points():
+def test_on_the_axis_a_tilted_spheroid_has_one_of_its_nearest_points():
     near = hypcheck.clearance(2, 3, 0.25, 0.5, [[0.0, 0.0, 1.0], [0.0, 0.0, 0.0]], axis=[[1, 0, 0], [1, 0, 2]])
     x, _, z = near.nearest.T
     assert np.abs(x**2 / 4 + near.nearest[:, 1] ** 2 / 4 - z**2 / 9 - 1).max() < 1e-9
@@ -170,7 +170,7 @@ def test_one_pair_has_numbers_and_many_have_arrays():
     assert many.nearest.shape == many.touch.shape == (1, 3)
 
 
-def test_the_distance_is_said_first():
+def test_the_distance_is_the_first_line():
     said = repr(hypcheck.clearance(*SIZES, 3, 4, 0))
     assert said.index("distance_lower") < said.index("nearest") < said.index(" lower=")
 

@@ -155,7 +155,7 @@ def test_a_scene_is_not_changed_by_what_is_made_of_it():
         ),
     ],
 )
-def test_what_is_no_hyperboloid_is_refused_by_its_name(change, sentence):
+def test_a_value_that_is_not_a_hyperboloid_is_refused_by_its_name(change, sentence):
     with pytest.raises(InputError, match=sentence):
         change(scene_of(3))
 
@@ -228,7 +228,7 @@ def test_a_hyperboloid_is_named_by_a_text_or_by_a_whole_number_alone(which):
 
 
 @pytest.mark.parametrize("make", [lambda: hypcheck.Scene("tower"), lambda: hypcheck.Scene.from_text(b"name = 1")])
-def test_what_is_no_scene_is_refused_by_its_type(make):
+def test_a_value_that_is_not_a_scene_is_refused_by_its_type(make):
     with pytest.raises(InputError, match=r"is of type \w+; it must be a"):
         make()
 

@@ -159,7 +159,7 @@ def test_a_tilted_mover_above_or_below_a_flat_end_is_as_far_as_its_lowest_or_hig
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_nearest_distance_is_the_least_over_points_of_what_stands(seed):
+def test_nearest_distance_is_the_least_over_points_of_the_remaining_surface(seed):
     """Balls, so that the distance to a point is known: that of the centre, less the radius."""
     draw = np.random.default_rng(seed)
     body = random_body(draw, 0, tilted=seed % 2 == 1)
@@ -262,7 +262,7 @@ def test_answers_outside_of_the_region_know_the_ends_too():
 
 
 @pytest.mark.parametrize("axis", [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0)])
-def test_what_is_tilted_in_one_coordinate_alone_is_not_taken_for_upright_beside_an_end(axis):
+def test_an_axis_tilted_in_one_coordinate_is_not_taken_for_upright_beside_an_end(axis):
     """A disk on its edge reaches 0.5 up, and an upright one 0.5 along an axis that lies level."""
     tower = Hyperboloid("tower", 2.0, 4.0, (0.0, 0.0, 0.0), Span(-3.0, 1.0), solid=True)
     asked = scene(tower, mover=Mover(0.5, 0.01, axis=axis))
@@ -322,7 +322,7 @@ def test_a_sweep_that_stops_before_a_wall_is_clear_by_the_numpy_kernel_too(by_nu
         assert tower.passage([(2.75, 0.0, 0.125)], [(end, 0.0, 0.125)]).hit == hit
 
 
-def test_a_drone_that_meets_only_what_would_stand_above_an_end_is_clear():
+def test_a_drone_that_meets_only_the_missing_part_above_an_end_is_clear():
     """Beside the wall of a whole hyperboloid it is in contact, above the height at which this one ends.
 
     At the drone's own height the radius is 1.345, 1.25 and 3; each drone reaches over another number near to that.

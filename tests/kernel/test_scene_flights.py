@@ -291,7 +291,7 @@ def test_headings_and_axes_are_given_for_all_segments_or_for_each():
         (3.0, "the path is of shape"),
     ],
 )
-def test_what_is_no_path_is_refused_by_a_sentence(path, says):
+def test_a_value_that_is_not_a_path_is_refused_by_a_sentence(path, says):
     with pytest.raises(InputError, match=says):
         scene(TOWER).first_contact(path)
 
@@ -340,7 +340,7 @@ def test_a_least_distance_at_the_end_of_a_step_that_is_lost_in_the_length_of_the
 
 
 @pytest.mark.parametrize("turn", [48, 49])
-def test_a_least_distance_beside_a_place_that_was_asked_holds_the_rounding_of_long_coordinates(turn):
+def test_a_least_distance_beside_a_queried_place_includes_the_rounding_of_long_coordinates(turn):
     """A ball passes a waist at the distance 1/2, 2²⁰ from the origin; the middle of its segment is a little beside."""
     far, beside = 2.0**20, turn * 2.0**-14
     world = scene(Hyperboloid("tower", 1.0, 2.0**30, (far, far, 0.0)), mover=Mover(0.25, 0.25))

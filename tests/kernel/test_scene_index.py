@@ -210,7 +210,7 @@ def test_scene_position_asks_the_parts_only_where_the_mover_has_contact():
         assert scene.classify([x], 0.0, 0.0).tolist() == [expected], x
 
 
-def test_parts_are_not_asked_beside_a_mover_that_is_clear_though_a_rounding_moves_one_out_of_it():
+def test_parts_are_not_tested_if_the_mover_is_clear_though_a_rounding_moves_one_out_of_it():
     """At 2**20 the place of the part is rounded: it reaches 2**-34 beyond the mover, which is clear by 2**-35."""
     far, more = 2.0**20, 3 * 2.0**-34
     trees = (

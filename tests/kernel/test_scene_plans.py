@@ -162,7 +162,7 @@ def test_a_discriminant_whose_bound_is_infinite_decides_no_centre():
     assert not decided_by(replace(delta, bound=np.inf), form, R, zz).any()
 
 
-def test_the_corner_of_an_open_box_is_as_many_waists_and_heights_away_as_asked():
+def test_the_corner_of_an_open_box_is_the_requested_number_of_waists_and_heights_away():
     (setting,) = settings_of(scene((3.0, 1.0, 0.5, 0.25)))
     assert far_corner(setting, 8) == (28, 10)
     (setting,) = settings_of(scene((3.0, 1.0, 0.5, 0.25), x=Span(-40, 1), z=Span(-2, 1)))

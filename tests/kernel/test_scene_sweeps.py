@@ -175,7 +175,7 @@ def test_scene_passage_is_exact_if_the_difference_of_centres_is_rounded():
         ((3.0, 0.0, 0.0), (3.0, 0.0, 0.0), 1),
     ],
 )
-def test_scene_passage_decides_exact_tangencies_and_very_long_ways(start, end, hit):
+def test_scene_passage_decides_exact_tangencies_and_very_long_sweeps(start, end, hit):
     for center in ((0.0, 0.0, 0.0), (0.0, 0.0, 0.1)):
         trees = (replace(TREE, center=center),)
         scene = SceneModel("tree", "exterior", trees, Mover(1.0, 1.0), Region(z=Span(-1, 1)))
@@ -373,7 +373,7 @@ def test_a_ball_that_leaves_from_just_beside_an_edge_touches_nothing():
     assert ball_over(wall).passage(start, away).hit.tolist() == [False]
 
 
-def test_the_first_hyperboloid_that_is_touched_is_found_beside_the_way_too():
+def test_the_first_hyperboloid_that_is_touched_is_found_beside_the_sweep_too():
     """The way passes 1 beside the axis of one, which is touched first, and through that of the other."""
     one = Hyperboloid("beside", 1.0, 10.0, (0.0, 1.0, 0.0), Span(-1.0, 1.0))
     other = Hyperboloid("ahead", 1.0, 10.0, (0.75, 0.0, 0.0), Span(-1.0, 1.0))

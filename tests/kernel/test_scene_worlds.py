@@ -140,7 +140,7 @@ def test_a_difference_of_centres_that_is_rounded_by_one_unit_is_not_taken_for_ex
     assert scene.position(size - 2, 0.0, 0.0) == Position.CONTACT
 
 
-def test_a_hyperboloid_beyond_all_cells_of_the_grid_is_asked():
+def test_a_hyperboloid_beyond_all_cells_of_the_grid_is_tested():
     far = 2.0**40
     bodies = tuple(Hyperboloid(f"h {k}", 0.5, 2.0, (x, 0.0, 0.0), Span(-1.0, 1.0)) for k, x in enumerate((0, 4, far)))
     scene = Scene(SceneModel("s", "position", bodies, Mover(0.25, 0.25)))

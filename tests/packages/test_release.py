@@ -149,7 +149,7 @@ def test_a_version_is_raised_in_all_files_at_once(copied):
         *((text, "is not above") for text in (VERSION, "0.0.9")),
     ],
 )
-def test_what_is_no_version_or_would_go_back_is_refused(new, reason, copied):
+def test_an_invalid_or_lower_version_is_refused(new, reason, copied):
     before = version.versions(copied)
     with pytest.raises(Exception, match=reason):
         version.raise_to(copied, new)
@@ -186,7 +186,7 @@ def test_every_command_of_the_workflows_exists():
             assert program in OTHERS, words
 
 
-def test_what_the_release_builds_is_all_that_there_is_and_all_of_it_is_tried():
+def test_release_builds_and_tests_every_package():
     (built,) = [words[4:-2] for words in commands() if words[1:4] == ["-m", "packages", "build"]]
     assert {*built, "wheel"} == set(main.commands["build"].params[0].type.choices)
     (tried,) = [words[4:] for words in commands() if words[1:4] == ["-m", "packages", "try"]]

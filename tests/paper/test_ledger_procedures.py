@@ -92,7 +92,7 @@ def test_built_in_procedure_1_and_table_2_are_wrong_at_the_ring_witness_and_righ
         assert beside.position is ring.position is Position.EXTERIOR
 
 
-def test_procedure_2a_is_asked_about_rotors_on_arms():
+def test_procedure_2a_is_tested_with_rotors_on_arms():
     found = counterexample(PROCEDURE_2A).found
     assert found.point.r > 0
     assert say.interior(found)

@@ -252,7 +252,7 @@ def test_every_sentence_of_the_paper_names_ledger_rows_or_a_reason_and_every_row
     assert f"{len(sentences())} sentences" in coverage()
 
 
-def test_what_the_ledger_says_of_bench_is_what_its_reference_report_says():
+def test_ledger_and_reference_report_agree_about_bench():
     """Verdicts of claims as words, false contacts rounded to whole percents."""
     report = (Path(__file__).parents[2] / "reports/reference/bench/README.md").read_text(encoding="utf-8")
     claims = dict(re.findall(r"(?m)^- Section ([^\n]*)\n((?:  - .*\n)+)", report))

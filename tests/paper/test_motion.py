@@ -60,7 +60,7 @@ def alone(side, sizes, start, end, center, lane):
         (EXTERIOR, (1.0, 0.25, 1.0, 1.0), (9, 9, 1), (0.0, 0.0, 0.0)),  # c² < a
     ],
 )
-def test_ways_decided_in_a_batch_equal_ways_decided_one_by_one(side, sizes, reach, center):
+def test_sweeps_decided_in_a_batch_equal_sweeps_decided_one_by_one(side, sizes, reach, center):
     seen = set()
     for number, (start, end) in enumerate(ways_of_each_kind(Draw("ways", sizes[0]), reach)):
         clear = stays_on_side(side, sizes, start, end, center)
@@ -70,7 +70,7 @@ def test_ways_decided_in_a_batch_equal_ways_decided_one_by_one(side, sizes, reac
     assert seen == {True, False}
 
 
-def test_a_way_within_rounding_of_a_tangency_is_decided_exactly():
+def test_a_sweep_within_rounding_of_a_tangency_is_decided_exactly():
     """At z = 0 the tower's inside ends at 1.75: a hair on both sides of that, and through it."""
     radius = np.array([1.75, np.nextafter(1.75, 0), np.nextafter(1.75, 2), 1.75 * (1 - 2.0**-48)])
     zero = np.zeros(4)

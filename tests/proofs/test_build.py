@@ -238,7 +238,7 @@ def test_prove_with_soundness_compiles_what_the_checker_rests_on_alone(tools):
 
 
 @pytest.mark.parametrize(("said", "message"), [(" Error: no.\n", "Error: no."), ("", "coqc failed without a message")])
-def test_a_file_that_coq_refuses_is_an_error_with_what_coq_said(tools, said, message):
+def test_a_file_that_coq_refuses_raises_an_error_with_the_message_of_coq(tools, said, message):
     tools.say("Geometry.v", said)
     assert tools.prove() == (1, f"proofs: error: Coq refuses Geometry.v: {message}\n")
 
@@ -300,7 +300,7 @@ def test_prove_ends_as_the_checker_says_about_the_frozen_vectors(tools, script, 
 
 
 @pytest.mark.parametrize(("more", "tried"), [((), 4), (("--weakened", "3"), 3), (("--every",), None)])
-def test_prove_tries_four_weakened_statements_as_many_as_it_is_told_or_every_one(tools, more, tried):
+def test_prove_tries_four_weakened_statements_or_the_requested_number_or_all(tools, more, tried):
     output = tools.prove("--soundness", *more)[1]
     changes = [change for change in build.weakened() if change.file in (*build.SOUNDNESS, "ExtractedChecker")]
     assert f"{len(changes)} weakened statements are written by hand; {tried or len(changes)} are tried: all" in output

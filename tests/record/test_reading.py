@@ -94,7 +94,7 @@ def test_record_line_with_impossible_bins_is_refused_and_one_with_the_farthest_b
     ("kind", "field", "impossible"),
     [(AccuracyLine, "octaves", [-3, 1, 2]), (BoundingLine, "overlap", [1.0, 1, 2, None])],
 )
-def test_a_line_of_a_benchmark_with_more_wrong_answers_than_were_asked_is_refused(kind, field, impossible):
+def test_a_benchmark_line_with_more_wrong_answers_than_cases_is_refused(kind, field, impossible):
     counts = dict.fromkeys(("asked", "wrong", "false_clear", "false_contact", "wrong_side", "abstained"), 0)
     of = {"method": "m", "workload": "near", "reliable_above": 1.0, "worst": []} if field == "octaves" else {}
     of |= {"shape": "sphere", "workload": "near"} if field == "overlap" else {}

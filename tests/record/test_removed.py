@@ -90,7 +90,7 @@ def test_growing_file_shows_added_bytes_and_is_replaced_only_after_the_new_conte
     assert synced == [(len(b"first"), b"before")]
 
 
-def test_progress_begins_a_record_only_if_something_was_asked(tmp_path):
+def test_progress_begins_a_record_only_if_something_was_tested(tmp_path):
     nothing = structs.replace(PROGRESS, state=structs.replace(BEGUN, total=structs.replace(RESULT, tallies={})))
     with recording(tmp_path, {}) as running:
         there = []

@@ -111,7 +111,7 @@ def test_a_number_of_a_record_that_must_not_be_negative_is_refused_below_0():
         decoded(-1.0, Unsigned)
 
 
-def test_a_group_of_which_one_case_was_asked_is_a_result_and_one_of_none_is_not():
+def test_a_group_with_one_tested_case_is_a_result_and_a_group_without_one_is_not():
     names = {"method": "m", "title": "m", "exact": False, "question": "position", "precision": "float64", "family": "f"}
     counts = {"counts": {}, "mistakes": {}, "octaves": {}, "place_bins": [], "size_bins": [], "worst": []}
     for asked in (0, 1):

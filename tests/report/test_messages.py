@@ -99,7 +99,7 @@ def test_a_number_beyond_float64_in_a_record_is_bad_input():
         from_hex(["0x1p+0", "0x1p+5000"])
 
 
-def test_an_implementation_that_was_asked_every_row_claims_nothing_about_rows_that_it_was_not_asked():
+def test_claims_of_an_implementation_tested_on_every_row_do_not_mention_untested_rows():
     line = next(line for line in record_samples.sample("failures") if line.get("name") == "engine")
     some = list(implementation_claims(line_of(line)))
     del line["not_asked"]

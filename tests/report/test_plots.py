@@ -70,7 +70,7 @@ def test_many_distance_exponents_are_merged_in_a_curve_without_losing_cases():
     assert wrong.exponent <= -30 < wrong.exponent + wrong.width
 
 
-def test_marks_of_a_curve_stand_at_their_distance_exponents():
+def test_marks_of_a_curve_are_at_their_distance_exponents():
     found = curve("m", {-9.0: (10, 5), -5.0: (100, 1), -1.0: (1000, 0)})
     with styled():
         plot = curves.curve_plot("p", "title", [found])

@@ -153,7 +153,7 @@ def test_trunk_colours_of_kinds_of_trees_differ_in_lightness():
 
 
 @pytest.mark.parametrize("name", ["tower-flights", "forest-walk", "forest-space"])
-def test_first_contacts_of_simulated_ways_are_marked_at_their_place(name):
+def test_first_contacts_of_simulated_sweeps_are_marked_at_their_place(name):
     contact = {"start": [0.0, 1.0, 2.0], "end": [1.0, 1.0, 0.0], "first_lower": 0.25, "first_upper": 0.25}
     plots, result = (tower_plots, flown(runs=0)) if name.startswith("tower") else (forest_plots, walked(15))
     if name.startswith("tower"):

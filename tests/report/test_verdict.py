@@ -118,7 +118,7 @@ def test_a_benchmark_that_is_slower_or_too_noisy_has_not_passed(body, code, sent
 
 
 @pytest.mark.parametrize("body", [[], [group("fast", "float64", "ring", {"skipped": 9}, exact=True)]])
-def test_a_run_that_asked_nothing_has_not_passed(body):
+def test_a_run_that_tested_nothing_has_not_passed(body):
     found = verdict(record_samples.record(body))
     assert found.sentence == "NOTHING was asked and nothing was judged: this is not a pass."
     assert not found.passed
@@ -140,7 +140,7 @@ def test_the_verdict_on_chosen_families_names_those_that_were_left_out_if_there_
     assert found.sentence.endswith(ending)
 
 
-def test_broken_protocol_throughout_is_said_once_with_its_reason_before_other_counts():
+def test_broken_protocol_throughout_is_reported_once_with_its_reason_before_other_counts():
     implementation = next(line for line in sample("failures") if line.get("name") == "engine")
     reason = "it answered 5; it must be one of -1, 0, 1 or 2"
     fault = next(line["faults"][0] for line in sample("failures") if line.get("faults"))

@@ -46,7 +46,7 @@ def ways_group(*cases, tested=True):
     return group("mine", "float64", "way-long", counts, cases, question="passage", **under_test)
 
 
-def test_picture_of_ways_shows_the_worst_way_of_an_upright_spheroid():
+def test_picture_of_sweeps_shows_the_worst_sweep_of_an_upright_spheroid():
     found = ways(
         case("way-long/1/1/3", *THROUGH, 2.0),
         case("way-long/1/1/4", *CLEAR, 3.0, answer=1, truth=0),
@@ -59,7 +59,7 @@ def test_picture_of_ways_shows_the_worst_way_of_an_upright_spheroid():
     assert plot.description == "way-long/1/1/4: clear on the sweep; answered: in contact on the sweep."
 
 
-def test_picture_of_ways_draws_a_straight_way_as_a_curve_and_marks_first_contact_in_both_panels():
+def test_picture_of_sweeps_draws_a_straight_sweep_as_a_curve_and_marks_first_contact_in_both_panels():
     (plot,) = draw_plots("ways", ways(case("way-long/1/1/3", *THROUGH, 2.0)))
     assert plot.description == (
         "way-long/1/1/3: in contact on the sweep, first at 0.275 of it; answered: clear on the sweep."
@@ -75,7 +75,7 @@ def test_picture_of_ways_draws_a_straight_way_as_a_curve_and_marks_first_contact
     assert near.get_xlim()[1] - near.get_xlim()[0] < 6 < whole.get_xlim()[1]
 
 
-def test_picture_of_ways_draws_a_wrong_time_as_a_separate_body():
+def test_picture_of_sweeps_draws_a_wrong_time_as_a_separate_body():
     late = case("way-long/1/1/3", *THROUGH, 7.0, answer=1, mistake="late", time=0.5, first=[0.275, 0.276])
     (plot,) = draw_plots("ways", ways(late))
     assert plot.description.endswith("answered: in contact on the sweep, first at 0.5.")
@@ -83,7 +83,7 @@ def test_picture_of_ways_draws_a_wrong_time_as_a_separate_body():
     assert labels[-2:] == ["first contact", "at the answered time"]
 
 
-def test_report_refers_to_the_picture_of_ways_only_if_the_run_has_a_wrong_upright_way():
+def test_report_refers_to_the_picture_of_sweeps_only_if_the_run_has_a_wrong_upright_sweep():
     found = ways(case("way-long/1/1/3", *THROUGH, 2.0))
     assert "ways.svg" in files_of(found)
     assert "](ways.svg)" in markdown.render(found, ReportContext(["ways.svg"])).decode()

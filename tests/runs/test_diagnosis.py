@@ -156,7 +156,7 @@ def test_wrong_answers_that_no_rule_gives_at_all_are_counted_as_unexplained():
     assert (counted.cause, counted.families, wrong_case(counted.worst)) == (None, {"uniform": 1}, case)
 
 
-def test_every_text_of_a_cause_belongs_to_one():
+def test_causes_toml_has_no_unused_entry():
     text = resources.files("hypcheck.runs").joinpath("causes.toml").read_text(encoding="utf-8")
     assert toml.parsed(text, "causes.toml").keys() <= {cause.name for cause in CAUSES}
 

@@ -144,7 +144,7 @@ def test_in_words_names_answers_and_keeps_other_numbers(answer, question, words)
     assert judge.in_words(answer, question) == words
 
 
-def test_the_distance_of_a_leaning_spheroid_to_the_other_answer_is_estimated_near_the_proved_one():
+def test_the_distance_of_a_tilted_spheroid_to_the_other_answer_is_estimated_near_the_proved_one():
     leaning = (2.0, 3.0, 0.5, 0.25, 2.54, 0.0, 0.5, 0.0, 1.0, 1.0)
     proved = ends_of(leaning, 0)[1]
     assert 0 < proved < 0.01
@@ -161,7 +161,7 @@ def test_the_distance_of_an_upright_spheroid_is_the_same_with_and_without_its_ax
     assert with_axis.tolist() == flip_exponents(np.array([upright])).tolist()
 
 
-def test_every_wrong_answer_about_leaning_rows_is_judged_where_some_are_proved_at_once():
+def test_every_wrong_answer_about_tilted_rows_is_judged_where_some_are_proved_at_once():
     row = [1.0, 4.0, 0.125, 0.25, 2.0, 0.0, 0.0, 0.0, 1.0, 0.0]  # a needle across the x axis, at the waist
     near = [*row[:4], 1.125 + 1e-12, *row[5:]]
     rows = np.array([row, near, row, [*row[:7], 0.0, 0.0, 1.0]])
@@ -174,7 +174,7 @@ def test_every_wrong_answer_about_leaning_rows_is_judged_where_some_are_proved_a
     assert not found[1].least
 
 
-def test_exponent_of_a_wrong_answer_about_a_leaning_spheroid_is_minus_infinity_at_a_tangency_alone():
+def test_exponent_of_a_wrong_answer_about_a_tilted_spheroid_is_minus_infinity_at_a_tangency_alone():
     needle = [1.0, 4.0, 0.125, 0.25, 1.125, 0.0, 0.0, 0.0, 1.0, 0.0]  # across the x axis, it touches the throat
     rows = np.array([needle, [*needle[:4], 1.25, *needle[5:]]])
     truth, answers = np.array([0, 1], dtype=np.int8), np.array([1, 0], dtype=np.int8)

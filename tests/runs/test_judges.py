@@ -62,7 +62,7 @@ def judged(rows, answer, criterion=CRITERION):
 
 
 @pytest.mark.parametrize("name", BY_HAND)
-def test_first_contact_of_ways_worked_out_by_hand_is_known(name):
+def test_first_contact_of_sweeps_worked_out_by_hand_is_known(name):
     start, end, first = BY_HAND[name]
     found = passage_of((*BODY, *start, *end))
     assert found.hit == (first is not None)
@@ -73,25 +73,25 @@ def test_first_contact_of_ways_worked_out_by_hand_is_known(name):
 @pytest.mark.parametrize(
     "answer", [*WRONG[:6], *(pytest.param(each, marks=pytest.mark.thorough) for each in WRONG[6:])]
 )
-def test_wrong_implementation_of_ways_is_rejected(answer, rows):
+def test_wrong_implementation_of_sweeps_is_rejected(answer, rows):
     tolerance = Fraction(0 if answer in BEYOND_TOLERANCE_0 else 8)
     cases = judged(rows, answer, Criterion("passage", tolerance=tolerance))
     assert any(case.status is Status.WRONG for case in cases)
 
 
 @pytest.mark.parametrize("answer", BEYOND_TOLERANCE_0, ids=lambda each: each.__name__)
-def test_answer_clear_for_a_way_that_only_touches_the_surface_is_tolerated(answer, rows):
+def test_answer_clear_for_a_sweep_that_only_touches_the_surface_is_tolerated(answer, rows):
     cases = judged(rows, answer)
     assert cases
     assert {case.status for case in cases} == {Status.TOLERATED}
 
 
 @pytest.mark.parametrize("answer", RIGHT, ids=lambda each: each.__name__)
-def test_right_implementation_of_ways_passes_without_any_tolerance(answer, rows):
+def test_right_implementation_of_sweeps_passes_without_any_tolerance(answer, rows):
     assert judged(rows, answer, Criterion("passage", tolerance=Fraction(0))) == []
 
 
-def test_there_are_at_least_20_wrong_and_3_right_test_implementations_of_ways():
+def test_there_are_at_least_20_wrong_and_3_right_test_implementations_of_sweeps():
     assert len(WRONG) >= 20
     assert len(RIGHT) == 3
 
@@ -107,7 +107,7 @@ def test_there_are_at_least_20_wrong_and_3_right_test_implementations_of_ways():
         ("runs into the waist", 1, 0.499, Mistake.EARLY, Status.WRONG),
     ],
 )
-def test_answers_about_ways_get_the_expected_mistake_and_status(name, hit, time, mistake, status):
+def test_answers_about_sweeps_get_the_expected_mistake_and_status(name, hit, time, mistake, status):
     start, end, _ = BY_HAND[name]
     (case,) = judged(np.array([[*BODY, *start, *end]]), lambda _: ([hit], np.array([time])))
     assert (case.mistake, case.status) == (mistake, status)
@@ -126,7 +126,7 @@ def test_judge_accepts_the_time_of_a_graze_while_the_grown_spheroid_touches():
     assert [case.mistake for case in judged(rows, lambda _: ([1], np.array([near])), exact)] == [Mistake.LATE]
 
 
-def test_size_error_of_a_wrong_answer_is_measured_and_a_wrong_time_in_radii_of_the_way():
+def test_size_error_of_a_wrong_answer_is_measured_and_a_wrong_time_in_radii_of_the_sweep():
     start, end, _ = BY_HAND["stays clear"]
     (case,) = judged(np.array([[*BODY, *start, *end]]), lambda _: ([1], np.array([0.0])))
     assert judge.measured(case, "passage") == math.inf  # from 3 to 1 it must be twice as large
@@ -139,7 +139,7 @@ def test_size_error_of_a_wrong_answer_is_measured_and_a_wrong_time_in_radii_of_t
     assert radii_off(row, 0.25) == pytest.approx(1.0)
 
 
-def test_way_of_a_spheroid_that_leans_is_measured_along_its_own_axis():
+def test_sweep_of_a_tilted_spheroid_is_measured_along_its_own_axis():
     sizes, start, end = (1.0, 2.0, 0.5, 0.25), (0.0, 0.0, 0.0), (3.0, 0.0, 0.0)
     assert sweep_in_radii((*sizes, *start, *end)) == 6.0
     assert sweep_in_radii((*sizes, *start, *end, 0.0, 0.0, 1e300)) == 6.0
@@ -147,7 +147,7 @@ def test_way_of_a_spheroid_that_leans_is_measured_along_its_own_axis():
     assert sweep_in_radii((*sizes, *start, *end, 1.0, 1.0, 0.0)) == pytest.approx(3 * math.hypot(4, 2) / 2**0.5)
 
 
-def test_answer_cannot_say_about_a_way_is_not_wrong(rows):
+def test_answer_cannot_say_about_a_sweep_is_not_wrong(rows):
     assert judged(rows, lambda some: (np.full(len(some), 2), np.full(len(some), np.nan))) == []
 
 

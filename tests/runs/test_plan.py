@@ -131,7 +131,7 @@ def test_changed_files_of_hypcheck_and_of_the_implementation_are_named_and_many_
     assert f"{tmp_path / 'gone.py'}, which is under test, was removed while it was asked" in every
 
 
-def test_a_file_of_the_package_that_is_written_added_or_removed_is_told_whatever_its_time_and_length(
+def test_a_package_file_that_is_written_added_or_removed_is_reported_whatever_its_time_and_length(
     monkeypatch, tmp_path
 ):
     own_files = fingerprint._own_files.__wrapped__

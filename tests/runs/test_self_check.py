@@ -123,7 +123,7 @@ def test_same_seed_gives_the_same_record_except_for_times(tmp_path, text_reports
     assert lines("1") == lines("2")
 
 
-def test_cases_beyond_the_first_400_of_a_family_are_asked_of_the_oracles_alone(tmp_path, text_reports):
+def test_cases_beyond_the_first_400_of_a_family_are_sent_only_to_the_oracles(tmp_path, text_reports):
     options = [
         "--families",
         "ring",

@@ -39,7 +39,7 @@ def hits_of(change):
     return [hypcheck.passage(row[:4], row[4:7], row[7:]).hit for row in map(change, ROWS.tolist())]
 
 
-def test_ways_of_these_tests_have_contacts_at_the_start_in_between_and_none():
+def test_sweeps_of_these_tests_have_contacts_at_the_start_in_between_and_none():
     assert 5 < STARTS.sum() < 50
     assert 5 < (HITS & ~STARTS & ~ENDS & 1).sum()
     assert 5 < (HITS == 0).sum()

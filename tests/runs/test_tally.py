@@ -209,7 +209,7 @@ def test_rows_of_one_scene_are_in_one_size_bin_wherever_their_spheroids_are():
     assert tally.by_size(rows, np.array([True, False, True])).as_lists() == [[3, 5, 3, 2]]
 
 
-def test_line_of_a_worst_answer_has_the_time_of_a_way_and_bounds_of_its_first_contact():
+def test_line_of_a_worst_answer_has_the_time_of_a_sweep_and_bounds_of_its_first_contact():
     """A ball of radius 1/2 comes along the x axis from 5 to 1 and meets the throat of radius 1 at 3/2: at 7/8."""
     way = (1.0, 4.0, 0.5, 0.5, 5.0, 0.0, 0.0, 1.0, 0.0, 0.0)
     case = worst_case((1, 0), "mine/0", way, 1, 1, "late", "wrong", 0.25, 0.9375, layout=SWEEPS)

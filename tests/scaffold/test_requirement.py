@@ -111,7 +111,7 @@ def test_a_short_commit_is_left_as_it_is_since_git_lists_none(repository, tmp_pa
 
 
 @pytest.mark.parametrize("end", ["", "@v1"])
-def test_a_remote_repository_that_cannot_be_asked_is_reported_as_not_pinned(end, tmp_path, monkeypatch):
+def test_a_remote_repository_that_cannot_be_reached_is_reported_as_not_pinned(end, tmp_path, monkeypatch):
     monkeypatch.setenv("PATH", str(tmp_path))  # no git, hence no network
     wanted = pinned(requirement(f"https://example.org/hypcheck.git{end}", tmp_path))
     assert wanted.text == f"hypcheck @ git+https://example.org/hypcheck.git{end}"

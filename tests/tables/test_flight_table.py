@@ -47,6 +47,6 @@ def test_an_axis_is_that_of_the_segment_that_begins_at_its_corner(tmp_path):
         (b"x,y,z\n1,2,\xff\n", "is not UTF-8"),
     ],
 )
-def test_what_is_no_flight_is_refused_by_a_sentence(tmp_path, text, says):
+def test_a_value_that_is_not_a_flight_is_refused_by_a_sentence(tmp_path, text, says):
     with pytest.raises(InputError, match=says):
         read(tmp_path, text)

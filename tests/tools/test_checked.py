@@ -106,7 +106,7 @@ opened |= set(build.frozen_files())
 
 
 @needs_compiler
-def test_digest_of_the_processors_has_every_file_that_their_programs_are_made_from_or_asked():
+def test_digest_of_the_processors_covers_every_file_that_their_programs_compile_or_read():
     folder = ROOT / "tests/tools/processors"
     command = ["cc", "-MM", f"-I{ROOT / 'hypcheck/kernel/core'}", f"-I{folder}", str(folder / "program.c")]
     made = subprocess.run(command, capture_output=True, text=True, check=True).stdout.replace("\\\n", " ").split()[1:]

@@ -58,7 +58,7 @@ def states():
     return [state(part) for part in reference.PARTS]
 
 
-def test_what_was_interrupted_goes_on_where_it_stopped(repository):
+def test_an_interrupted_run_continues_where_it_stopped(repository):
     (repository / "second.broken").touch()
     code, text = said()
     assert (code, made(repository), states()) == (1, ["first"], ["fresh", "not stamped"])
@@ -69,7 +69,7 @@ def test_what_was_interrupted_goes_on_where_it_stopped(repository):
     assert made(repository) == ["first", "second"]
 
 
-def test_a_part_whose_source_changes_is_stale_is_told_and_is_made_again(repository):
+def test_a_part_whose_source_changes_is_reported_as_stale_and_made_again(repository):
     assert said()[0] == 0
     assert said("--check")[0] == 0
     (repository / "first.source").write_text("2", encoding="utf-8")

@@ -21,7 +21,7 @@ def said():
             yield name, [None if cell == "yes" else reasons[cell] for cell in cells]
 
 
-def test_page_of_rows_has_a_line_for_everything_that_is_asked():
+def test_page_of_rows_has_a_line_for_every_question():
     assert [name for name, _ in said()] == list(ASKED)
 
 

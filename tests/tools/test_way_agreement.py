@@ -30,17 +30,17 @@ def said(name):
 
 
 @pytest.mark.parametrize("name", SAMPLE)
-def test_roots_in_time_and_samples_confirm_a_frozen_way(name):
+def test_roots_in_time_and_samples_confirm_a_frozen_sweep(name):
     assert faults(said(name), 8) == []
 
 
-def test_roots_in_time_and_samples_confirm_generated_ways(capsys):
+def test_roots_in_time_and_samples_confirm_generated_sweeps(capsys):
     ways = list(islice(generated_ways(22, 5), 2))
     assert compared(ways, [faults(each, 4) for each in ways]) == 0
     assert "together                        2 ways, " in capsys.readouterr().out
 
 
-def test_agreement_check_finds_wrong_answers_about_ways(capsys):
+def test_agreement_check_finds_wrong_answers_about_sweeps(capsys):
     graze = said("way-grazing")
     assert faults(replace(graze, first=None), 8)[-1].endswith("and is said to be at no time")
     late = tuple(each + Fraction(1, 64) for each in graze.first)
@@ -54,7 +54,7 @@ def test_agreement_check_finds_wrong_answers_about_ways(capsys):
     assert faults(ring, 2) == ["contact is first at no time, and is said to be at t = 0.5 … 0.5"]
 
 
-def test_way_that_the_discriminant_cannot_decide_is_counted_as_undecided(monkeypatch, capsys):
+def test_sweep_that_the_discriminant_cannot_decide_is_counted_as_undecided(monkeypatch, capsys):
     graze = said("way-grazing")
     nothing = way_agreement.polynomial(Fraction(0))
     monkeypatch.setattr(way_agreement, "discriminant", lambda row: nothing)

@@ -220,7 +220,7 @@ def test_one_multiplier_proves_a_spheroid_inside_a_solid_body_until_it_reaches_a
         ((4, 6, 6, 6, -1, 1, 5, -5, -2), Position.CONTACT),
     ],
 )
-def test_a_ball_about_an_irrational_end_of_a_leaning_wall_has_the_position_of_the_turned_pair(row, expected):
+def test_a_ball_about_an_irrational_end_of_a_tilted_wall_has_the_position_of_the_turned_pair(row, expected):
     """Along (1, 0, 1) heights are multiples of √2. Turned, the wall is vertical and the numbers are rounded."""
     alpha, gamma, b, d, x, y, z, low, high = map(float, row)
     leaning = exact_position(Lengths.of((alpha, gamma, b, d, x, y, z, 0.0, 0.0, 1.0, low, high, 0.0), (1, 0, 1)))

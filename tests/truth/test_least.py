@@ -61,7 +61,7 @@ def border(pair, point):
 
 
 @pytest.mark.parametrize("scale", [1.0, 2.0**-150, 2.0**150])
-def test_bounds_of_the_least_value_hold_that_of_every_point_and_are_as_near_as_told(scale):
+def test_bounds_of_the_least_value_hold_for_every_point_and_are_as_near_as_requested(scale):
     for pair in drawn(10, seed=int(math.log2(scale)), scale=scale):
         found = least.to_border(pair)
         assert found.lower <= found.upper <= found.lower * (1 + 2.0**-39) + 1e-9

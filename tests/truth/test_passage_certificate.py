@@ -35,7 +35,7 @@ def random_ways(number):
 
 
 @pytest.mark.parametrize("row", [THROUGH, OUTSIDE, TUNNEL, GRAZING, STILL, ON_WALL, INSIDE, *random_ways(24)])
-def test_proof_found_for_a_way_passes_its_check(row):
+def test_proof_found_for_a_sweep_passes_its_check(row):
     found, first, certificate = prove_passage(row)
     assert check_passage(row, certificate, first)
     if first:
@@ -58,14 +58,14 @@ def test_points_of_a_proof_of_contact_have_few_digits():
     assert max(lengths) < 128
 
 
-def test_proofs_of_hand_worked_ways_have_the_expected_first_contacts():
+def test_proofs_of_hand_worked_sweeps_have_the_expected_first_contacts():
     firsts = [prove_passage(row)[1] for row in (THROUGH, OUTSIDE, TUNNEL, GRAZING, STILL, INSIDE)]
     assert [first is not None for first in firsts] == [True, False, True, True, True, False]
     assert firsts[3][0] < 0.5 == firsts[3][1]
     assert firsts[4] == (0.0, 0.0)
 
 
-def test_a_grazing_way_is_proved_by_the_double_root_of_one_time():
+def test_a_grazing_sweep_is_proved_by_the_double_root_of_one_time():
     certificate = prove_passage(GRAZING)[2]
     assert certificate.double_root == 2  # √A at the waist
     assert certificate.time == Fraction(1, 2)
@@ -79,14 +79,14 @@ def test_a_tangency_in_two_points_is_proved_where_nothing_moves(row):
     assert check_passage(row, certificate, first)
 
 
-def test_a_way_that_ends_in_tangency_is_proved_by_its_end():
+def test_a_sweep_that_ends_in_tangency_is_proved_by_its_end():
     row = (*GRAZING[:7], 0.0, *GRAZING[8:])
     found, first, certificate = prove_passage(row)
     assert found.first[1] == certificate.time == first[1] == 1
     assert check_passage(row, certificate, first)
 
 
-def test_damaged_proof_of_a_clear_way_is_refused():
+def test_damaged_proof_of_a_clear_sweep_is_refused():
     _, first, certificate = prove_passage(OUTSIDE)
     assert first is None
     (multiplier, end), *_ = certificate.pieces
@@ -112,7 +112,7 @@ def test_piece_of_a_proof_that_reaches_over_a_contact_is_refused():
         assert clear_until(row, PassageCertificate(((multiplier, Fraction(1)),))) is None
 
 
-def test_a_piece_that_ends_after_the_way_proves_no_time():
+def test_a_piece_that_ends_after_the_sweep_proves_no_time():
     """The ball stays outside on the straight line beyond the way, too."""
     clear = (2.0, 3.0, 1.0, 1.0, 4.0, 0.0, 0.0, 4.0, 1.0, 0.0)
     multiplier = prove_passage(clear)[2].pieces[0][0]
@@ -120,7 +120,7 @@ def test_a_piece_that_ends_after_the_way_proves_no_time():
     assert clear_until(clear, PassageCertificate(((multiplier, Fraction(3, 2)),))) is None
 
 
-def test_damaged_proof_of_contact_on_a_way_is_refused():
+def test_damaged_proof_of_contact_on_a_sweep_is_refused():
     _, first, certificate = prove_passage(TUNNEL)
     assert check_passage(TUNNEL, certificate, first)
     for damaged in (

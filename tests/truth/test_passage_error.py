@@ -31,7 +31,7 @@ def test_a_right_answer_has_no_size_error():
 
 
 @pytest.mark.parametrize("end", [(4.0, 3.0, 0.0), (0.0, 3.0, 0.0)])
-def test_the_size_error_of_clear_is_zero_where_a_way_only_touches(end):
+def test_the_size_error_of_clear_is_zero_where_a_sweep_only_touches(end):
     row = (2.0, 3.0, 1.0, 1.0, -4.0, 3.0, 0.0, *end)
     assert size_error(row, True).upper == size_error(row, False).upper == 0
 
@@ -82,7 +82,7 @@ def test_both_ends_of_a_size_error_are_proved_by_exact_decisions(sizes, start, e
     Fraction(1, 8),
     [-1, 0, 0, -1, 0, -1, -1, -1, -1, -1],
 )  # the tolerance is 6.5: nothing is left of the smaller spheroid, whose centre crosses the surface
-def test_answer_about_a_way_that_is_right_for_slightly_changed_inputs_is_tolerated(sizes, start, end, change, signs):
+def test_answer_about_a_sweep_that_is_right_for_slightly_changed_inputs_is_tolerated(sizes, start, end, change, signs):
     """The claim by which the tolerance is derived, at corners of the box of changes."""
     row = tuple(map(Fraction, (*sizes, *start, *end)))
     moved = tuple(each * (1 + sign * change) for each, sign in zip(row, signs, strict=True))
@@ -98,7 +98,7 @@ def test_answer_about_a_way_that_is_right_for_slightly_changed_inputs_is_tolerat
     st.sampled_from([Fraction(1, 2**n) for n in (3, 6, 12)]),
     st.lists(st.sampled_from([-1, 0, 1]), min_size=12, max_size=12),
 )
-def test_answer_about_a_way_beside_ends_that_is_right_for_changed_inputs_is_tolerated(
+def test_answer_about_a_sweep_beside_ends_that_is_right_for_changed_inputs_is_tolerated(
     sizes, start, end, heights, change, signs
 ):
     low, extent, solid = heights
@@ -118,7 +118,7 @@ def test_contact_far_from_a_small_spheroid_is_tolerated_where_the_tolerance_mult
     assert not time_is_within(far, 1, Fraction(2))
 
 
-def test_tolerance_of_a_way_is_the_sum_of_the_effects_of_each_input():
+def test_tolerance_of_a_sweep_is_the_sum_of_the_effects_of_each_input():
     row = (2.0, 3.0, 0.5, 0.25, -4.0, 3.0, 1.0, 1.0, 0.0, -2.0)  # ρ = 14, ζ = 8
     unit = Fraction(1, 2**24)
     assert tolerance(row, 8, unit) / (8 * unit) == pytest.approx(1 + 22 + 24, rel=1e-5)

@@ -49,7 +49,7 @@ def position(sizes, start, end, axis, time):
 
 @examples(50)
 @given(_sizes, _centers, _centers, _axes)
-def test_answer_about_a_tilted_way_agrees_with_exact_positions_on_it(sizes, start, end, axis):
+def test_answer_about_a_tilted_sweep_agrees_with_exact_positions_on_it(sizes, start, end, axis):
     found = passage(sizes, start, end, axis)
     assert found.start == position(sizes, start, end, axis, Fraction(0))
     assert found.end == position(sizes, start, end, axis, Fraction(1))
@@ -75,7 +75,7 @@ def test_a_tilted_sweep_through_the_ring_is_clear_by_its_roots(number):
 
 @settings(max_examples=8, deadline=None)
 @given(_sizes, _centers, _centers, st.one_of(st.none(), _axes))
-def test_passage_by_steps_and_by_roots_agree_about_a_tilted_way(sizes, start, end, axis):
+def test_passage_by_steps_and_by_roots_agree_about_a_tilted_sweep(sizes, start, end, axis):
     sweep = sweep_of(sizes, start, end, axis)
     steps, roots = by_steps(sweep), by_roots(sweep)
     assume(steps is not None)
@@ -114,7 +114,7 @@ def way_through(row, direction, reach):
 
 
 @pytest.mark.parametrize("row", RINGS)
-def test_tilted_way_that_passes_the_ring_is_clear(row):
+def test_tilted_sweep_that_passes_the_ring_is_clear(row):
     """Every way through the centre is short enough to stay clear, and the discriminant is 0 there."""
     ways = [beside(row)[0], (0, 1, 0)]
     for way in ways:
@@ -126,7 +126,7 @@ def test_tilted_way_that_passes_the_ring_is_clear(row):
 @pytest.mark.parametrize(
     "row", [pytest.param(row, marks=[pytest.mark.thorough] * (place % 3 > 0)) for place, row in enumerate(TWO_POINTS)]
 )
-def test_a_way_beside_a_tangency_in_two_points_grazes_there_alone(row):
+def test_a_sweep_beside_a_tangency_in_two_points_grazes_there_alone(row):
     found = passage(*way_through(row, beside(row)[0], Fraction(1, 2**20)))
     assert found.hit
     assert found.grazes
@@ -136,14 +136,14 @@ def test_a_way_beside_a_tangency_in_two_points_grazes_there_alone(row):
 
 
 @pytest.mark.parametrize("row", TWO_POINTS)
-def test_a_way_into_a_tangency_in_two_points_meets_it(row):
+def test_a_sweep_into_a_tangency_in_two_points_meets_it(row):
     for way in (beside(row)[1], (0, 1, 0), (1, 2, -1)):
         found = passage(*way_through(row, way, Fraction(1, 2**20)))
         assert found.hit
         assert found.first[0] <= Fraction(1, 3)
 
 
-def test_a_way_along_which_every_position_has_a_multiple_root_is_decided():
+def test_a_sweep_along_which_every_position_has_a_multiple_root_is_decided():
     """b = α, and the centre on a line through the origin: tangent near the origin, interior far from it.
 
     With λ = −1 the form S + λH has two zero directions at every time; −1 is the pole of the direction n.
@@ -178,7 +178,7 @@ def test_a_way_along_which_every_position_has_a_multiple_root_is_decided():
     st.sampled_from([Fraction(1, 2**n) for n in (3, 6, 12)]),
     st.lists(st.sampled_from([-1, 0, 1]), min_size=13, max_size=13),
 )
-def test_an_answer_that_is_right_for_changed_inputs_of_a_tilted_way_is_tolerated(
+def test_an_answer_that_is_right_for_changed_inputs_of_a_tilted_sweep_is_tolerated(
     sizes, start, end, axis, change, signs
 ):
     row = tuple(map(Fraction, (*sizes, *start, *end, *axis)))
@@ -250,7 +250,7 @@ def test_ring_is_seen_only_at_a_time_between_the_two(low, high, ring):
     assert _ring_between(at_pole, slope, curvature, Fraction(low), Fraction(high)) is ring
 
 
-def test_a_way_without_length_grazes_where_it_touches_and_a_way_that_leaves_a_touch_does_too():
+def test_a_sweep_without_length_grazes_where_it_touches_and_a_sweep_that_leaves_a_touch_does_too():
     touching, away = (2.0, 0.0, 0.0), (5.0, 0.0, 0.0)
     for end in (touching, away):
         found = passage((1, 1, 1, 1), touching, end)
@@ -262,7 +262,7 @@ def test_a_way_without_length_grazes_where_it_touches_and_a_way_that_leaves_a_to
 
 
 @pytest.mark.parametrize("axis", [None, (1.0, 0.0, 2.0)])
-def test_the_positions_at_both_ends_of_a_way_beside_an_end_are_told(axis):
+def test_the_positions_at_both_ends_of_a_sweep_beside_an_end_are_reported(axis):
     """From above the mouth into the body, and back."""
     above, within = (0.5, 0.0, 9.0), (0.5, 0.0, 1.0)
     for start, end in ((above, within), (within, above)):
@@ -270,7 +270,7 @@ def test_the_positions_at_both_ends_of_a_way_beside_an_end_are_told(axis):
         assert (found.start, found.end) == tuple(1 if place is above else -1 for place in (start, end))
 
 
-def test_what_stands_for_a_discriminant_that_is_always_0_is_the_next_subresultant():
+def test_the_next_subresultant_replaces_a_discriminant_that_is_always_0():
     sweep = sweep_of((3, 1, 3, 1), (0, 0, 0), (Fraction(128, 9), 0, 64), (1, 0, 2))
     assert not sweep.discriminant()
     ratios = set()

@@ -50,7 +50,7 @@ def are_proportional(first, second):
 
 
 @pytest.mark.parametrize("row", SWEEPS)
-def test_the_pencil_of_a_way_is_that_of_the_pair_at_each_time(row):
+def test_the_pencil_of_a_sweep_is_that_of_the_pair_at_each_time(row):
     way = sweep(row)
     for time in times():
         there = [at_time(each, time) for each in way.pencil]
@@ -75,7 +75,7 @@ def at_time(polynomial, time):
 
 
 @pytest.mark.parametrize("row", SWEEPS)
-def test_the_critical_polynomial_of_a_way_has_the_sign_of_the_discriminant(row):
+def test_the_critical_polynomial_of_a_sweep_has_the_sign_of_the_discriminant(row):
     way = sweep(row)
     for time in times():
         upright = len(row) == 10
@@ -85,7 +85,7 @@ def test_the_critical_polynomial_of_a_way_has_the_sign_of_the_discriminant(row):
 
 
 @pytest.mark.parametrize("row", [OUTSIDE, INSIDE])
-def test_each_multiplier_of_an_upright_way_is_the_local_maximum_to_twice_as_many_bits(row):
+def test_each_multiplier_of_an_upright_sweep_is_the_local_maximum_to_twice_as_many_bits(row):
     way = sweep(row)
     with mpmath.workprec(600):
         for time in times():

@@ -49,7 +49,7 @@ def holds_first(found, time):
 
 @examples(200)
 @given(_sizes, _centers, _centers)
-def test_answer_about_a_way_agrees_with_exact_positions_on_it(sizes, start, end):
+def test_answer_about_a_sweep_agrees_with_exact_positions_on_it(sizes, start, end):
     found = passage(sizes, start, end)
     assert found.start == truth(sizes, start)
     assert found.end == truth(sizes, end)
@@ -88,7 +88,7 @@ def test_the_first_contact_is_where_the_position_changes(sizes, start, end):
 
 
 @given(_sizes, _centers, _centers, st.fractions(0, 1, max_denominator=9))
-def test_way_is_clear_exactly_if_both_its_parts_are(sizes, start, end, time):
+def test_sweep_is_clear_exactly_if_both_its_parts_are(sizes, start, end, time):
     middle = at(start, end, time)
     whole, there, back = passage(sizes, start, end), passage(sizes, start, middle), passage(sizes, end, middle)
     assert whole.clear == (there.clear and back.clear)
@@ -115,7 +115,7 @@ def tangent_places(draw):
 
 
 @given(tangent_places(), st.integers(6, 9).map(lambda n: Fraction(1, 2**n)))
-def test_a_way_beside_the_surface_grazes_it_where_it_is_tangent_and_nowhere_else(place, half):
+def test_a_sweep_beside_the_surface_grazes_it_where_it_is_tangent_and_nowhere_else(place, half):
     """Outside, along the circle of the surface's horizontal section; inside, along the meridian's tangent.
 
     The surface bends away from the spheroid in that direction, so the point of tangency is the nearest on the way.
@@ -157,7 +157,7 @@ def slanting_ways():
                 yield (a, c, 1, 1), *(tuple(at + n * by for at, by in zip(center, way, strict=True)) for n in (-1, 1))
 
 
-def test_tangency_on_a_slanting_way_is_not_mistaken_for_the_ring():
+def test_tangency_on_a_slanting_sweep_is_not_mistaken_for_the_ring():
     grazing = 0
     for sizes, start, end in slanting_ways():
         found = passage(tuple(map(Fraction, sizes)), tuple(map(Fraction, start)), tuple(map(Fraction, end)))
@@ -170,7 +170,7 @@ def test_tangency_on_a_slanting_way_is_not_mistaken_for_the_ring():
 
 
 @given(tangent_places())
-def test_a_way_along_the_normal_touches_at_one_radius(place):
+def test_a_sweep_along_the_normal_touches_at_one_radius(place):
     (alpha, gamma, b, d), (r, z), (cosine, sine), steps = place
     side = sign(steps)
     foot = (r - steps * cosine, z + steps * sine)
@@ -189,7 +189,7 @@ RINGS = [((1, 2, 1, 1), Fraction(5, 2)), ((7, 7, 1, 1), Fraction(10)), ((14, 21,
 
 @pytest.mark.parametrize(("sizes", "radius"), RINGS)
 @pytest.mark.parametrize("way", [(1, 0, 0), (0, 0, 1), (0, 1, 0), (1, 0, 1), (3, 4, 2), (1, 0, 0.1)])
-def test_way_that_passes_the_ring_is_clear(sizes, radius, way):
+def test_sweep_that_passes_the_ring_is_clear(sizes, radius, way):
     """The discriminant is 0 there and the spheroid far away, whichever way it comes through."""
     center = (radius, Fraction(0), Fraction(0))
     start, end = (tuple(c + n * Fraction(w) / 8 for c, w in zip(center, way, strict=True)) for n in (-1, 2))
@@ -241,7 +241,7 @@ def test_times_of_first_contact_equal_values_worked_out_by_hand(sizes, start, en
         ((1, 1, 1, 1), (0, 0, 3), (0, 0, -3), True),
     ],
 )
-def test_way_grazes_if_its_contact_lasts_only_an_instant(sizes, start, end, grazes):
+def test_sweep_grazes_if_its_contact_lasts_only_an_instant(sizes, start, end, grazes):
     assert passage(sizes, start, end).grazes is grazes
 
 
@@ -303,7 +303,7 @@ def test_parts_are_in_contact_where_one_of_them_is_and_where_they_lie_on_both_si
         assert first_contact(EndedSweep(large, parts)) == first
 
 
-def test_a_clear_way_has_no_time_of_contact():
+def test_a_clear_sweep_has_no_time_of_contact():
     found = passage((2, 3, 1, 1), (5, 0, 0), (6, 0, 0))
     assert found.first is None
     assert not found.hit
@@ -312,7 +312,7 @@ def test_a_clear_way_has_no_time_of_contact():
 
 
 @given(st.sampled_from([2.0**-1000, 2.0**-99, 2.0**1000]), st.sampled_from([2.0**-600, 1.0, 2.0**600]))
-def test_passage_decides_ways_of_any_magnitude(wide, tall):
+def test_passage_decides_sweeps_of_any_magnitude(wide, tall):
     start, end = (-4 * wide, 3 * wide, 0.0), (4 * wide, 3 * wide, tall * 2.0**-200)
     found = passage((2 * wide, 3 * tall, wide, tall), start, end)
     assert found.start is found.end is EXTERIOR
@@ -362,7 +362,7 @@ def test_python_session_in_docs_motion_gives_the_results_that_it_shows():
 
 @pytest.mark.parametrize("axis", [(0, 0, 1), (1, 2, 3)])
 @pytest.mark.parametrize("deep", [2.0**-70, 2.0**-300])
-def test_contact_that_begins_just_before_the_end_of_a_way_beside_a_disc_is_found_and_is_no_touch(axis, deep):
+def test_contact_that_begins_just_before_the_end_of_a_sweep_beside_a_disc_is_found_and_is_no_touch(axis, deep):
     way = (8, 8, 1, 1), (0, 0, 4), (0, 0, 1), axis
     found = passage(*way, z_max=deep, solid=True)
     assert (found.hit, found.grazes) == (True, False)
@@ -372,7 +372,7 @@ def test_contact_that_begins_just_before_the_end_of_a_way_beside_a_disc_is_found
 
 
 @pytest.mark.parametrize("lean", [(0, 1, 1), (1, 0, 1)])
-def test_a_flat_spheroid_that_sweeps_over_a_small_body_as_leaning_as_itself_meets_it(lean):
+def test_a_flat_spheroid_that_sweeps_over_a_small_body_tilted_as_much_as_itself_meets_it(lean):
     """It is 16 times as wide as thick, and moves partly along its axis: in contact for a thirtieth of the way."""
     start, end = ([side * part for part in (lean[0], lean[1], 0)] for side in (-2.2, 2))
     found = passage((0.01, 0.01, 1, 0.0625), start, end, lean, lean, z_min=-0.01, z_max=0.01, solid=True)
@@ -391,7 +391,7 @@ def test_contact_that_lasts_next_to_no_time_beside_ends_is_no_touch_where_it_is_
 
 @pytest.mark.parametrize("axis", [(0, 0, 1), (0, 1, 1), (1, 0, 1)])
 @pytest.mark.parametrize(("b", "d"), [(16, 1), (1, 16)])
-def test_a_sweep_is_not_longer_than_its_bound_in_radii_of_a_spheroid_as_leaning_as_the_hyperboloid(axis, b, d):
+def test_a_sweep_is_not_longer_than_its_bound_in_radii_of_a_spheroid_tilted_as_much_as_the_hyperboloid(axis, b, d):
     """The step of the proof: a spheroid enlarged by that bound contains the moved one."""
     for move in itertools.product((0, 1, 5), (0, -1, 3), (0, 1, -7)):
         sweep = sweep_of((1, 1, b, d), (0, 0, 0), move, axis, axis)

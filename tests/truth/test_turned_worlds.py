@@ -70,7 +70,7 @@ def test_axes_that_lie_across_the_hyperboloids_are_parallel_only_if_their_cross_
 
 
 @pytest.mark.parametrize("name", TURNS)
-def test_a_passage_counts_heights_along_the_axis_that_it_is_told(name):
+def test_a_passage_counts_heights_along_the_given_axis(name):
     ended, turn = questions("axis heights"), TURNS[name]
     whole = [k for k, row in enumerate(ended.rows) if (np.rint(row * 4) == row * 4)[np.isfinite(row)].all()]
     assert len(whole) > 100

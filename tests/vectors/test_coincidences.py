@@ -181,7 +181,7 @@ def test_osculation_and_near_axis_families_approach_their_borders_from_both_side
         assert min(sum(value > 0 for value in gaps), sum(value < 0 for value in gaps)) > 200
 
 
-def test_generated_ways_across_a_ring_are_clear_where_rings_beside_the_surface_were_replaced() -> None:
+def test_generated_sweeps_across_a_ring_are_clear_where_rings_beside_the_surface_were_replaced() -> None:
     rows = SWEEP_FAMILIES["way-ring"].rows(1, BLOCK)
     before = gather(Draw("way-ring", 1, 1, 0), BLOCK, ring_attempt)
     replaced = (rows != before).any(axis=1)

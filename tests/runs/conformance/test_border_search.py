@@ -49,7 +49,7 @@ def numbers_asked(rows, status, first=0):
     return found
 
 
-def test_search_asks_so_many_rows_as_it_is_told_and_none_twice():
+def test_search_tests_the_requested_number_of_rows_and_none_twice():
     for rows in (1, 7, 100, 4000):
         for status in (RIGHT, WRONG, STATUS_CODES[Status.ABSTAINED], STATUS_CODES[Status.SKIPPED]):
             some = np.concatenate(numbers_asked(rows, lambda numbers, status=status: np.full(len(numbers), status)))
@@ -98,7 +98,7 @@ def test_search_begins_farther_out_for_a_coarser_precision_and_beside_contact_fo
     assert rungs[-1] < HALF
 
 
-def test_rows_that_a_search_asks_in_any_case_are_in_its_first_question():
+def test_first_question_of_a_search_contains_all_rows_that_do_not_depend_on_answers():
     step = Step("search", 4, 800)
     (first, *_) = numbers_asked(800, lambda numbers: np.full(len(numbers), WRONG))
     expected = [tuple(row) for row in rows_at("search", 4, far_numbers(step, 0)).tolist()]
@@ -134,7 +134,7 @@ def test_narrow_fault_that_escapes_every_family_is_found_by_the_search_and_repla
 
 
 @pytest.mark.usefixtures("few_families")
-def test_search_is_asked_by_the_seed_of_the_fresh_rows_and_says_so(run, capsys):
+def test_search_uses_the_seed_of_the_fresh_rows_and_reports_it(run, capsys):
     _, groups, record = run("builtin:fast", "--count", "8", "--fresh", "20261127")
     assert (groups["search"].asked, groups["search"].fresh) == (80, 80)
     (line,) = record.of(ImplementationLine)

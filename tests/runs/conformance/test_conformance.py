@@ -98,7 +98,7 @@ def test_fault_of_an_implementation_affects_only_the_cases_that_cause_it(tmp_pat
     assert found[other].faults[0].reason
 
 
-def test_invalid_rows_are_asked_only_if_refuses_is_declared(tmp_path, built_in):
+def test_invalid_rows_are_tested_only_if_refuses_is_declared(tmp_path, built_in):
     specs = [built_in(function, refuses=True) for function in (faulty.refuses, faulty.answers_bad_rows)]
     code, record = gate(tmp_path, *specs, "builtin:fast", "--families", "tower-body", count="0")
     assert code == 1
@@ -165,7 +165,7 @@ def test_summary_json_of_verify_has_its_documented_counts_and_families(tmp_path)
 
 
 @pytest.mark.thorough
-def test_worst_cancellations_are_asked_if_no_families_are_chosen(tmp_path):
+def test_worst_cancellations_are_tested_if_no_families_are_chosen(tmp_path):
     _, record = gate(tmp_path, "builtin:local-maximum-float64", count="1")
     asked = {line.family: line for line in record.of(GroupLine)}
     assert asked["worst-cancellation"].counts["wrong"] > 10

@@ -82,7 +82,7 @@ def verified(folder, spec, families, *words):
     return code, used["statuses"]
 
 
-def test_header_answers_frozen_ways_beside_ends(tmp_path):
+def test_header_answers_frozen_sweeps_beside_ends(tmp_path):
     library = compiled_text(HEADER.replace("PATH", str(TARGET)), tmp_path / "header.so", "-O0")
     code, statuses = verified(tmp_path, f"library:{library}", FEW, "--isolate", "off")
     asked = sum(frozen.count_of(name) for name in FEW.split(","))
@@ -95,7 +95,7 @@ TAKES_ENDS = {"question": "passage", "tilt": True, "heights": True}
 
 
 @pytest.mark.parametrize("function", [right, pytest.param(backwards, marks=pytest.mark.thorough)])
-def test_right_functions_about_ways_beside_ends_pass(function, built_in, tmp_path):
+def test_right_functions_about_sweeps_beside_ends_pass(function, built_in, tmp_path):
     code, statuses = verified(tmp_path, built_in(function, **TAKES_ENDS), FEW, "--tolerance", "0")
     assert (code, statuses.get("wrong", 0)) == (0, 0)
 
@@ -107,7 +107,7 @@ ALSO_WRONG = (ends_ignored, closed_for_open, both_ends_of_the_way_alone)
     "function",
     [discs_ignored, leaving_is_contact, *(pytest.param(each, marks=pytest.mark.thorough) for each in ALSO_WRONG)],
 )
-def test_wrong_functions_about_ways_beside_ends_are_rejected(function, built_in, tmp_path):
+def test_wrong_functions_about_sweeps_beside_ends_are_rejected(function, built_in, tmp_path):
     code, statuses = verified(tmp_path, built_in(function, **TAKES_ENDS), FEW)
     assert code == 1
     assert statuses["wrong"] > 2

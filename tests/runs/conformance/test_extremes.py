@@ -19,7 +19,7 @@ def counts(tmp_path, spec, *options, families=FAMILY):
     return code, read(out / "record.jsonl").of(GroupLine)[0].counts
 
 
-def test_implementation_without_declared_ranges_is_asked_every_extreme_row(tmp_path):
+def test_implementation_without_declared_ranges_gets_every_extreme_row(tmp_path):
     code, counted = counts(tmp_path, "python:tests.runs.faulty:exact")
     assert code == 0
     assert counted == {"right": 160}
@@ -47,7 +47,7 @@ def test_families_that_are_not_extreme_skip_rows_outside_ordinary_ranges(tmp_pat
     assert counted["skipped"] > 50
 
 
-def test_extreme_case_that_verify_asked_can_be_replayed_and_minimised(capsys):
+def test_extreme_case_that_verify_tested_can_be_replayed_and_minimised(capsys):
     assert main(["replay", "extreme-magnitude-0000", "python:tests.runs.faulty:contact_everywhere"]) == 1
     assert "verify skips this case" not in capsys.readouterr().out
     assert main(["minimise", "python:tests.runs.faulty:contact_everywhere", "extreme-magnitude-0000"]) == 0

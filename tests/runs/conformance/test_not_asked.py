@@ -68,7 +68,7 @@ def test_subnormal_rows_that_a_pattern_names_are_counted_in_every_report(built_i
     assert f"extreme-subnormal,builtin:flushes,not asked: precision,{expected['extreme-subnormal']}" in lines
 
 
-def test_verdict_names_a_family_of_which_no_row_was_asked(capsys):
+def test_verdict_names_a_family_of_which_no_row_was_tested(capsys):
     options = ("--families", "tower-body,extreme-float6*", "--precision", "float16", "--count", "0")
     assert gate("builtin:fast", *options) == 0
     head = capsys.readouterr().out.splitlines()[0]
@@ -110,7 +110,7 @@ def test_fewer_than_a_hundred_rows_or_one_in_a_hundred_are_too_few_where_most_ar
     assert domains.too_few(judged, skipped) is few
 
 
-def test_run_that_fails_says_on_the_terminal_what_was_not_asked(capsys):
+def test_run_that_fails_lists_untested_rows_on_the_terminal(capsys):
     assert gate("builtin:table-2-float32", "--families", "extreme", "--count", "0") == 1
     told = [line.not_asked for line in read(Path("out")).of(GroupLine)]
     small, outside = (sum(each.get(reason, 0) for each in told) for reason in ("precision", "regime"))
@@ -121,7 +121,7 @@ def test_run_that_fails_says_on_the_terminal_what_was_not_asked(capsys):
     assert said[0].endswith(f"; {expected}")
 
 
-def test_family_of_subnormal_rows_that_is_asked_for_by_its_name_is_asked(built_in, capsys):
+def test_family_of_subnormal_rows_is_tested_if_it_is_named(built_in, capsys):
     assert gate(built_in(flushes), "--families", "extreme-subnormal", "--count", "0") == 1
     (group,) = read(Path("out")).of(GroupLine)
     assert group.counts["wrong"] == 18
@@ -164,7 +164,7 @@ def test_reasons_add_up_to_the_skipped_rows_of_each_family(domain):
         assert line.asked + line.counts.get("skipped", 0) == sum(line.counts.values())
 
 
-def test_pattern_that_names_families_which_are_not_asked_is_told_in_the_verdict(capsys):
+def test_verdict_names_a_pattern_that_selects_only_untested_families(capsys):
     assert gate("builtin:table-2-float64", "--families", "tower-body,tilted-*", "--count", "0") == 0
     head = capsys.readouterr().out.splitlines()[0]
     assert "17 families of tilted spheroids (it takes none)" in head
@@ -178,7 +178,7 @@ def test_pattern_that_names_families_which_are_not_asked_is_told_in_the_verdict(
 
 
 @pytest.mark.usefixtures("few_families")
-def test_run_of_all_families_records_those_that_are_asked_only_on_request(capsys):
+def test_run_of_all_families_records_the_families_that_run_only_on_request(capsys):
     assert gate("builtin:fast", "--count", "0") == 0
     assert "families" not in capsys.readouterr().out.splitlines()[0]
     (line,) = read(Path("out")).of(ImplementationLine)

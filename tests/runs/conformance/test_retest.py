@@ -132,7 +132,7 @@ void hypcheck_classify_tilted_scene(const double sizes[4], const double axis[3],
 
 @needs_compiler
 @pytest.mark.parametrize(("then", "code"), [("", 0), ("if (axis[0] > axis[1]) positions[0] = 0;", 1)])
-def test_function_for_scenes_of_tilted_spheroids_is_asked_though_hardly_two_rows_share_an_axis(tmp_path, then, code):
+def test_function_for_tilted_scenes_is_called_though_hardly_two_rows_share_an_axis(tmp_path, then, code):
     shared_library(tmp_path, TILTED_LIBRARY.format(then=then), f"-I{HEADER.parent}")
     words = ["--families", "tilted-uniform,tilted-stiff", "--count", "100", "--out", str(tmp_path / "out")]
     assert main(["verify", f"library:{tmp_path / 'library.so'}", *words]) == code

@@ -70,7 +70,7 @@ def test_rows_that_are_deep_in_contact_are_not_near_it(rows):
 
 
 @pytest.mark.parametrize("name", UPRIGHT)
-def test_rows_without_a_slice_are_said_to_leave_one_that_is_as_wide(rows, name):
+def test_spread_of_rows_reports_the_width_of_the_widest_untested_slice(rows, name):
     places = COORDINATES[name](rows)
     left = evenness(rows[(places < 0.4) | (places > 0.5)], UPRIGHT)
     assert left.one > 0.1 - 1e-12
@@ -82,7 +82,7 @@ def test_few_rows_leave_everything_open(rows):
     assert (evenness(rows[:2], UPRIGHT).one, evenness(rows[:2], UPRIGHT).two) == (1.0, 1.0)
 
 
-def test_a_run_says_how_evenly_it_asked_and_a_thorough_one_asks_ten_times_as_much(line_of, capsys):
+def test_a_run_reports_how_evenly_it_tested_and_a_thorough_run_tests_ten_times_as_many_rows(line_of, capsys):
     usual = line_of("--count", "8", families="strata,coincidences")
     said = capsys.readouterr().out
     assert re.search(r"every slice of [\d.]+ % of .* or distance to contact was asked 3", said)

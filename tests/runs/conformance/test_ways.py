@@ -72,7 +72,7 @@ def test_right_passage_function_passes_and_repeats_its_times_in_the_retest(tmp_p
 
 
 @pytest.mark.slow
-def test_known_failure_of_a_way_is_excused_and_fails_the_run_if_it_no_longer_occurs(tmp_path, capsys):
+def test_known_failure_of_a_sweep_is_excused_and_fails_the_run_if_it_no_longer_occurs(tmp_path, capsys):
     listed = tmp_path / "known.toml"
     some = [case.id for case in frozen.load("way-still").cases[:3]]
     entries = {"family": ["way-tunnelling", "way-still"], "case": some}
@@ -122,7 +122,7 @@ def test_verify_refuses_families_that_do_not_match_the_question(words, sentence,
 
 
 @pytest.mark.slow
-def test_invalid_ways_are_asked_of_implementations_that_declare_refuses(built_in, tmp_path):
+def test_invalid_sweeps_are_asked_of_implementations_that_declare_refuses(built_in, tmp_path):
     assert verified(tmp_path, built_in(moving.clear_from_infinity, **moving.hypcheck), *FEW) == 1
     found = {line.family: line for line in read(tmp_path).of(GroupLine)}
     assert found["way-tunnelling"].counts == {"right": ASKED}
@@ -134,7 +134,7 @@ def test_invalid_ways_are_asked_of_implementations_that_declare_refuses(built_in
     assert all(fault.reason.startswith("answered 0; a row with an invalid ") for fault in group.faults)
 
 
-def test_invalid_ways_are_chosen_by_declared_refuses_tilt_and_heights():
+def test_invalid_sweeps_are_chosen_by_declared_refuses_tilt_and_heights():
     def chosen(**said):
         return [each.family for each in invalid_rows(Description("any", question="passage", **said))]
 
@@ -145,7 +145,7 @@ def test_invalid_ways_are_chosen_by_declared_refuses_tilt_and_heights():
     assert chosen(refuses=True, tilt=False, heights=True) == ["way-invalid"]
 
 
-def test_saved_progress_keeps_ends_and_times_of_ways():
+def test_saved_progress_keeps_ends_and_times_of_sweeps():
     worst = worst_case((1, 0), "way-anywhere/1/1/0", ROW, 1, 1, "late", "wrong", 0.5, 0.75, layout=SWEEPS)
     lost = unanswered_case((1, 1), "way-anywhere/1/1/1", (*ROW, 0.0, 3.0, 4.0), "crash", "it crashed", SWEEPS)
     pending = PendingRetest(

@@ -140,7 +140,7 @@ def test_place_of_a_row_with_ends_says_what_they_change(row, kind):
     assert place.words.startswith(ENDED)
 
 
-def test_place_of_a_way_beside_ends_says_so_and_whether_the_spheroid_is_tilted():
+def test_place_of_a_sweep_beside_ends_says_so_and_whether_the_spheroid_is_tilted():
     assert ENDED in place_of_row(LANDING, SWEEPS).words
     assert "tilted" not in place_of_row(LANDING, SWEEPS).words
     assert "tilted" in place_of_row((*LANDING[:10], 1.0, 0.0, 1.0, *LANDING[13:]), SWEEPS).words

@@ -51,7 +51,7 @@ def test_strata_have_tilted_families_where_the_implementation_takes_tilt():
     assert both - upright == {f"the family {name}" for name in TILTED_FAMILIES}
 
 
-def test_neighbours_of_upright_and_tilted_rows_are_asked_together_and_are_all_valid():
+def test_neighbours_of_upright_and_tilted_rows_are_tested_together_and_are_all_valid():
     climbers = [Climber(ROW, 1.0, 0.25), Climber(tuple(FAMILIES["uniform"].rows(1, 1)[0].tolist()), 1.0, 0.25)]
     around = neighbours(Draw("test"), climbers)
     assert around.rows.shape[1] == 10

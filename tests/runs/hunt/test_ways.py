@@ -26,7 +26,7 @@ MISSED = "8.25,8,0.25,0.25,20,0,0,-20,0,0"
 """Four samples meet the wall nowhere."""
 
 
-def test_a_hunt_finds_wrong_answers_and_late_times_and_keeps_their_ways(capsys, tmp_path):
+def test_a_hunt_finds_wrong_answers_and_late_times_and_keeps_their_sweeps(capsys, tmp_path):
     out = tmp_path / "kept.json"
     hunt = ("hunt", "builtin:passage-sampled-4", "--queries", "20", "--out", str(out))
     assert main([*hunt]) == 1
@@ -53,7 +53,7 @@ def test_hunt_finds_nothing_in_the_exact_passage(capsys):
 
 
 @pytest.mark.thorough  # test_ends.py hunts for tilted sweeps, and beside ends
-def test_ways_of_spheroids_that_lean_are_asked_where_the_implementation_takes_tilt(capsys, tmp_path):
+def test_sweeps_of_tilted_spheroids_are_asked_where_the_implementation_takes_tilt(capsys, tmp_path):
     out = tmp_path / "kept.json"
     words = ("hunt", "python:tests.runs.moving:upright", "--queries", "600", "--show", "1", "--out", str(out))
     assert main([*words, "--isolate", "off"]) == 1  # the implementation answers by hypcheck
@@ -63,7 +63,7 @@ def test_ways_of_spheroids_that_lean_are_asked_where_the_implementation_takes_ti
     assert "content is 'tilted-ways'; here it must be 'ways', rows of 10 numbers" in capsys.readouterr().err
 
 
-def test_neighbours_of_a_way_are_valid_and_brought_to_the_border_of_contact():
+def test_neighbours_of_a_sweep_are_valid_and_brought_to_the_border_of_contact():
     around = neighbours(Draw("test"), [Climber(BESIDE, 1.0, 0.25)], SWEEPS)
     assert not invalid(around.rows, SWEEPS).any()
     numbers, counts = np.unique(around.ladders, return_counts=True)
@@ -77,7 +77,7 @@ def test_neighbours_of_a_way_are_valid_and_brought_to_the_border_of_contact():
 
 
 @pytest.mark.slow
-def test_the_simplest_way_that_fails_alike_is_short_and_its_answer_is_proved(capsys):
+def test_the_simplest_sweep_that_fails_alike_is_short_and_its_answer_is_proved(capsys):
     assert main(["minimise", "builtin:passage-sampled-4", MISSED]) == 0
     said = capsys.readouterr().out
     (shown,) = re.findall(r"^   row +(\S+)  \(alpha, .*, x1, y1, z1\)$", said, flags=re.MULTILINE)
@@ -90,7 +90,7 @@ def test_the_simplest_way_that_fails_alike_is_short_and_its_answer_is_proved(cap
     assert "proof       contact at t " in said
 
 
-def test_way_in_other_coordinates_has_the_same_answer():
+def test_sweep_in_other_coordinates_has_the_same_answer():
     for row in [THROUGH, *map(tuple, SWEEP_FAMILIES["tilted-way-uniform"].rows(4, 2).tolist())]:
         hit = hits_at_size(row)
         for other in list(same_query(row, SWEEPS))[:8]:  # units are rounded
@@ -113,13 +113,13 @@ def test_way_in_other_coordinates_has_the_same_answer():
         ({4: 9.0, 7: 99999.0}, "a long sweep"),
     ],
 )
-def test_place_of_a_way_names_what_happens_on_it(changes, kind):
+def test_place_of_a_sweep_names_what_happens_on_it(changes, kind):
     row = tuple(changes.get(place, value) for place, value in enumerate(THROUGH))
     place = sweep_place(row)
     assert place.kind == place.cause == kind
 
 
-def test_the_place_of_a_way_says_that_the_spheroid_leans():
+def test_the_place_of_a_sweep_says_that_the_spheroid_is_tilted():
     row = (*THROUGH[:3], 0.5, *THROUGH[4:], 1.0, 0.0, 1.0)
     assert TILTED in sweep_place(row).words
     assert TILTED not in sweep_place((*row[:10], 0.0, 0.0, 2.0)).words

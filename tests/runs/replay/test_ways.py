@@ -38,7 +38,7 @@ def test_replay_says_of_a_sweep_without_contact_that_it_is_clear_and_nothing_of_
 
 
 @pytest.mark.slow
-def test_replay_calls_an_answer_to_an_invalid_way_wrong_unless_it_is_refused(capsys, built_in):
+def test_replay_calls_an_answer_to_an_invalid_sweep_wrong_unless_it_is_refused(capsys, built_in):
     off = ("--isolate", "off")  # this implementation answers by hypcheck
     code, said = replayed(capsys, "way-invalid-0040", "python:tests.runs.moving:exact", *off)
     assert code == 0

@@ -147,7 +147,9 @@ def test_file_that_an_implementation_starts_is_hashed(spec, beside):
     ]
 
 
-def test_what_no_look_at_a_command_tells_is_in_its_first_line_and_in_the_record(tmp_path, monkeypatch, capsys):
+def test_files_that_a_command_does_not_show_are_named_in_its_first_line_and_in_the_record(
+    tmp_path, monkeypatch, capsys
+):
     monkeypatch.chdir(tmp_path)
     Path("x.js").write_text("process.exit(1)\n")
     Path("loads.py").write_text("import importlib\nimportlib.import_module('json')\n")
@@ -163,7 +165,7 @@ def test_a_program_that_a_shell_finds_on_its_path_is_hashed(beside, monkeypatch)
     assert str(beside / "prog") in fingerprints(["command:sh -c 'prog --fast'"])
 
 
-def test_what_a_file_imports_that_is_not_python_is_not_hashed_and_named(beside):
+def test_imports_of_a_file_that_are_not_python_are_named_and_not_hashed(beside):
     Path("subject.py").write_text("import beside\ndef f(rows) return 0\n")
     assert not_hashed(["python:subject.py:f"]) == ["what subject.py imports, as it cannot be parsed"]
     assert [Path(name).name for name in fingerprints(["python:subject.py:f"])] == ["subject.py"]

@@ -46,7 +46,7 @@ def left(monkeypatch, tmp_path):
     return lambda lines, branches: by_function("module.py", lines, branches)
 
 
-def test_lines_that_are_left_are_told_by_their_function_as_stretches(left):
+def test_missed_lines_are_reported_by_function_as_ranges(left):
     found = left([5, 6, 7, 14, 21, 25], [])
     assert {name: each["lines"] for name, each in found.items()} == {
         "chosen": "5-7",
@@ -72,7 +72,7 @@ def test_reasons_that_the_code_tells_are_found_and_others_are_not(left, lines, b
     assert [each["kinds"] for each in left(lines, branches).values()] == [kinds]
 
 
-def test_a_branch_beside_a_line_that_is_left_is_not_told_again(left):
+def test_a_branch_of_a_missed_line_is_not_reported_twice(left):
     (found,) = left([8], [[5, 8]]).values()
     assert (found["lines"], found["branches"]) == ("8", [])
 
@@ -90,7 +90,7 @@ def test_a_sentence_of_ours_goes_before_the_reason_of_the_code_and_without_eithe
     assert told["a.py:h"] == UNEXPLAINED
 
 
-def test_everything_that_is_left_has_a_reason_and_no_reason_is_about_what_is_not_left():
+def test_every_missed_line_has_a_reason_and_no_reason_is_unused():
     figures = kept()["python-coverage"]
     reasons = reasons_of(figures)
     assert [place for place, reason in reasons.items() if reason == UNEXPLAINED] == []

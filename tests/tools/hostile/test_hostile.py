@@ -88,7 +88,7 @@ def test_isolated_program_that_knows_rows_by_heart_fails_on_fresh_rows_whatever_
     assert "; no fresh rows" in capsys.readouterr().out
 
 
-def test_invented_case_of_a_known_failure_is_refused_before_a_program_is_asked(tmp_path, monkeypatch, capsys):
+def test_invented_case_of_a_known_failure_is_refused_before_a_program_starts(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     Path("known.toml").write_text(_entry('case = "ring-99999"'))
     options = ("--known-failures", "known.toml", "--isolate", "on" if HERE.whole else "auto")

@@ -39,7 +39,7 @@ def here(tmp_path_factory):
 
 @pytest.mark.slow
 @needs_compiler
-def test_kernel_program_answers_frozen_vectors_ways_and_clearances_rightly(here):
+def test_kernel_program_answers_frozen_vectors_sweeps_and_clearances_rightly(here):
     build, program, folder = here
     some = jobs.frozen(
         ("tangent", "extreme-subnormal", "tilted-tangent", "way-end", "tilted-way-uniform", "tilted-invalid")

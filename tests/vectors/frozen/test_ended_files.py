@@ -129,7 +129,7 @@ def test_a_shown_case_that_ends_has_a_sentence_for_each_kind_of_its_proof(proved
 
 
 @pytest.mark.parametrize("name", frozen.ENDED_SWEEP_NAMES)
-def test_a_file_of_ways_beside_ends_fits_its_schema_is_fresh_and_has_every_label_checked(name):
+def test_a_file_of_sweeps_beside_ends_fits_its_schema_is_fresh_and_has_every_label_checked(name):
     file = frozen.load(name)
     assert fits(name, "ended-ways", ENDED_SWEEP_SCHEMA)
     assert {*bits(ENDED_SWEEP_FAMILIES[name].rows(1, len(file.cases)))} == {*bits(file.rows)}
@@ -146,7 +146,7 @@ def test_a_file_of_ways_beside_ends_fits_its_schema_is_fresh_and_has_every_label
         (lambda case: case.update(first=[0.0, 0.0], first_hex=["0x0p+0"] * 2), "there is no contact at t 0.0"),
     ],
 )
-def test_a_wrong_label_of_a_way_beside_an_end_is_found_by_both_decisions(tmp_path, change, sentence, capsys):
+def test_a_wrong_label_of_a_sweep_beside_an_end_is_found_by_both_decisions(tmp_path, change, sentence, capsys):
     document = json.loads(text_of("ended-way-opening"))
     case = next(case for case in document["cases"] if case["hit"] and case["first"][0] > 0.1)
     change(case)
@@ -157,7 +157,7 @@ def test_a_wrong_label_of_a_way_beside_an_end_is_found_by_both_decisions(tmp_pat
     assert re.search(sentence, capsys.readouterr().out)
 
 
-def test_a_way_beside_an_end_is_shown_with_its_first_contact(capsys):
+def test_a_sweep_beside_an_end_is_shown_with_its_first_contact(capsys):
     case = next(case for case in frozen.load("ended-way-over").cases if case.hit)
     assert main(["cases", "show", case.id]) == 0
     text = capsys.readouterr().out

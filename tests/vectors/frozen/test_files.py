@@ -176,7 +176,7 @@ def test_schema_of_vectors_refuses_each_malformed_document():
         assert violations(changed, wanted, closed=True) != []
 
 
-def test_each_case_of_a_frozen_file_stands_on_its_own_line():
+def test_each_case_of_a_frozen_file_has_its_own_line():
     for name in vectors.ALL_NAMES:
         lines = text_of(name).splitlines()
         begin = lines.index('"cases": [') + 1

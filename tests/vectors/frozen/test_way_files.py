@@ -32,7 +32,7 @@ def sample(name, step=STEP):
     return frozen.load(name).cases[::step]
 
 
-def test_there_are_at_least_2000_ways_in_at_least_14_families():
+def test_there_are_at_least_2000_sweeps_in_at_least_14_families():
     files = [frozen.load(name) for name in frozen.SWEEP_NAMES]
     assert len(files) >= 14
     cases = [case for file in files for case in file.cases]
@@ -44,7 +44,7 @@ def test_there_are_at_least_2000_ways_in_at_least_14_families():
 
 
 @every_file
-def test_rows_of_a_file_of_ways_are_the_first_rows_of_its_family_without_duplicates(name):
+def test_rows_of_a_file_of_sweeps_are_the_first_rows_of_its_family_without_duplicates(name):
     file = frozen.load(name)
     wanted = list(dict.fromkeys(bits(freezing.planned(name))))
     assert [case.id for case in file.cases] == [f"{name}-{number:04d}" for number in range(len(file.cases))]
@@ -60,12 +60,12 @@ def test_rows_of_a_file_of_ways_are_the_first_rows_of_its_family_without_duplica
 
 
 @every_file
-def test_labels_of_a_file_of_ways_are_right(name):
+def test_labels_of_a_file_of_sweeps_are_right(name):
     assert faults_of(replace(frozen.load(name), cases=sample(name), lines=())) == []
 
 
 @every_file
-def test_a_file_of_ways_fits_its_published_schema(name):
+def test_a_file_of_sweeps_fits_its_published_schema(name):
     document = json.loads(text_of(name))
     document["cases"] = document["cases"][::9]
     wanted = schema("tilted-ways" if name.startswith("tilted") else "ways", SWEEP_SCHEMA)
@@ -73,7 +73,7 @@ def test_a_file_of_ways_fits_its_published_schema(name):
 
 
 @pytest.mark.parametrize(("name", "columns"), [("way-invalid", SWEEPS.upright), ("tilted-way-invalid", SWEEPS.tilted)])
-def test_frozen_invalid_ways_fit_their_schema_and_equal_those_that_freezing_makes(name, columns):
+def test_frozen_invalid_sweeps_fit_their_schema_and_equal_those_that_freezing_makes(name, columns):
     text = text_of(name)
     assert list(violations(json.loads(text), schema(name.replace("invalid", "refusals"), SWEEP_SCHEMA))) == []
     assert cases_text(freezing.frozen_invalid_rows(name)) == text
@@ -89,7 +89,7 @@ def test_frozen_invalid_ways_fit_their_schema_and_equal_those_that_freezing_make
         assert sum(case.columns == SWEEPS.tilted[10:] and not any(case.row[10:]) for case in file.cases) == 12
 
 
-def test_frozen_ways_have_the_flags_that_their_family_promises():
+def test_frozen_sweeps_have_the_flags_that_their_family_promises():
     def flagged(name, flag):
         cases = frozen.load(name).cases
         return sum(flag in case.flags for case in cases) / len(cases)
@@ -114,7 +114,7 @@ def changed(name, place, **changes):
     ]
 
 
-def test_wrong_labels_of_a_way_are_found():
+def test_wrong_labels_of_a_sweep_are_found():
     case = frozen.load("way-grazing").cases[0]
     assert changed("way-grazing", 0) == []
     assert changed("way-grazing", 0, first=None)[0] == "the certificate does not prove that the sweep is clear"
@@ -141,7 +141,7 @@ def test_wrong_labels_of_a_way_are_found():
         ('"double_root":"', '"double_root":null,"other":"', "other"),
     ],
 )
-def test_a_damaged_file_of_ways_is_refused(tmp_path, old, new, message):
+def test_a_damaged_file_of_sweeps_is_refused(tmp_path, old, new, message):
     text = text_of("way-grazing")
     assert old in text
     path = tmp_path / "ways.json"
@@ -150,7 +150,7 @@ def test_a_damaged_file_of_ways_is_refused(tmp_path, old, new, message):
         read_cases(str(path))
 
 
-def test_cases_commands_accept_ways(tmp_path, capsys):
+def test_cases_commands_accept_sweeps(tmp_path, capsys):
     assert main(["cases", "show", "way-ring"]) == 0
     assert "answers     108 clear, 3 contact" in capsys.readouterr().out
     assert main(["cases", "show", "way-grazing-0001"]) == 0
@@ -190,7 +190,7 @@ POINT = ["0", "0", "0"]
         (lambda case: case["certificate"].update(time=None), "a certificate has a time with points or with a"),
     ],
 )
-def test_a_malformed_case_of_a_way_is_refused(tmp_path, change, message):
+def test_a_malformed_case_of_a_sweep_is_refused(tmp_path, change, message):
     """It is of a way that grazes, whose certificate has a time and a double root."""
     document = json.loads(text_of("way-grazing"))
     document["cases"], document["count"] = document["cases"][:1], 1
