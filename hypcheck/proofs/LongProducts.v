@@ -90,7 +90,7 @@ Proof.
     /\ 0 <= c < B /\ total B h i + c * B ^ Z.of_nat i = factor * total B f i
     /\ now = [("i", Holds Int (Z.of_nat i)); ("carry", Holds Wide c); ("product", To p); ("factor", Holds Limb factor); ("number", To q)]).
   assert (run : called (S d) "hc_scale" [To p; Holds Limb factor; To q] m K).
-  2: { destruct Typed as [-> | ->]; [| exact run]; begins routines "hc_scale"; rewrite (Z.mod_small factor) by lia; exact run. }
+  2: { destruct Typed as [-> | ->]; [| exact run]; begins routines "hc_scale"; rewrite (Z.mod_small factor) by lia; with_strategy transparent [LongIntegers.called] (exact run). }
   begins routines "hc_scale"; do 5 act; rewrite Zmod_0_l; act.
   apply loop_ends with (I := I) (n := n).
   - exists 0%nat, f, 0; starts.
