@@ -62,7 +62,7 @@ COMPOSED = (
     *("LongIntegers", "LongOutcomes", "LongRuns", "LongSums", "LongProducts", "LongUnits"),
     *("StageFiveAnswers", "StageFiveLimbs", "StageFiveIntegers", "StagesRuns", "Doubles", "StagesOnDoubles"),
     *("FloatSteps", "FloatTexts", "SingleBound", "SingleRuns", "CertifiedText", "CertifiedAnswers", "StagesOfFloats"),
-    *("TangentTexts", "DoubleValues", "AllStages"),
+    *("TangentTexts", "TangentRuns", "DoubleValues", "AllStages"),
 )
 """All stages in one theorem, Stages.whatever_stage_answers; from a stage's numbers to the position; the C of words; the
 functions of the C that decide; the C of long integers."""
@@ -74,7 +74,10 @@ OF_STAGES = (
 )
 """The files whose theorems say that what a stage answers is the position."""
 
-OF_RUNS = ("StageOne", "StageTwoRuns", "SingleRuns", "CertifiedAnswers", "StagesOfFloats", "AllStages")
+OF_RUNS = (
+    *("StageOne", "TangentRuns", "StageTwoRuns", "SingleRuns"),
+    *("CertifiedAnswers", "StagesOfFloats", "AllStages"),
+)
 """The same from the steps of the C in float64, with its guards."""
 
 FILES = (*SOUNDNESS, "ExtractedChecker", *RULE, *STAGES, *ROUNDING, *PRINTED, *COMPOSED)
