@@ -62,6 +62,7 @@ COMPOSED = (
     *("LongIntegers", "LongOutcomes", "LongRuns", "LongSums", "LongProducts", "LongUnits"),
     *("StageFiveAnswers", "StageFiveLimbs", "StageFiveIntegers", "StagesRuns", "Doubles", "StagesOnDoubles"),
     *("FloatSteps", "FloatTexts", "SingleBound", "SingleRuns", "CertifiedText", "CertifiedAnswers", "StagesOfFloats"),
+    *("StageFourBeside", "StageFourPosition", "StageFourExact"),
     *("TangentTexts", "TangentRuns", "DoubleValues", "AllStages"),
 )
 """All stages in one theorem, Stages.whatever_stage_answers; from a stage's numbers to the position; the C of words; the
@@ -70,7 +71,7 @@ functions of the C that decide; the C of long integers."""
 OF_STAGES = (
     *("Stages", "StageTwoAnswers", "StageThree", "StageThreePosition"),
     *("StageFive", "StageFiveAnswers", "StageFiveIntegers", "StageFour", "StageFourPlane", "StagesRuns"),
-    "StagesOnDoubles",
+    *("StageFourPosition", "StageFourExact", "StagesOnDoubles"),
 )
 """The files whose theorems say that what a stage answers is the position."""
 

@@ -50,7 +50,10 @@ ROOM = "HC_INTEGER"
 OF_DOUBLES = ("hc_parts_of", "hc_fixed_parts_of", "hc_valid")
 """The functions of the header that read the bits of doubles."""
 
-BESIDE_TANGENCY = ("hc_position_in_plane", "hc_touches_by_short", "hc_touches_by")
+BESIDE_TANGENCY = (
+    *("hc_position_in_plane", "hc_touches_by_short", "hc_touches_by"),
+    "hc_position_beside_tangency",
+)
 """The functions of the header that decide beside an exact tangency."""
 
 FLOATS = ("hc_single", "hc_certified")
@@ -79,6 +82,7 @@ PROVED_IN = {
     "hc_certified": "CertifiedText",
     "hc_touches_by_short": "StageFourShort",
     "hc_touches_by": "StageFourTurns",
+    "hc_position_beside_tangency": "StageFourBeside",
     **dict.fromkeys(TANGENTS, "TangentTexts"),
 }
 """The Coq file that says what each of them computes."""
