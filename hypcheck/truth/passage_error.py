@@ -56,10 +56,10 @@ class SizeError:
 
 def scaled_passage(row: Sequence[Rational], scale: Rational = 1) -> Passage:
     """The passage of the row's sweep, with b and d multiplied by `scale` > 0. Raises InputError as `passage` does."""
-    return passage_on(_sweep(row, scale))
+    return passage_on(sweep_of_row(row, scale))
 
 
-def _sweep(row: Sequence[Rational], scale: Rational = 1, until: Rational = 1) -> StraightSweep:
+def sweep_of_row(row: Sequence[Rational], scale: Rational = 1, until: Rational = 1) -> StraightSweep:
     """The row's sweep, or its part up to a time, with b and d multiplied by `scale`."""
     (alpha, gamma, b, d, *ends), axis, heights = SWEEPS.split(row)
     if scale != 1:
@@ -89,7 +89,7 @@ def hits(rows: Rows) -> Positions:
 
 def hits_at_size(row: Sequence[Rational], scale: Rational = 1) -> bool:
     """Whether the row's sweep has contact with b and d multiplied by `scale` > 0: exact, monotone in `scale`."""
-    return meets(_sweep(row, scale))
+    return meets(sweep_of_row(row, scale))
 
 
 def size_error(row: Sequence[Rational], answer: bool) -> SizeError:
@@ -162,9 +162,9 @@ def time_is_within(row: Sequence[Rational], time: Rational, change: Rational) ->
     """
     exact, part = Fraction(time), Fraction(change)
     slack = exact / 2**WIDTH_BITS
-    if not meets(_sweep(row, 1 + part, min(exact + slack, Fraction(1)))):
+    if not meets(sweep_of_row(row, 1 + part, min(exact + slack, Fraction(1)))):
         return False
-    return not exact or part >= 1 or not meets(_sweep(row, 1 - part, exact - slack))
+    return not exact or part >= 1 or not meets(sweep_of_row(row, 1 - part, exact - slack))
 
 
 @lru_cache(_REMEMBERED)

@@ -17,14 +17,14 @@ from hypcheck.derivation.evaluation import EXACT, evaluate
 from hypcheck.derivation.float_arithmetic import float_arithmetic, unit_roundoff
 from hypcheck.derivation.formulas import FORMULAS, answers
 from hypcheck.geometry.arithmetic import cross
-from hypcheck.geometry.pair import COLUMNS, SWEEP_COLUMNS, Pair, Position, to_integers
-from hypcheck.geometry.rows import Mask, Rows, within
+from hypcheck.geometry.pair import COLUMNS, Pair, Position, to_integers
+from hypcheck.geometry.rows import SWEEPS, Mask, Rows, within
 from hypcheck.truth import backward_error, exact
 from hypcheck.truth.certificate import PassageCertificate
 from hypcheck.truth.exact import Decision, discriminant
 from hypcheck.truth.kinds import Kind
+from hypcheck.truth.passage_error import sweep_of_row
 from hypcheck.truth.pencil import cubic, quartic, side_of_center
-from hypcheck.truth.swept import sweep_of
 from hypcheck.vectors.family import Row, rows_of
 
 
@@ -326,8 +326,8 @@ def _of_tilted_pair(pair: Pair, decision: Decision) -> tuple[str, ...]:
 
 def sweep_flags(row: Row, first: tuple[float, float] | None, proof: PassageCertificate) -> tuple[str, ...]:
     """The flags of a sweep; the positions at its ends are decided exactly."""
-    start, end, axis = row[4:7], row[7:10], row[len(SWEEP_COLUMNS) :]
-    ends = [_position(row, Fraction(time)) for time in (0, 1)]
+    start, end, (_, axis, _) = row[4:7], row[7:10], SWEEPS.split(row)
+    ends = [sweep_of_row(row).position(Fraction(time)) for time in (0, 1)]
     conditions = {
         "tunnelling": first is not None and ends[0] is ends[1] is not Position.CONTACT,
         "tangent": proof.double_root is not None,
@@ -339,7 +339,3 @@ def sweep_flags(row: Row, first: tuple[float, float] | None, proof: PassageCerti
         "upright": bool(axis) and (not any(axis[:2]) or row[2] == row[3]),
     }
     return tuple(name for name, holds in conditions.items() if holds)
-
-
-def _position(row: Row, time: Fraction) -> Position:
-    return sweep_of(row[:4], row[4 : len(COLUMNS)], row[7:10], row[len(SWEEP_COLUMNS) :] or None).position(time)
