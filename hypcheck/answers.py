@@ -62,7 +62,7 @@ def _answers_between_ends(rows: Rows) -> TableAnswers:
 
 
 def _decided(rows: Rows, certain: Mask) -> tuple[Positions, Mask]:
-    """Positions and tangencies, by means that know nothing of distances.
+    """Positions and tangencies, decided without distances.
 
     The filter never proves a tangency: λ proves a gap, and two points of the spheroid strictly on either side of the
     hyperboloid prove that it passes through the spheroid's inside. Of tilted rows the kernel decides those that are
@@ -139,7 +139,7 @@ def classify_table(
 
 
 def _alone(table: Table, alone: int) -> int:
-    """Chunks that this process answers before it starts others: for rows that may be tilted, these soon pay."""
+    """The number of chunks before other processes start: 1 if rows may be tilted, because these take longer."""
     return alone if table.columns == COLUMNS else 1
 
 

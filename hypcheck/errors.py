@@ -91,13 +91,13 @@ class HypcheckError(Exception):
 
 
 class InputError(HypcheckError):
-    """A bad option, file or value. The sentence says what, where, which value, and what would be right."""
+    """A bad option, file or value. The sentence names the error, its place, the value, and the allowed values."""
 
     exit_code = Exit.USAGE
 
 
 class NothingJudgedError(HypcheckError):
-    """A run that asked or judged nothing: it proves nothing, so it is not a pass."""
+    """A run that tested or judged nothing. It proves nothing, so it does not pass."""
 
     exit_code = Exit.USAGE
 

@@ -55,7 +55,7 @@ def _escaped_character(character: str) -> str:
 
 
 def json_trouble(error: JSONDecodeError) -> str:
-    """What Python's reader says is wrong with a JSON text, as the end of a sentence.
+    """The error of Python's JSON reader, as the end of a sentence.
 
     Some of its sentences end with "at" or "starting at", because the place follows.
     """

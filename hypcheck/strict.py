@@ -279,7 +279,7 @@ def texts(wanted: str, *, least: int = 1) -> Check[tuple[str, ...]]:
 
 
 def integer(value: object) -> int:
-    """How many of something."""
+    """The value, checked to be a whole number from 0 to 2³¹ − 1. Raises ValueError."""
     if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value < 2**31:
         raise ValueError("a whole number, 0 or more and below 2^31")
     return value

@@ -166,18 +166,18 @@ def answers_print(answers: Answers) -> str:
 
 
 def accuracy_line(
-    contender: Contender, method_answers: MethodAnswers, truth: WorkloadTruth, tried: int = WORST_TRIED
+    contender: Contender, results: MethodAnswers, truth: WorkloadTruth, tried: int = WORST_TRIED
 ) -> AccuracyLine:
-    """The record's line about one method and one workload; `method_answers` holds at least one answer.
+    """The record's line about one method and one workload; `results` holds at least one answer.
 
     The errors of `tried` wrong answers are computed.
     """
-    places, criterion = method_answers.places, Criterion(contender.question, contender.precision)
-    scored = score(truth.rows[places], truth.positions[places], Answered.of(method_answers.answers), criterion)
+    places, criterion = results.places, Criterion(contender.question, contender.precision)
+    scored = score(truth.rows[places], truth.positions[places], Answered.of(results.answers), criterion)
     exponents, mistakes = truth.exponents[places], scored.mistakes
     return AccuracyLine(
         method=contender.name,
-        workload=method_answers.workload,
+        workload=results.workload,
         asked=len(places),
         wrong=len(scored.wrong),
         false_clear=mistakes[Mistake.FALSE_CLEAR],
@@ -193,7 +193,7 @@ def accuracy_line(
             for exponent, counts in by_exponent(exponents, scored.status).items()
         ],
         reliable_above=Unsigned(reliable_above(exponents, scored.status != STATUS_CODES[Status.RIGHT])),
-        worst=_worst(scored, exponents, method_answers, tried),
+        worst=_worst(scored, exponents, results, tried),
     )
 
 
@@ -219,13 +219,13 @@ def reliable_above(exponents: Floats, wrong: NDArray[np.bool_]) -> float:
     return math.inf if failing[-1] == len(edges) - 1 else float(2.0 ** (edges[failing[-1]] + 1))
 
 
-def _worst(scored: Score, exponents: Floats, method_answers: MethodAnswers, tried: int) -> list[Mistaken]:
+def _worst(scored: Score, exponents: Floats, results: MethodAnswers, tried: int) -> list[Mistaken]:
     """The worst wrong answers, of `tried` rows with the greatest distance to another position."""
     places = scored.wrong[np.argsort(-exponents[scored.wrong], kind="stable")][:tried].tolist()
     question = scored.criterion.question
     cases = [
         Mistaken(
-            case=f"{method_answers.workload}/{int(method_answers.places[index])}",
+            case=f"{results.workload}/{int(results.places[index])}",
             row=fields["row"],
             end=fields["end"],
             axis=fields["axis"],

@@ -86,7 +86,7 @@ def target(name: str) -> KernelTarget:
 
 
 def most_times(subject: str) -> Mapping[str, float]:
-    """How many times as long as the first form the other forms of a call about many rows may take, by name."""
+    """The largest allowed ratio of the time of each form of a call about many rows to the first form's, by name."""
     times: Mapping[str, float] = listed()["many"][subject]
     return times
 

@@ -65,7 +65,7 @@ class Workload:
     layout: Layout = PAIRS
 
     def judged(self, plan: BenchPlan) -> int:
-        """The number of its rows that a fast method answers."""
+        """The number of rows on which a fast method is judged."""
         return plan.amounts.judged // self.share
 
 

@@ -31,9 +31,9 @@ _CACHE = click.option(
 )
 
 
-@click.group(cls=CommandGroup, short_help="Install collision engines apart, and measure what they get wrong.")
+@click.group(cls=CommandGroup, short_help="Install collision engines separately, and measure their errors.")
 def engines() -> None:
-    """Install collision engines apart, each pinned by version, and measure what they get wrong near contact.
+    """Install collision engines in separate environments, pinned by version, and measure their errors near contact.
 
     Each engine has an environment of its own in the user's cache (XDG_CACHE_HOME; HYPCHECK_ENGINES names another
     folder).
@@ -53,7 +53,7 @@ def _installed(names: tuple[str, ...], cache: Path) -> list[Engine]:
 
 
 def _from_here(word: str) -> str:
-    """A path below the working directory without what leads there; every other word as it is."""
+    """The word, as a relative path if it is a path below the working directory."""
     here = Path.cwd()
     return os.path.relpath(word, here) if Path(word).is_relative_to(here) else word
 

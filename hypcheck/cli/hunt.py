@@ -238,9 +238,9 @@ def minimise(spec: str, case: str, **subject: Any) -> None:  # noqa: ANN401
     from hypcheck.vectors.labels import labelled
     from hypcheck.vectors.showing import sweep_answer_lines
 
-    simplified_case = case_of(case)
+    start = case_of(case)
     with _target(spec, **subject) as target:
-        run = simplify(replace(target, extreme=is_extreme(simplified_case.name)), simplified_case)
+        run = simplify(replace(target, extreme=is_extreme(start.name)), start)
     for line in minimised_lines(run):
         click.echo(printable(line))
     row = run.last.case.row

@@ -34,7 +34,7 @@ NOTHING = "nothing"
 
 
 class Names(click.ParamType[str]):
-    """A text of which shells complete the known names; what reads it says what is wrong with others.
+    """A text for which shells complete the known names. The option's reader refuses other texts.
 
     many: names separated by commas, of which the last is completed. files: if no name begins so, files are completed.
     """
@@ -80,7 +80,7 @@ def frozen_families(ctx: click.Context, begun: str) -> Iterable[str]:  # noqa: A
 
 
 def cases(ctx: click.Context, begun: str) -> Iterable[str]:  # noqa: ARG001 - a Known
-    """Ids of frozen cases of the family that the word begins with; before that, what ids of families begin with."""
+    """Completions of a case id: families first, then the frozen cases of the family in the word."""
     from hypcheck.vectors.frozen import ALL_NAMES, load
 
     several = [name for name in ALL_NAMES if name.startswith(begun)]

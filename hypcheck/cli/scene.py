@@ -68,7 +68,7 @@ def planned(scene: str, precision: str, question: str | None) -> ScenePlan:
 
 
 def asked_scene(scene: str, question: str | None) -> SceneModel:
-    """A scene file or a shipped scene, with another question where one is given. Raises InputError."""
+    """The scene from a file or a shipped scene; `question`, if given, replaces its question. Raises InputError."""
     from dataclasses import replace
 
     from hypcheck.errors import InputError
@@ -199,7 +199,7 @@ def emit(
 
 
 def _require_routine(sweeps: bool, whole: bool, question: str | None, proof: str | None, precision: str) -> None:
-    """Raise InputError unless code that a routine answers is asked for what it has."""
+    """Raise InputError if an option does not apply to code that answers by a routine."""
     from hypcheck.errors import InputError
 
     if sweeps and whole:
@@ -272,7 +272,7 @@ def flight(scene: str, path: str, as_json: bool) -> None:
 
 
 def _answers(scene: Scene, table: FlightTable) -> list[dict[str, Any]]:
-    """What is said of each flight, with None where there is no contact."""
+    """The printed answer for each flight; its contact is None if there is none."""
     heading = 0.0 if table.headings is None else table.headings
     contacts = scene.first_contact(table.paths, heading, axis=table.axes)
     names = [body.name for body in scene.model.hyperboloids]

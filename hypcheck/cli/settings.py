@@ -115,7 +115,7 @@ def print_file_settings() -> None:
 
 
 def _leaves_out_families(value: str) -> bool:
-    """Whether this choice lacks a family that is asked by default; a choice of nothing is refused later."""
+    """Whether the chosen families lack one that is tested by default. An empty choice is refused later."""
     from hypcheck.vectors.families import select
 
     try:

@@ -96,7 +96,7 @@ def _conformance(specs: tuple[str, ...], values: Mapping[str, Any], title: str, 
 
 
 def _fresh_seed(text: str | None, resume: Path | None) -> int | None:
-    """The seed of the fresh rows, None without any: as asked; that of the run that is resumed; drawn in CI."""
+    """The seed of the fresh rows (None: no fresh rows): the option's, the resumed run's, or a random one in CI."""
     from hypcheck.record.reader import interrupted_in, read
     from hypcheck.runs.cases import FRESH_SEEDS
 

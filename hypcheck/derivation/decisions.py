@@ -1,4 +1,4 @@
-"""What each formula must decide: its rule, asked for every combination of signs.
+"""The rule that each formula must follow, checked for every combination of signs.
 
 A decision reads its numbers only through comparisons with 0 and with 3A, −3B, −A, B and B². The values tried meet every
 combination of outcomes of these that can occur, so agreement on all of them is agreement everywhere.

@@ -127,7 +127,7 @@ _Move = tuple[str, tuple[int, ...], int, tuple[int, ...]]
 
 @dataclass(frozen=True)
 class _ValueLayout:
-    """Where the values of a program stand in a list: the inputs that are read, constants, and each needed step."""
+    """The place of each value of a program in a list: the inputs that are read, constants, and each needed step."""
 
     inputs: tuple[str, ...]
     constants: tuple[int, ...]

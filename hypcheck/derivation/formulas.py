@@ -68,7 +68,7 @@ def answers(formula: Formula, arithmetic: Arithmetic, inputs: Mapping[str, Any])
 
 
 def answering(formula: Formula, arithmetic: Arithmetic) -> Callable[[Mapping[str, Any]], Any]:
-    """The function of the inputs that gives the formula's answers; for a formula that is asked many times."""
+    """A function from the inputs to the formula's answers, prepared once for many calls."""
     evaluate = Evaluator(formula.program, arithmetic, (formula.answer,))
     return lambda inputs: arithmetic.integers(*evaluate(inputs))
 

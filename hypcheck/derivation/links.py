@@ -221,7 +221,7 @@ class Sign:
 
 @dataclass(frozen=True)
 class FiniteCases:
-    """A rule of a few values, asked for each of finitely many `cases` that stand for all."""
+    """A rule checked on finitely many `cases` that represent all cases."""
 
     text: str
     cases: tuple[tuple[Any, ...], ...]

@@ -228,7 +228,7 @@ def difference(printed: sympy.Expr, derived: sympy.Expr) -> sympy.Expr:
 
 
 def repair(printed: sympy.Expr, derived: sympy.Expr, meanings: Meanings) -> Repair:
-    """The smallest change that makes `printed` equal to `derived`, once its letters stand for what `meanings` says.
+    """The smallest change that makes `printed` equal to `derived`, with its letters replaced by their `meanings`.
 
     The two must not be equal.
     """

@@ -105,7 +105,7 @@ def positive_between_roots() -> Link:
 
 
 def roots_chain() -> Chain:
-    """One root is at least B; the other two are complex, or stand together in one of four intervals."""
+    """One root is at least B; the other two are complex, or lie together in one of four intervals."""
     return chain(
         "roots",
         "One root s of g is at least B. The other two are complex, or lie together in one of (−∞, −A], [−A, 0), (0, "
@@ -183,7 +183,7 @@ def in_one_interval(r1: int, r2: int) -> bool:
 
 @dataclass(frozen=True)
 class Pattern:
-    """How the roots of g can stand, after the chain "roots": what it means for signs and for the position.
+    """A possible order of the roots of g, after the chain "roots", with the signs and the position that follow.
 
     `delta` is the sign of Δ. `all_positive` is true where c2 < 0 and c1 > 0 in case Δ > 0. `crowded` marks three roots
     none of which is below B, or two at most −A.
@@ -211,7 +211,7 @@ PATTERNS = (
 
 
 def true_of_patterns(statement: str, where: Callable[[Pattern], bool], right: Callable[[Pattern], bool]) -> Link:
-    """A link: what is said is `right` for every pattern of roots that can occur, which are those `where` it says so."""
+    """A link that holds if `right` is true of every possible pattern of roots that meets the condition `where`."""
     possible = tuple((pattern,) for pattern in PATTERNS if where(pattern))
     return link(
         statement, FiniteCases(f"true of each of the {len(possible)} patterns of roots that can occur", possible, right)

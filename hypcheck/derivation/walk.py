@@ -62,7 +62,7 @@ def appendix() -> Chain:
 
 
 def walk() -> Iterator[Chain]:
-    """The sections in order, each derived when it is asked for."""
+    """The sections in order; each is derived when the iterator reaches it."""
     yield _surfaces()
     yield _theorem_1()
     yield _matrices()

@@ -1,4 +1,4 @@
-"""What a caller may write for pairs and sweeps: rows, a table of columns by name, or sizes and points; all broadcast.
+"""The forms of pairs and sweeps in a call: rows, a table of columns by name, or sizes and points; all broadcast.
 
     (rows)  (table)  (sizes, points)  (sizes, x, y, z)  (alpha, gamma, b, d, points)  (alpha, gamma, b, d, x, y, z)
     (rows)  (table)  (sizes, start, end)  (alpha, gamma, b, d, start, end)
@@ -49,7 +49,7 @@ class CallForm:
 
     @property
     def named(self) -> Mapping[str, Sequence[str]]:
-        """All names that stand for three columns, one point (3,) or points (n, 3)."""
+        """The names of arguments that give three columns at once: one point (3,) or points (n, 3)."""
         return {**self.points, "axis": AXIS}
 
 

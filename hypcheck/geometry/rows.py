@@ -140,7 +140,7 @@ def columns_with(groups: Groups) -> tuple[str, ...]:
 
 
 def fits(groups: Groups, taken: Groups) -> bool:
-    """Whether rows with these groups can be asked where others are taken: all of them are, and an end if one is."""
+    """Whether an implementation that takes the groups `taken` can answer rows with these groups."""
     return groups <= taken and layout_with(groups) == layout_with(taken)
 
 

@@ -48,7 +48,7 @@ PRECISIONS = ("float32", "float64")
 
 @cache
 def methods_without_meshes() -> dict[str, Method]:
-    """Every built-in method about positions that needs no FCL, by its name; none loads mpmath before it is asked."""
+    """The built-in methods about positions that need no FCL, by name. mpmath is loaded only when a method is called."""
     formulas = [formula for formula in FORMULAS.values() if formula.classifies_pairs or formula.name == "dual"]
     ours = (_formula_method(formula, precision) for precision in PRECISIONS for formula in formulas)
     measured = (replace(method, measured=True) for method in _measured_methods())
@@ -159,7 +159,7 @@ def builtin_methods() -> dict[str, Method]:
 
 @cache
 def tilted_methods() -> dict[str, Method]:
-    """Every method about tilted spheroids that only bench uses, by its name; exact ones are asked everywhere."""
+    """The methods about tilted spheroids of bench, by name; verify uses only the exact ones."""
     methods = (
         _tilted("fast", "the fast path, as installed", fast_positions, fast_scene, exact=True),
         _tilted(

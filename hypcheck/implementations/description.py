@@ -104,7 +104,7 @@ class Description:
 
     @property
     def columns(self) -> tuple[str, ...]:
-        """The columns of the rows that it is asked."""
+        """The columns of the rows that the implementation gets."""
         layout = self.asked.layout
         return (layout.tilted if self.tilt else layout.upright) + (HEIGHTS if self.heights else ())
 

@@ -199,14 +199,14 @@ FEWEST, SHARE = 100, 100
 
 
 def too_few(judged: int, skipped: int) -> bool:
-    """Whether so few rows were judged, beside those skipped, that the run says nothing of the implementation."""
+    """Whether too few rows were judged, compared with the skipped ones, for a result about the implementation."""
     return skipped > judged and judged < max(FEWEST, (judged + skipped) // SHARE)
 
 
 def reasons(
     rows: Rows, domain: Domain, precision: str, *, extreme: bool, subnormal: bool, layout: Layout = PAIRS
 ) -> dict[str, int]:
-    """The number of rows that domain.claimed leaves out, by the first of ROWS that is the reason; of no others."""
+    """The number of rows that domain.claimed leaves out, by reason: the first of ROWS that applies."""
     if not len(rows):
         return {}
     free = replace(domain, ratio=UNBOUNDED, magnitude=UNBOUNDED)

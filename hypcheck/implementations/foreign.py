@@ -61,7 +61,7 @@ class ContractError(Exception):
 
 
 class ForeignCode(Protocol):
-    """Foreign code that can be asked. Calls raise ContractError, or whatever foreign code raises."""
+    """Foreign code that answers rows. Calls raise ContractError, or the foreign code's own exceptions."""
 
     description: str
     """JSON; empty if it has no description."""

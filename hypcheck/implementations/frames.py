@@ -23,7 +23,7 @@ IntegerAnswers = NDArray[np.signedinteger[Any]]
 
 
 class GivenAnswers(NamedTuple):
-    """What an implementation gave, not checked: an integer for each row, and times, float64 (n,), if they were asked.
+    """The unchecked answers of an implementation: an integer for each row, and times, float64 (n,), if requested.
 
     A time means something where the answer is 1.
     """

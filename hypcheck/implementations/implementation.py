@@ -1,4 +1,4 @@
-"""An implementation under test in any language: opened from a SPEC, asked about rows, timed, restarted.
+"""An implementation under test in any language: opened from a SPEC, tested on rows, timed, restarted.
 
 A fault costs only the row that causes it, which is found by asking smaller parts of a question.
 """
@@ -102,7 +102,7 @@ class Implementation:
         self._supervisor.left = allowance
 
     def close(self) -> None:
-        """Let the process end, or kill it if it does not. A further question starts another, which is no restart."""
+        """End the process; kill it if it does not end in time. The next question starts another: that is no restart."""
         self._supervisor.close()
 
     def kill(self) -> None:
@@ -110,13 +110,14 @@ class Implementation:
         self._supervisor.kill()
 
     def classify(self, rows: Rows, *, batch: int | None = None, by_scene: bool = False) -> Answered:
-        """What becomes of rows, float64 (n, 7): asked in questions of `batch` rows, or of as many as it can stand.
+        """The answers to rows, float64 (n, 7), and the faults of rows without an answer.
 
-        Of the question passage they are (n, 10). Where its description says tilt, rows may have the three numbers of an
-        axis behind, and it is asked all of them so.
+        Sweeps have rows (n, 10). If the description says tilt, rows may also have the three numbers of an axis; the
+        implementation then gets all rows with an axis. A question has `batch` rows; by default it has as many as the
+        implementation has shown to answer in time.
 
-        `by_scene` asks through the entry for scenes; raises InputError where there is none, or sizes differ, and where
-        rows are none.
+        `by_scene` uses the entry for scenes. Raises InputError if there is no such entry, if the sizes differ, or if
+        the values are not rows.
         """
         rows = self._rows(rows)
         self._check_scene(rows, by_scene=by_scene)
@@ -150,7 +151,7 @@ class Implementation:
             self.proven_batch = max(self.proven_batch, min(self._supervisor.max_batch, rows * growth))
 
     def time(self, rows: Rows, repeat: int, *, by_scene: bool = False, row_by_row: bool = False) -> int | None:
-        """Nanoseconds, by its own clock, for `repeat` times the rows, 65,536 at most; None where it offers no timing.
+        """Nanoseconds, by its own clock, for `repeat` times the rows, 65,536 at most; None if it offers no timing.
 
         `row_by_row` makes one call for each row. A library may be timed on no rows too: that is the cost of a call.
 
@@ -189,7 +190,7 @@ class Implementation:
         return times[0]
 
     def _rows(self, rows: Rows) -> Rows:
-        """The rows as it is asked them; raises InputError where they are none, or have what it does not take."""
+        """The rows in the layout of the implementation. Raises InputError if they are not rows that it takes."""
         tilt, layout = self.description.tilt, self.description.asked.layout
         rows = as_rows(rows, self.description.groups, layout)
         if not tilt and layout.has_heights(rows) and parts_of(rows, layout)[1][:, :2].any():  # the length is free
@@ -231,7 +232,7 @@ class RowQuestions:
             self._search(start, stop, fault, self._supervisor.note_fault(fault))
 
     def leave(self, reason: str) -> None:
-        """Set the reason of all rows that were not asked."""
+        """Set the reason of all rows that were not sent to the implementation."""
         left = np.flatnonzero(self.result.status == Outcome.NOT_RUN)
         self.result.reasons.update(dict.fromkeys(left.tolist(), reason))
 

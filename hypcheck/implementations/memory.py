@@ -1,4 +1,4 @@
-"""The processes that a program started, daemons included, their memory and waiting, watched from outside.
+"""The processes that a program started, daemons included: their memory and their waiting times.
 
 A daemon in a session of its own is in no group that can be killed. It keeps the environment of its program, though, and
 a mark in that shows whose it is. Only Linux shows environments; on other systems a daemon outlives the run.
@@ -123,36 +123,38 @@ class MemoryWatch:
         self._leader = leader
         self._mark = mark
         self._limit = limit
-        self._next = time.monotonic() + _SOONEST
-        self._known: dict[tuple[int, int], bool] = {}
-        self._waits: dict[str, int] = {}
+        self._next_check = time.monotonic() + _SOONEST
+        self._belongs: dict[tuple[int, int], bool] = {}  # by a process' identity: whether it belongs to the program
+        self._waits_ns: dict[str, int] = {}
 
     def look(self, now: float) -> None:
-        """Check if the time for it has come; `now` is time.monotonic()."""
-        if now < self._next:
+        """Check the memory if the next check is due; `now` is time.monotonic(). Raises FaultError above the limit."""
+        if now < self._next_check:
             return
         before = time.thread_time()
         used = self.used()
         took = time.thread_time() - before
-        self._next = time.monotonic() + max(_SOONEST, _SHARE * took, (self._limit - used) / _FASTEST)
+        self._next_check = time.monotonic() + max(_SOONEST, _SHARE * took, (self._limit - used) / _FASTEST)
         if used > self._limit:
             reason = f"memory: its processes grew to {used / 2**30:.2f} GiB, beyond {self._limit / 2**30:.2f} GiB"
             raise FaultError(Outcome.CRASH, reason, fatal=True)
 
     def waited(self) -> float:
-        """Seconds since the last call in which a thread of its waited for a processor, of the one that did longest.
+        """The longest time, in seconds since the last call, that one of the program's threads waited for a processor.
 
         0 if the system does not tell.
         """
-        before, self._waits = self._waits, {}
-        for (number, _), ours in self._known.items():
+        before, self._waits_ns = self._waits_ns, {}
+        for (number, _), ours in self._belongs.items():
             for path in glob(f"/proc/{number}/task/*/schedstat") if ours else ():
                 with suppress(OSError, IndexError), open(path, "rb") as file:  # it may end meanwhile
-                    self._waits[path] = int(file.read().split()[1])
-        return max((waited - before[path] for path, waited in self._waits.items() if path in before), default=0) / 1e9
+                    self._waits_ns[path] = int(file.read().split()[1])
+        return (
+            max((waited - before[path] for path, waited in self._waits_ns.items() if path in before), default=0) / 1e9
+        )
 
     def used(self) -> int:
-        """Bytes that its processes use, with the tables of their pages; 0 if the system does not tell.
+        """The bytes that the program's processes use, with their page tables; 0 if the system does not report them.
 
         If their sum exceeds the limit, shared pages count once. The system needs to visit every page for that.
         """
@@ -162,8 +164,10 @@ class MemoryWatch:
         return tables + (resident if tables + resident <= self._limit else sum(map(_proportional, ours)))
 
     def _ours(self, processes: list[_ProcessMemory]) -> Iterator[_ProcessMemory]:
-        known = self._known
-        self._known = {process.identity: known[process.identity] for process in processes if process.identity in known}
+        known = self._belongs
+        self._belongs = {
+            process.identity: known[process.identity] for process in processes if process.identity in known
+        }
         children: dict[int, list[_ProcessMemory]] = {}
         for candidate in processes:
             children.setdefault(candidate.parent, []).append(candidate)
@@ -172,17 +176,17 @@ class MemoryWatch:
             candidate = candidates.pop()
             yield candidate
             for child in children.pop(candidate.number, ()):
-                if not self._known[child.identity]:
-                    self._known[child.identity] = True
+                if not self._belongs[child.identity]:
+                    self._belongs[child.identity] = True
                     candidates.append(child)
 
     def _is_ours(self, process: _ProcessMemory) -> bool:
         """Whether a process belongs to the program by its group, session or mark; checked once for each process."""
-        if process.identity not in self._known:
-            self._known[process.identity] = is_marked(process.number, self._mark)
+        if process.identity not in self._belongs:
+            self._belongs[process.identity] = is_marked(process.number, self._mark)
         if self._leader in {process.group, process.session}:
-            self._known[process.identity] = True
-        return self._known[process.identity]
+            self._belongs[process.identity] = True
+        return self._belongs[process.identity]
 
 
 def _all_processes() -> Iterable[_ProcessMemory]:
@@ -220,13 +224,13 @@ def _by_ps() -> Iterator[_ProcessMemory]:
 
 
 def _proportional(process: _ProcessMemory) -> int:
-    """Bytes that a process uses, with its share of shared pages; all resident bytes if the system does not tell."""
+    """The bytes that a process uses, with its share of shared pages; all resident bytes if the share is not known."""
     proportional = _bytes_in(f"/proc/{process.number}/smaps_rollup", b"Pss:")
     return process.resident if proportional is None else proportional
 
 
 def _bytes_in(path: str, name: bytes) -> int | None:
-    """Bytes that a line of a file of /proc tells in KiB; None if the system does not tell."""
+    """The bytes in a line of a file of /proc, which counts in KiB; None if the system does not report them."""
     try:
         with open(path, "rb") as file:
             return next((int(line.split()[1]) << 10 for line in file if line.startswith(name)), None)

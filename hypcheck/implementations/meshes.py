@@ -208,7 +208,7 @@ def grid_of(a: float, c: float, height: float, triangles: int) -> MeshGrid:
 
 
 def height_of(sizes: Sizes, rows: Rows) -> float:
-    """The height of a scene's mesh, in the caller's unit: beyond γ, and beyond every body that is asked."""
+    """The height of a scene's mesh, in the caller's unit: above γ, and above every body that is tested."""
     _, gamma, b, d = sizes
     reach = max(b, d) if PAIRS.has_axis(rows) else d
     return float(max(1.2 * gamma, np.abs(rows[:, 6]).max(initial=0.0)) + 1.1 * reach)

@@ -21,7 +21,7 @@ def foreign_text(text: object, width: int = WIDTH) -> str:
 
 
 def quoted(data: bytes | bytearray) -> str:
-    """Bytes as a sentence quotes them, each blank as it is: one too many may be the fault."""
+    """The bytes as text in quotation marks for a message. Blanks are kept, because an extra blank may be the fault."""
     lines = masked(bytes(data[:320]).decode("utf-8", "replace")).splitlines()
     return f"'{shortened(printable(' '.join(lines)), 80)}'"
 
@@ -39,7 +39,7 @@ class OutputTail:
             del self._bytes[:-KEPT]
 
     def mark(self) -> None:
-        """Forget what was added."""
+        """Discard the bytes so far: lines() then returns only later ones."""
         self._bytes.clear()
 
     def lines(self) -> tuple[str, ...]:

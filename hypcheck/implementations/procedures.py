@@ -66,7 +66,7 @@ def hull_programs(repaired: bool = PRINTED) -> tuple[Program, Program]:
 
 
 def hull_steps(repaired: bool = PRINTED) -> tuple[str, str]:
-    """The steps that decide whether the rotors must be asked, and the answer if not."""
+    """The steps that decide whether the rotors must be tested, and the answer if not."""
     return ("unclear" if repaired else "touching"), "inside"
 
 

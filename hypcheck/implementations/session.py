@@ -205,7 +205,7 @@ class AllowedAnswers:
 
 
 class GivenUpError(Exception):
-    """The implementation is asked no more; the text says why. Raised by Supervisor, and caught by Implementation."""
+    """The implementation gets no more questions; the text says why. Raised by Supervisor, caught by Implementation."""
 
 
 MAX_HANGS = 3

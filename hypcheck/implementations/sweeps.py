@@ -195,7 +195,7 @@ def capsule(rows: Rows) -> HitsAndTimes:
 
 
 def certified(rows: Rows) -> NDArray[np.int8]:
-    """Hits (n,): by the kernel, whose bounds prove what they decide; by the exact decision where they do not tell."""
+    """Hits (n,): by the kernel where its bounds prove them, else by the exact decision."""
     hits = kernel().answer_sweeps(rows)[0]
     rest = np.flatnonzero(hits == CANNOT_SAY)
     hits[rest] = exact(rows[rest])[0]
@@ -203,7 +203,7 @@ def certified(rows: Rows) -> NDArray[np.int8]:
 
 
 def certified_times(rows: Rows) -> HitsAndTimes:
-    """Hits and times by the kernel; exact where bounds do not tell both."""
+    """Hits and times by the kernel where its bounds prove both, else exact ones."""
     hits, times = kernel().answer_sweeps(rows)
     rest = np.flatnonzero((hits == CANNOT_SAY) | ((hits == 1) & np.isnan(times)))
     hits[rest], times[rest] = exact(rows[rest])
@@ -229,7 +229,7 @@ Meets = Callable[[Floats, Floats], tuple[int, float]]
 
 @dataclass(frozen=True, slots=True)
 class SweepSolver:
-    """A way to ask an engine: `meets` makes it from the engine's object of a mesh, b and d.
+    """A solver of an engine; `meets` makes it from the engine's object of a mesh, b and d.
 
     `scaled`: lengths are in spheroid radii, so that the body is a unit sphere. `times`: it gives the first time.
     """
@@ -265,7 +265,7 @@ class SweepMesh:
 
 
 def height_of_sweeps(sizes: Sizes, rows: Rows) -> float:
-    """The height of a scene's mesh, in the caller's unit: beyond γ, and beyond every sweep that is asked."""
+    """The height of a scene's mesh, in the caller's unit: above γ, and above every sweep that is tested."""
     _, gamma, _, d = sizes
     return float(max(1.2 * gamma, np.abs(rows[:, [6, 9]]).max(initial=0.0)) + 1.1 * d)
 
@@ -292,7 +292,7 @@ def hits_and_times(solver: SweepSolver, rows: Rows) -> HitsAndTimes:
 
 
 def _solved(result: Any, returned: float) -> tuple[int, float]:  # noqa: ANN401 - FCL has no types
-    """What FCL found; it returns −1 where it cannot."""
+    """The results of FCL, which returns −1 if it fails."""
     if returned < 0:
         return CANNOT_SAY, math.nan
     return (1, float(result.time_of_contact)) if result.is_collide else (0, math.nan)

@@ -167,7 +167,7 @@ _X87 = {"the mask of the x87 unit's exceptions": 0x3F, "the precision of the x87
 
 
 class _State(NamedTuple):
-    """What only libraries are held to: a Python function may open a file in its first call and keep it."""
+    """The state that only libraries must restore: a Python function may open a file in its first call and keep it."""
 
     directory: str
     language: str

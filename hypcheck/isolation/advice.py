@@ -97,7 +97,7 @@ class _View:
 
 
 def _hypcheck(text: str, view: _View) -> str:
-    """A module or name of this package that exists."""
+    """The advice if the program lacks a module or name of this package that exists."""
     module = re.search(r"No module named '?(hypcheck[\w.]*)", text)
     name = re.search(r"cannot import name '(\w+)' from '(hypcheck[\w.]*)'", text)
     attribute = re.search(r"module '(hypcheck[\w.]*)' has no attribute '(\w+)'", text)
@@ -119,7 +119,7 @@ def _is_ours(module: str) -> bool:
 
 
 def _variable(text: str, view: _View) -> str:
-    """A variable that is set here and hidden from the program."""
+    """The advice if the program lacks an environment variable that isolation removed."""
     about = re.search(r"KeyError|environ|variable|not set|unset|undefined|getenv", text)
     words = set(re.findall(r"\w{2,}", text)) if about else set()
     name = min(words & view.withheld, default="")
@@ -136,7 +136,7 @@ _READ_ONLY = re.compile(r"read-?only file ?system|EROFS", re.IGNORECASE)
 
 
 def _file(text: str, view: _View) -> str:
-    """A file or folder that exists, or the folder in which the program perhaps wanted to make a file."""
+    """The advice if isolation hides a file that the program names, or the folder in which it would create that file."""
     named = list(view.paths(text)) if _ABSENT.search(text) else []
     hidden = next((path for path in named if view.hides(path)), "")
     if not hidden:
@@ -149,7 +149,7 @@ def _file(text: str, view: _View) -> str:
 
 
 def _library(text: str, _: _View) -> str:
-    """A library that the system's loader did not find; its message names no folder."""
+    """The advice if the system's loader did not find a library; its message names no folder."""
     match = re.search(r"(\S+): cannot open shared object file", text)
     shown = "show the folder by --see"
     return (
@@ -174,7 +174,7 @@ def _write(text: str, view: _View) -> str:
 
 
 def _rights(text: str, view: _View) -> str:
-    """A file that only the superuser's rights open."""
+    """The advice if the program needs a file that only the superuser can open."""
     if os.geteuid() != 0 or not _DENIED.search(text):
         return ""
     statuses = [os.stat(path) for path in view.paths(text) if os.path.exists(path)]
@@ -183,7 +183,7 @@ def _rights(text: str, view: _View) -> str:
 
 
 def _network(text: str, _: _View) -> str:
-    """Whatever needs a network or a socket: it has none."""
+    """The advice if the program needed a network or a socket, which isolation forbids."""
     sign = (
         r"name resolution|Name or service not known|getaddrinfo|gaierror|\b(?:EAI_AGAIN|ENETUNREACH|ENOTFOUND)\b|"
         r"urlopen error|Network is (?:unreachable|down)|[Cc]ould not resolve host|failed to lookup address|"
@@ -193,14 +193,14 @@ def _network(text: str, _: _View) -> str:
 
 
 def _space(text: str, view: _View) -> str:
-    """More data than the scratch folder can hold, if no limit of this system is as narrow."""
+    """The advice if the program filled the scratch folder, unless a limit of this system is as narrow."""
     full = view.isolation.means.namespaces and re.search(r"No space left|ENOSPC|StorageFull", text)
     long = re.search(r"File too large|EFBIG|FileTooLarge", text) and _unlimited(resource.RLIMIT_FSIZE, SCRATCH_BYTES)
     return f"and its scratch folder has {SCRATCH_BYTES >> 20} MiB; {_TRUST}" if full or long else ""
 
 
 def _processes(text: str, view: _View) -> str:
-    """More processes than isolation allows, if this system allows more."""
+    """The advice if the program needed more processes than isolation allows and this system allows more."""
     sign = re.search(r"Resource temporarily unavailable|EAGAIN|can't start new thread|WouldBlock", text)
     if not (sign and view.isolation.means.namespaces and _unlimited(resource.RLIMIT_NPROC, THREADS)):
         return ""
@@ -219,7 +219,7 @@ def _card(text: str, _: _View) -> str:
 
 
 def _call(text: str, _: _View) -> str:
-    """A system call that was refused. The text does not name it, and some calls are refused without isolation too."""
+    """The advice if a system call was refused. The text does not name it; it may be refused without isolation."""
     if not re.search(r"Operation not permitted|EPERM|Function not implemented|ENOSYS", text):
         return ""
     return f"which refuses sockets, memory in no file and some other system calls, and may be why; {_TRUST}"

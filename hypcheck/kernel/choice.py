@@ -1,4 +1,4 @@
-"""The kernel in use, compiled or numpy with the same answers, and the questions that a kernel can be asked.
+"""The kernel in use: compiled, or numpy with the same answers; and the functions that a kernel has.
 
 The compiled kernel answers if it was built and loads, otherwise numpy. Environment variables, read when a kernel is
 first asked for:

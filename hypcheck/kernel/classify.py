@@ -323,7 +323,7 @@ def _sizes(sizes: pair.Sizes) -> pair.Sizes:
 
 
 def _not_finite(columns: Columns) -> InputError:
-    """What is wrong with the first centre that is not finite; there must be one."""
+    """A sentence about the first centre that is not finite; there must be one."""
     index = int(np.argmin(np.isfinite(columns).all(axis=0)))
     trouble = pair.trouble_with_row([float(column[index]) for column in columns], pair.CENTER)
     return InputError(f"row {index}: {trouble}")

@@ -1,4 +1,4 @@
-"""Where a spheroid first touches when it is grown, and the shortest gap: points in floats. Only `error` is proved.
+"""The point where an enlarged spheroid first touches, and the shortest gap, in floats. Only `error` is proved.
 
 **Upright touches.** In lengths scaled by b and d, with p = a r, q = c z and W = A + B (docs/mathematics.md), τ = A + λ
 and σ = B − λ at the dual's maximum satisfy τ/p = σ/√(σ² + q²). The left side less the right one is convex and increases

@@ -245,7 +245,7 @@ def by_two_lines(
 
 
 def _filled_in(exterior: Mask, interior: Mask, decided: Mask, result: Positions) -> Indices:
-    """Fill in the answers that floats decide in a chunk, and return the places of the other rows; changes `decided`."""
+    """Fill in the answers that floats decide in a chunk, and return the places of the other rows. Changes `decided`."""
     np.subtract(exterior.view(np.int8), interior.view(np.int8), out=result)
     return np.flatnonzero(np.logical_not(decided, out=decided))
 

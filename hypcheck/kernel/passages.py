@@ -71,7 +71,7 @@ class Passages:
 
     @cached_property
     def index(self) -> Indices:
-        """Which hyperboloid is touched first, its number from 0; −1 where the sweep is clear."""
+        """The number, from 0, of the hyperboloid that is touched first; −1 if the sweep is clear."""
         numbers: Indices = self._shaped([-1 if first is None else first[1] for first in self._firsts], np.intp)
         return numbers
 

@@ -1,4 +1,4 @@
-"""How closely hypcheck.clearance promises to know a distance. Loads no numpy."""
+"""The promised accuracy of a distance of hypcheck.clearance. This module loads no numpy."""
 
 from __future__ import annotations
 

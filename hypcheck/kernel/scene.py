@@ -1,4 +1,4 @@
-"""A scene that is prepared once and asked many times: exact answers about the mover at any place in the scene.
+"""A scene that is prepared once for many queries: exact answers about the mover at any place in the scene.
 
 The answer about a whole scene: contact with any hyperboloid is contact; else inside any is interior; else exterior.
 If the mover itself is in contact, its parts are tested: if all parts have the same position, that is the answer.
@@ -67,7 +67,7 @@ _OF_RANK = (EXTERIOR, EXTERIOR, INTERIOR, CONTACT)
 
 @dataclass(frozen=True)
 class Scene(PreparedScene):
-    """A scene (docs/scenes.md), ready to be asked: `Scene.from_toml(path).classify(x, y, z)`.
+    """A scene (docs/scenes.md) that answers queries: `Scene.from_toml(path).classify(x, y, z)`.
 
     It is made from a file, a text, arrays (from_arrays), or a SceneModel. It never changes, and may be shared by any
     number of threads; `with_hyperboloid`, `moved` and `without` return another one.
@@ -316,7 +316,7 @@ class Scene(PreparedScene):
     def nearest(
         self, x: ArrayLike, y: ArrayLike | None = None, z: ArrayLike | None = None, *, axis: ArrayLike | None = None
     ) -> Nearest:
-        """Which hyperboloid is nearest to the mover, its distance between proved numbers, nearest point and normal.
+        """The nearest hyperboloid to the mover, proved bounds of its distance, the nearest point and the normal.
 
         `x`, `y`, `z` are (n,) each or single numbers, or `x` alone are points, (n, 3) or (3,); one centre is answered
         by numbers. The distance is Euclidean, from the mover itself, not its parts, to the real surface between its

@@ -1,4 +1,4 @@
-"""What the ends of a hyperboloid change for a mover beside it: bounds first, then the exact decision in integers.
+"""The effect of a hyperboloid's ends on a mover's position: first by bounds, then exactly in integers.
 
 The mover reaches no farther along the hyperboloid's axis than r, its longer semi-axis, or its own d where both are
 upright. Where it lies between the ends its position is that beside the whole hyperboloid, and beyond an end it is

@@ -172,7 +172,7 @@ class FirstContact:
     @cached_property
     @in_default_environment
     def center(self) -> Floats:
-        """Where the mover's centre is at `time_upper`, rounded, (k, 3) or (3,); NaN: no contact."""
+        """The mover's centre at `time_upper`, rounded, (k, 3) or (3,); NaN: no contact."""
         center = _centers(self.paths, np.atleast_1d(self.segment), np.atleast_1d(self.time_upper))
         return center[0] if self.paths.single else center
 

@@ -1,4 +1,4 @@
-"""Distances from spheroids to what stands of hyperboloids that end, in the frames of these: branch and bound.
+"""Distances from spheroids to hyperboloids that end, in the hyperboloids' frames, by branch and bound.
 
 With f(X) the distance from the spheroid to a point X outside of it, and n the unit vector along which that is, the
 spheroid lies in a half space: f(Y) ≥ n·(Y − C) − h(n) for every Y, with h(n) = √(b² + (d² − b²)(n·v)²) and v its axis.
@@ -146,7 +146,7 @@ def _to_walls(pairs: _Pairs, spans: Rows, farthest: Floats) -> Gaps:
 
 
 def _first_cells(pairs: _Pairs, spans: Rows, farthest: Floats) -> tuple[Indices, Floats]:
-    """Whose each cell is, and w and φ from and to, (m, 4), of cells that cover all that can be nearest."""
+    """The owner of each cell, and its ranges of w and φ, (m, 4); the cells cover every possible nearest point."""
     level, far = pairs.centre[:, 2], (farthest + np.maximum(pairs.b, pairs.d)) * (1 + _LOOSE)
     nearest = np.clip(level, *spans.T)
     low, high = np.maximum(spans[:, 0], level - far), np.minimum(spans[:, 1], level + far)

@@ -40,7 +40,7 @@ from hypcheck.scene.model import UPRIGHT, Hyperboloid, Mover, Span, is_tilted
 
 @dataclass(frozen=True)
 class Bodies:
-    """α and γ (m, 2), centres (m, 3), and how far from its centre each stands, up or down, (m,).
+    """α and γ (m, 2), centres (m, 3), and how far each hyperboloid reaches from its centre, up or down, (m,).
 
     `spans` (m, 2) are the heights along the axes (m, 3), from the centres, between which they stand, and `solid` (m,)
     says that flat ends belong to them. `heights` (m, 2) enclose those of what stands in the scene's z, of upright ones
@@ -196,7 +196,7 @@ class PlaneGrid:
         return box[cell], member
 
     def _members_of(self, column: Indices, row: Indices) -> tuple[Indices, Indices]:
-        """What cells hold: pairs of a cell's number among these (n,) and a hyperboloid's, cell by cell."""
+        """The content of cells: pairs of a cell's number among these (n,) and a hyperboloid's, cell by cell."""
         place = hashed(column, row, len(self.starts) - 1)
         starts, members = np.frombuffer(self.starts, np.intc), np.frombuffer(self.members, np.intc)
         first = starts[place].astype(np.int64)
@@ -227,7 +227,7 @@ def grid_of(x: Floats, y: Floats, reaches: Floats) -> PlaneGrid:
 
 
 def cells_of(x: Floats, y: Floats, reaches: Floats, side: float) -> tuple[Indices, Indices, list[int]]:
-    """Columns and rows of the cells that hyperboloids at (x, y) stand in, and which of them stand in too many."""
+    """Columns and rows of the cells that hyperboloids at (x, y) occupy, and a mask of those that occupy too many."""
     columns, rows, _, everywhere = _cells_of(x, y, reaches, side)
     return columns, rows, everywhere
 
@@ -245,7 +245,7 @@ def _cells_of(x: Floats, y: Floats, reaches: Floats, side: float) -> tuple[Indic
 def _entries(
     low_x: Floats, high_x: Floats, low_y: Floats, high_y: Floats, chosen: Indices
 ) -> tuple[Indices, Indices, Indices]:
-    """Column, row and hyperboloid for each cell that one of the chosen stands in."""
+    """Column, row and hyperboloid for each cell that a chosen hyperboloid occupies."""
     across = (high_x[chosen] - low_x[chosen]).astype(np.int64) + 1
     along = (high_y[chosen] - low_y[chosen]).astype(np.int64) + 1
     counts = across * along
@@ -325,7 +325,7 @@ def _pieces_of(grid: PlaneGrid, starts: Rows, ends: Rows) -> Indices:
 
 
 def _padding(here: Floats, there: Floats) -> Floats:
-    """More than the rounding of the ends of a piece, in each coordinate."""
+    """An upper bound of the rounding errors of the ends of a piece, in each coordinate."""
     return PAD * (np.abs(here) + np.abs(there))
 
 

@@ -109,7 +109,7 @@ class _Places:
 
 @dataclass(frozen=True)
 class _Search:
-    """What is asked: flights in a scene; `length` (n + 1,) sums the segments before each, with an error of `loose`."""
+    """The query: flights in a scene; `length` (n + 1,) is the length before each segment, with an error of `loose`."""
 
     bodies: Bodies
     mover: Mover
@@ -351,7 +351,7 @@ def _longer_reach(search: _Search, within: float, height: Span) -> float:
 
 
 def _cylinder_bounds(search: _Search, body: Indices, place: _Places, most: Floats) -> Floats:
-    """A lower bound of the distance of each place (n,), by the cylinder about what stands.
+    """A lower bound of the distance of each place (n,), by a cylinder around the hyperboloid between its ends.
 
     Where it is above `most` (n,) and twice the piece's radius the distance may be less than it, but not than these.
     """

@@ -165,7 +165,7 @@ def _distances(pairs: _Pairs, group: Indices, most: Floats) -> tuple[Floats, Flo
 
 
 def cylinders(bodies: Bodies, mover: Mover, centres: Floats) -> Floats:
-    """A lower bound of each distance, (n, m), by the cylinder about what stands."""
+    """A lower bound of each distance, (n, m), by a cylinder around the hyperboloid between its ends."""
     with np.errstate(all="ignore"):
         across = np.hypot(*(centres[:, k, None] - bodies.origins[:, k] for k in (0, 1)))
         low, high = bodies.heights.T

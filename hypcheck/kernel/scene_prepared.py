@@ -98,7 +98,7 @@ class PreparedScene:
         return cls(SceneModel(name, question, bodies, arrays.mover_of(mover), region))
 
     def with_hyperboloid(self, hyperboloid: Hyperboloid) -> Self:
-        """The scene with one hyperboloid more, the last; a hundredth of the cost of a new scene of 10⁵ of them.
+        """The scene with one more hyperboloid, the last; of 10⁵ hyperboloids, a hundredth of the cost of a new scene.
 
         Raises InputError where a number of it is not valid, or its name is taken.
 

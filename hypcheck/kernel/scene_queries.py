@@ -1,4 +1,4 @@
-"""What a query about a scene may be written as: numbers and columns, points, sweeps, axes; each checked.
+"""The forms of a query about a scene: numbers and columns, points, sweeps, axes; each is checked.
 
 First what is tilted in a scene: the frames of hyperboloids, and the places of the parts of a mover.
 """
@@ -81,7 +81,7 @@ POINTS = f"it must be three numbers, {', '.join(CENTER)}, or an array (n, 3) of 
 
 
 def are_one(center: Sequence[ArrayLike], heading: ArrayLike, axis: ArrayLike | None) -> bool:
-    """Whether a query is about one centre, in numbers, which is answered by numbers."""
+    """Whether a query is one centre given as numbers; its answer then is a number, too."""
     return not any(map(np.ndim, (*center, heading))) and np.ndim(() if axis is None else axis) == 1
 
 

@@ -180,7 +180,7 @@ class Verdicts:
     repaired: dict[str, Mask]
 
     def by_all(self, answers: Mask) -> Mask:
-        """A mask of the steps that the answers about all asked trees allow, (n,)."""
+        """A mask of the steps that are allowed by the answers about all tested trees, (n,)."""
         return np.asarray((answers | ~self.asked).all(axis=1))
 
 

@@ -94,7 +94,7 @@ def _outer_corner(start: Columns, end: Columns) -> Columns:
 
 
 def _along(ahead: Floats, aside: Floats, at: Columns) -> Floats:
-    """A lower bound of n·C for the horizontal direction n = (ahead, aside) of length 1, roundings included."""
+    """A lower bound, safe against rounding, of ahead·x + aside·y for centres `at`; (ahead, aside) is a unit vector."""
     return np.asarray(ahead * at[0] + aside * at[1] - MARGIN * (np.abs(at[0]) + np.abs(at[1])))
 
 

@@ -34,7 +34,7 @@ POSITIONS = 25
 def paths(
     craft: Craft, flight: Flight, step: float, seed: int
 ) -> tuple[list[dict[str, Any]], MoveVerdicts, EndVerdicts]:
-    """Three flights of 25 positions each, from the tower's centre, for JSON; and exact verdicts on sweeps and ends.
+    """Three flights of 25 positions, from the tower's centre, for JSON; and exact verdicts on sweeps and ends.
 
     Each has `positions` [x, y, z], `discriminant` (equation (13) at each of them), and numbers: `executions`,
     executions with Δ ≤ 0 (`touching`), `refused` movements, and draws that lead outside the height (`outside_height`).

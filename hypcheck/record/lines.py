@@ -91,7 +91,7 @@ class FooterLine(fields.RecordLine, frozen=True, kw_only=True):
 
 
 class UnavailableLine(fields.RecordLine, frozen=True, kw_only=True):
-    """An oracle that could not be asked, and why."""
+    """An oracle that is not available, and the reason."""
 
     oracle: str
     reason: str
@@ -233,12 +233,12 @@ class GroupLine(fields.RecordLine, frozen=True, kw_only=True):
 
     @property
     def judged(self) -> int:
-        """The cases that were asked, without those of which the implementation said that it cannot say."""
+        """The number of tested cases, without those that the implementation answered with "cannot say"."""
         return self.asked - self.counts.get("abstained", 0)
 
     @property
     def skipped(self) -> int:
-        """The cases that were not asked, as the domain and the precision do not hold them."""
+        """The number of cases outside the domain or the precision, which are not tested."""
         return self.counts.get("skipped", 0)
 
     @property
@@ -270,7 +270,7 @@ class DomainPart(fields.LinePart, frozen=True, kw_only=True):
 
 
 class DescriptionPart(fields.LinePart, frozen=True, kw_only=True):
-    """What an implementation says of itself, or is taken for.
+    """The description of an implementation: declared by itself, or assumed.
 
     `tilt`, since 1.5.0, where rows have an axis; `times`, since 1.6.0, where it gives times of first contact;
     `heights`, since 1.9.0, where rows have the heights at which the hyperboloid ends.
@@ -291,7 +291,7 @@ class DescriptionPart(fields.LinePart, frozen=True, kw_only=True):
 
 
 class Retest(fields.LinePart, frozen=True, kw_only=True):
-    """How many cases were asked again, and how many answers changed within the tolerance and beyond it."""
+    """The number of repeated cases, and the numbers of answers that changed within the tolerance and beyond it."""
 
     asked: fields.Count
     within: fields.Count
@@ -299,7 +299,7 @@ class Retest(fields.LinePart, frozen=True, kw_only=True):
 
 
 class SlicesPart(fields.LinePart, frozen=True, kw_only=True):
-    """How evenly rows near contact were asked, since 1.9.0, as shares of the range of each coordinate.
+    """How evenly rows near contact were spread, since 1.9.0, as shares of the range of each coordinate.
 
     In each slice of one coordinate that is `one` wide, three rows or more were asked; in each slice of any two of them
     that is `two` wide in both, a row or more.

@@ -54,7 +54,7 @@ class MethodLine(fields.RecordLine, frozen=True, kw_only=True):
 
 
 class WorkloadLine(fields.RecordLine, frozen=True, kw_only=True):
-    """Rows that methods are asked; `scene`: α, γ, b, d if all rows share them."""
+    """Rows on which methods are tested; `scene`: α, γ, b, d if all rows share them."""
 
     workload: str
     title: str

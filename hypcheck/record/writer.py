@@ -196,7 +196,7 @@ _WITHOUT_RESULT = (
 
 
 def is_result(line: RecordLine) -> bool:
-    """Whether the line says something about what was asked."""
+    """Whether the line has a result of the run."""
     if isinstance(line, GroupLine):
         return line.asked > 0
     if isinstance(line, ProgressLine):
@@ -237,7 +237,7 @@ class Recorder:
 
     @property
     def has_results(self) -> bool:
-        """Whether a line says, or said, something about what was asked; else the run replaces no earlier run."""
+        """Whether a result was ever recorded. A run without results does not replace an earlier run."""
         return self.begun or any(map(is_result, self._kept()))
 
     @property
@@ -247,7 +247,7 @@ class Recorder:
 
     @property
     def concluded(self) -> int:
-        """How many implementations under test have been asked to their end, or could not be started."""
+        """The number of implementations under test that are finished or could not be started."""
         return sum(isinstance(line, (ImplementationLine, NotStartedLine)) for line in self._lines)
 
     @property

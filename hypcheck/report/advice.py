@@ -173,11 +173,11 @@ def _reliable(
 ) -> list[MeasuredMethod]:
     """The methods that are reliable above the distance on all workloads, or on the named ones."""
 
-    def holds(method: MeasuredMethod) -> bool:
+    def is_reliable(method: MeasuredMethod) -> bool:
         lines = [line for name, line in method.accuracy.items() if names is None or name in names]
         return bool(lines) and all(line.reliable_above <= distance for line in lines)
 
-    return [method for method in methods if method.line.kind != "bounding" and holds(method)]
+    return [method for method in methods if method.line.kind != "bounding" and is_reliable(method)]
 
 
 def _fastest(record: Record, methods: Iterable[MeasuredMethod], workload: str, mode: str) -> list[MeasuredMethod]:

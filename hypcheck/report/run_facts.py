@@ -137,7 +137,7 @@ def _end(distance: float) -> str:
 
 
 def tested_facts(record: Record, *, held: bool) -> Iterator[str]:
-    """What gated implementations declare and how they were asked.
+    """What gated implementations declare, and how they were tested.
 
     `held`: the verdict says already what was not asked, and how many rows were fresh.
     """

@@ -193,7 +193,7 @@ def _exposed(cause: Cause, answered: AnsweredRows) -> int:
 
 @dataclass(frozen=True, slots=True)
 class CountedCause:
-    """A cause that stands (None: unexplained), with the number of its wrong answers in each family, and the worst."""
+    """An accepted cause (None: unexplained), the number of its wrong answers in each family, and the worst of them."""
 
     cause: Cause | None
     families: Mapping[str, int]
@@ -245,7 +245,7 @@ class _Left:
 
 
 def _bits(some: Iterable[Cause]) -> int:
-    """The number that stands for a set of causes."""
+    """A set of causes as a number with one bit for each cause."""
     return sum(1 << _BITS[cause.name] for cause in some)
 
 
@@ -256,7 +256,7 @@ CLEAN = 16
 def causes_of(
     diagnoses: Mapping[str, Diagnosis | Tally], clean: Sequence[str], criterion: Criterion, domain: Domain
 ) -> list[CountedCause]:
-    """The causes that stand after all families: those with most wrong answers first, unexplained answers last.
+    """The accepted causes after all families: those with most wrong answers first, unexplained answers last.
 
     `clean` are the tested families without a wrong answer.
     """
@@ -313,7 +313,7 @@ def _in_all_families(some: list[CountedCause]) -> CountedCause:
 
 
 def _standing(diagnoses: Mapping[str, Diagnosis | Tally], elsewhere: Mapping[str, int]) -> list[CountedCause]:
-    """The causes that stand for families of one subject; `elsewhere` holds denials in other families."""
+    """The accepted causes for the families of one subject; `elsewhere` holds denials in other families."""
     denied = Counter(merged(diagnoses.values()).denied) + Counter(elsewhere)
     left = _Left(
         {

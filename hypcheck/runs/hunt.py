@@ -123,7 +123,7 @@ class HuntFinding:
 
 @dataclass(slots=True)
 class FindingCluster:
-    """Wrong answers of one kind: the worst one, and the numbers beyond the tolerance and within it."""
+    """Wrong answers of one kind: the worst one, and the numbers beyond and within the tolerance."""
 
     worst: HuntFinding
     beyond: int = 0

@@ -62,7 +62,7 @@ class Requirement:
 
 
 def requirement(source: str, directory: Path) -> Requirement:
-    """The requirement of `--from`, for a workflow of the repository in `directory`; git is not asked yet.
+    """The requirement of `--from`, for a workflow of the repository in `directory`. It does not run git.
 
     Raises InputError unless `source` is RIGHT, and about a URL with a password, which must not stand in a workflow.
     """

@@ -80,7 +80,7 @@ class MoverPart:
 
 @dataclass(frozen=True, slots=True)
 class Mover:
-    """The spheroid of semi-axes b, b, d (equation (4)) that moves; its parts are asked where it is not clear itself.
+    """The spheroid of semi-axes b, b, d (equation (4)) that moves. Its parts are tested if it is not clear itself.
 
     `axis` is any vector ≠ 0 along its axis of revolution, or FREE. Its parts have the same axis: a tilted mover is
     turned with them from upright about a horizontal line, the shortest way.

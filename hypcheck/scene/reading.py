@@ -219,7 +219,7 @@ _axis_or_free = strict.or_word(model.FREE, strict.direction)
 
 
 def _height(value: object) -> model.Span:
-    """The two heights between which something stands; infinite where it does not end."""
+    """The two heights at which a hyperboloid ends; infinite if it does not end."""
     return _span(value, "two numbers, finite or infinite, [low, high] with low < high", infinite=True)
 
 

@@ -1,4 +1,4 @@
-"""A chunk of a table: its rows and their answers, the names of its columns, and where an invalid value stands.
+"""A chunk of a table: its rows and their answers, the names of its columns, and the place of an invalid value.
 
 Chunks of some thousand rows pass from a table's reader to the process that answers and on to the writer. Readers check
 a chunk as a whole; if that fails, `read_values` reads it value by value and names the one that is wrong.
@@ -313,7 +313,7 @@ Value = TypeVar("Value")
 
 @dataclass(frozen=True, slots=True)
 class RowPlaces:
-    """The places of a chunk's rows: the file, how many rows stand before them, and the line of each, from 1."""
+    """The places of a chunk's rows: the file, the number of rows before them, and the line of each, from 1."""
 
     name: str
     rows_before: int

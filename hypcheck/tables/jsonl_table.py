@@ -69,7 +69,7 @@ def _cell_text(cell: Cell) -> str:
 
 
 def _object(row: list[float], layout: Layout) -> str:
-    """The object of a row; null stands for a number that JSON does not have (in a refused row)."""
+    """The JSON object of a row; null replaces a number that JSON cannot express (in a refused row)."""
     named = zip(layout.base + AXIS + HEIGHTS, row, strict=False)
     return json.dumps({name: _json_number(name, value) for name, value in named})
 

@@ -400,7 +400,7 @@ class TextLines:
         return taken == self._given
 
     def block(self, taken: int, avoiding: bytes = b"") -> TextBlock | None:
-        """The next block, if `taken` lines stand before it, and it is plain; else None. Raises InputError."""
+        """The next block if it begins after `taken` lines and is plain; else None. Raises InputError."""
         if not self.at_block(taken):
             return None
         if self._ahead is None:

@@ -1,4 +1,4 @@
-"""JSON read strictly: a key stands once, every number is finite, an object has known members, and errors name the line.
+"""Strict JSON: no duplicate key, only finite numbers, only known members; errors name the line.
 
 Python's own reader takes the last of two equal keys, accepts NaN, takes 1e999 for infinity, and forgets where a value
 stood. A document with a list of cases is read part by part, each with the line where it begins, numbers with their

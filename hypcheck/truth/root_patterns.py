@@ -101,7 +101,7 @@ _EXPONENT = ("", "", "²", "³")
 
 
 def pattern_of(places: Iterable[tuple[RootPlace, int]]) -> str:
-    """The word of PATTERNS for the places and multiplicities of the real roots of a cubic, in ascending order."""
+    """The entry of PATTERNS for the real roots of a cubic, given as places and multiplicities in ascending order."""
     roots = [(place.value, multiplicity) for place, multiplicity in places]
     pair = f" {COMPLEX}" if sum(multiplicity for _, multiplicity in roots) == 1 else ""
     return word_of(roots) + pair

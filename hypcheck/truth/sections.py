@@ -215,7 +215,7 @@ class Sections:
         return self._changes(chain, low, -1) - self._changes(chain, high, 1)
 
     def _changes(self, chain: Sequence[Polynomial], height: Height | Fraction, far: int) -> int:
-        """How often the sign changes in the chain at a height, or at −∞ or ∞."""
+        """The number of sign changes in the chain at a height, or at −∞ or ∞."""
         if height is None:
             return changes_of_sign(f[0] * (far if len(f) % 2 == 0 else 1) for f in chain)
         return changes_of_sign(self.sign(f, height) for f in chain)

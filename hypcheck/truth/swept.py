@@ -162,7 +162,7 @@ class Passage:
 
     @property
     def clear(self) -> bool:
-        """Whether there is no contact from beginning to end."""
+        """Whether the whole sweep, its two ends included, is without contact."""
         return self.first is None
 
     @property
@@ -172,7 +172,7 @@ class Passage:
 
     @property
     def index(self) -> int:
-        """Which hyperboloid is touched first: 0, the only one; −1 where there is no contact."""
+        """The number of the hyperboloid that is touched first: 0, the only one; −1 if there is no contact."""
         return 0 if self.hit else -1
 
     @property
@@ -200,7 +200,7 @@ def passage(
     z_max: float = math.inf,
     solid: float = False,
 ) -> Passage:
-    """What happens between two positions of a spheroid: sizes α, γ, b, d; centres (x, y, z) from the hyperboloid's.
+    """The passage of a spheroid between two positions: sizes α, γ, b, d; centres (x, y, z) from the hyperboloid's.
 
     `axis` is any vector along the spheroid's axis of revolution, which keeps its direction on the sweep, and `upward`
     any along the hyperboloid's; they are vertical where they are None. The hyperboloid ends at the heights `z_min` and

@@ -168,7 +168,7 @@ _KINDS = {kind.value: kind for kind in Kind}
 
 
 def case_fields(content: Content) -> tuple[str, ...]:
-    """The fields of a case in a file with that content, in order."""
+    """The names of the fields that each case has in a file with this content, in order."""
     head = ("id", "row", "hex")
     if content.about_sweeps:
         return (*head, "hit", "first", "first_hex", *(() if content.ended else ("certificate", "flags")))
@@ -296,7 +296,7 @@ def _equal_to(right: object) -> Check[object]:
 
     def check(value: object) -> object:
         if value != right or type(value) is not type(right):
-            raise ValueError(f"{json_text(right)}, to agree with first")
+            raise ValueError(f"{json_text(right)}, which follows from the field first")
         return value
 
     return check

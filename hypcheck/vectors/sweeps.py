@@ -289,7 +289,7 @@ def vertical(draw: Draw, n: int) -> Rows:
 
 
 def horizontal(draw: Draw, n: int) -> Rows:
-    """At constant height; a third in the plane of the waist."""
+    """Sweeps at constant height; every third one is in the plane of the waist."""
     size = sizes(draw, *all_regimes(draw, n))
     rows, end = _beside(draw, size), _beside(draw, size)[:, CENTRE]
     rows[:, 6] *= turns(n, 1.0, 1.0, 0.0)

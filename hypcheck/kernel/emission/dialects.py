@@ -1,4 +1,4 @@
-"""How each language writes an emitted kernel: templates, constants, conditions, answers, tables, comments, statements.
+"""The forms of an emitted kernel in each language: templates, constants, conditions, answers, tables, statements.
 
 In a template ${name} within a line is replaced by its text; on a line of its own, by its lines with the same indent.
 """

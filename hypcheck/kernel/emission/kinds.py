@@ -22,7 +22,7 @@ from hypcheck.scene.model import SceneModel
 
 @dataclass(frozen=True)
 class Number:
-    """A number that a file gives beside the answer: its routine, and its value if nothing is proved."""
+    """A second result beside the answer: the routine that computes it, and its value if nothing is proved."""
 
     routine: Routine
     nothing: float
@@ -290,7 +290,7 @@ PHRASES_UNDECIDED = "decided = exterior = interior = False"
 
 
 def asked_of(kind: Kind) -> str:
-    """The function of one row that a module of JavaScript or Rust is asked by."""
+    """The name of the function for one row in an emitted module of JavaScript or Rust."""
     if not kind.sizes:
         return kind.one
     return "passage" if kind.passage else "tilted" if kind.tilted else "predicate"

@@ -40,7 +40,7 @@ def thresholds_asked(stages: Stages, question: str) -> tuple[tuple[Position, flo
 
 
 def needs_side(stages: Stages, question: str) -> bool:
-    """Whether the side of the centre is asked, before the discriminant or in its place."""
+    """Whether the kernel tests the side of the centre, before the discriminant or instead of it."""
     delta = stages.discriminant
     tells_sides = question == "position" and delta is not None and delta.clear_where_positive
     return bool(stages.centre) and (question in ONE_SIDED or tells_sides)
@@ -152,7 +152,7 @@ def notes(plan: ScenePlan, stages: Stages) -> list[str]:
 
 
 def comment_text(text: str) -> str:
-    """A foreign text as a comment, a raw string of Python and the source of C can hold it: visible, on one line.
+    """A foreign text on one line of visible characters that are valid in a comment, a raw string of Python and C.
 
     A blank breaks characters that would end a comment, open one, or be a trigraph. A backslash that ends a word gets a
     full stop after it: at the end of a line, C and C++ would join that line to the next.

@@ -55,7 +55,7 @@ class _Printer:
 
     @property
     def spelling(self) -> Spelling:
-        """How the language writes steps."""
+        """The spelling of steps in the language."""
         return spelling_of(self.dialect.name, self.dialect.number_of(self.precision))
 
     def say(self, phrase: str, **words: object) -> str:

@@ -135,7 +135,7 @@ class _Shapes:
 
 
 def whole_plan(scene: SceneModel, precision: str = "float64") -> ScenePlan:
-    """The plan of all pairs of sizes, asked for positions. Raises InputError where the scene has no such kernel."""
+    """The plan for all pairs of sizes, with positions as answers. Raises InputError if the scene has no such kernel."""
     bodies = tuple(_taller(body, scene.mover.d) for body in scene.hyperboloids)
     plan = plan_of(replace(scene, question="position", hyperboloids=bodies), precision, MOST_SETTINGS)
     if plan.axis is not None:
@@ -251,6 +251,8 @@ def _tables(scene: SceneModel, plan: ScenePlan, shapes: _Shapes, searched: bool,
 
 
 def _searches(plan: ScenePlan, dialect: Dialect) -> str:
+    """The table of the constants of the searches, a row for each setting; rows without a search hold 1."""
+
     def row(search: object) -> str:
         constants = search.constants if isinstance(search, DualSearch) else dict.fromkeys(SETTING, 1.0)
         fields = ((name, dialect.literal(constants[name], plan.format.name)) for name in SETTING)

@@ -144,7 +144,7 @@ c_statements = partial(statements_in, "c")
 
 @cache
 def spelling_of(language: str, number: str) -> Spelling:
-    """How a language writes programs in this type of numbers."""
+    """The spelling of programs in a language, in this type of numbers."""
     return _SPELLINGS[language](number)
 
 

@@ -361,7 +361,7 @@ def tilted_search(sizes: Sizes, axis: Point | None) -> TiltedSearch:
 
 
 def _most(t: Fraction) -> float:
-    """More than every number of the rows, times b, at any axis: each row is a column of an inverse square root of M.
+    """A bound, times b, of every number of the rows at any axis: each row is a column of an inverse square root of M.
 
     |rᵢ|² = r̂ᵀ M r̂ for a unit vector r̂ of M's own metric is at most the greatest eigenvalue of M, 1 or 1/t.
     """

@@ -230,7 +230,7 @@ def _by_centre(question: str, sides: dict[str, float], form: FloatFormat, R: Flo
 
 
 def _shares(by_lines: Mask, by_delta: Mask) -> dict[str, float]:
-    """Which share of a sample each stage decides; `by_delta` is of those that the lines leave."""
+    """The share of a sample that each stage decides. `by_delta` is a mask of the centres that no line decides."""
     return {
         "lines": float(by_lines.mean()),
         "discriminant": float(by_delta.sum() / len(by_lines)),

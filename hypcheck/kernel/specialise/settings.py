@@ -143,7 +143,7 @@ def _pairs(scene: SceneModel) -> Iterator[Setting]:
 
 
 def _box(scene: SceneModel, hyperboloid: Hyperboloid, arm: float) -> tuple[Box | None, Span | None]:
-    """The region seen from the hyperboloid, `arm` wider, and the height that has still to be asked for."""
+    """The region seen from the hyperboloid, wider by `arm`, and the height that the kernel must still test."""
     region, centre = scene.region, hyperboloid.center
     x = _moved(region.x, centre[0], arm)
     y = _moved(region.y, centre[1], arm)

@@ -130,7 +130,7 @@ def test_wrong_labels_of_a_sweep_are_found():
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ('"hit":true', '"hit":false', "hit is false; it must be true, to agree with first"),
+        ('"hit":true', '"hit":false', "hit is false; it must be true, which follows from the field first"),
         (
             '"schema": "1.2.0"',
             '"schema": "1.5.0"',
@@ -177,7 +177,10 @@ POINT = ["0", "0", "0"]
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        (lambda case: case.update(hit=False, first=None), "first_hex is .*; it must be null, to agree with first"),
+        (
+            lambda case: case.update(hit=False, first=None),
+            "first_hex is .*; it must be null, which follows from the field first",
+        ),
         (
             lambda case: case.update(first=[0.5, 0.25], first_hex=["0x1p-1", "0x1p-2"]),
             r"first is \[0.5, 0.25\]; it must be null, or two times from 0 to 1, the lower first",
