@@ -63,7 +63,7 @@ COMPOSED = (
     *("StageFiveAnswers", "StageFiveLimbs", "StageFiveIntegers", "StagesRuns", "Doubles", "StagesOnDoubles"),
     *("FloatSteps", "FloatTexts", "SingleBound", "SingleRuns", "CertifiedText", "CertifiedAnswers", "StagesOfFloats"),
     *("StageFourBeside", "StageFourPosition", "StageFourExact"),
-    *("TangentTexts", "TangentRuns", "DoubleValues", "AllStages"),
+    *("TangentTexts", "TangentRuns", "TangentWithin", "DoubleValues", "AllStages"),
 )
 """All stages in one theorem, Stages.whatever_stage_answers; from a stage's numbers to the position; the C of words; the
 functions of the C that decide; the C of long integers."""
@@ -76,7 +76,7 @@ OF_STAGES = (
 """The files whose theorems say that what a stage answers is the position."""
 
 OF_RUNS = (
-    *("StageOne", "TangentRuns", "StageTwoRuns", "SingleRuns"),
+    *("StageOne", "TangentRuns", "TangentWithin", "StageTwoRuns", "SingleRuns"),
     *("CertifiedAnswers", "StagesOfFloats", "AllStages"),
 )
 """The same from the steps of the C in float64, with its guards."""
