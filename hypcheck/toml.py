@@ -99,8 +99,14 @@ _WITHIN = {'"': re.compile(r'[^"\\]+'), "'": re.compile(r"[^']+")}
 
 
 def lines_of(text: str) -> dict[Path, int]:
-    """The line, counted from 1, of every table, array and value in a valid TOML text, by its path."""
-    return _TomlScanner(text).scan()
+    """The line, counted from 1, of every table, array and value in a valid TOML text, by its path.
+
+    No lines if the text is nested so deeply that only tomllib, which had more of the stack left, could read it.
+    """
+    try:
+        return _TomlScanner(text).scan()
+    except RecursionError:
+        return {}
 
 
 def nearest_line(lines: Mapping[Path, int], path: Path) -> int | None:

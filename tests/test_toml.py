@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import sys
+from pathlib import Path
 
 import pytest
 
@@ -32,6 +34,22 @@ def test_a_byte_order_mark_in_a_toml_file_is_ignored(tmp_path):
 def test_invalid_toml_is_refused_in_one_sentence(text, message):
     with pytest.raises(InputError, match=message):
         toml.parsed(text, "a.toml")
+
+
+@pytest.mark.parametrize(
+    ("words", "name", "key"),
+    [(["verify"], "hypcheck.toml", "out"), (["plan", "a.toml"], "a.toml", "name")],
+)
+def test_a_file_nested_to_any_depth_is_refused_in_one_sentence(words, name, key, tmp_path, monkeypatch, capsys):
+    """Between the depth that has a line and the depth that cannot be read is one that is read but not scanned."""
+    monkeypatch.chdir(tmp_path)
+    messages = []
+    for depth in range(sys.getrecursionlimit() // 2 - 120, sys.getrecursionlimit() // 2 + 1, 2):
+        Path(name).write_text(f"{key} = {'[' * depth}{']' * depth}", encoding="utf-8")
+        assert main(words) == 2
+        messages.append(capsys.readouterr().err.splitlines()[-1])
+    assert messages[0].startswith(f"hypcheck: error: {name}, line 1: {key} is [[[")
+    assert messages[-1] == f"hypcheck: error: {name}: cannot be read as TOML: it is nested too deeply"
 
 
 def test_a_toml_file_that_cannot_be_read_is_refused_in_one_sentence(tmp_path):

@@ -225,7 +225,7 @@ def _text(value: object) -> str:
 
 
 def _name(value: object) -> str:
-    if not isinstance(value, str) or not value:
+    if not isinstance(value, str) or not _text(value):
         raise ValueError("a text that is not empty")
     return _text(value)
 

@@ -106,10 +106,7 @@ def shipped_text(name: str) -> str:
 
 def parse_scene(text: str, source: str = "the scene") -> model.SceneModel:
     """The scene that a TOML text describes; `source` names it in errors. Raises InputError naming key and line."""
-    try:
-        return _scene(strict.table_of(text, source, "the scene", _SCENE))
-    except RecursionError:
-        raise InputError(f"{source}: cannot be read as TOML: it is nested too deeply") from None
+    return _scene(strict.table_of(text, source, "the scene", _SCENE))
 
 
 def _scene(top: StrictTable) -> model.SceneModel:

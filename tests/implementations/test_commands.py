@@ -236,6 +236,7 @@ BAD_DESCRIPTIONS = [
     ("[1, 2]", r"the description is \[1, 2\]; it must be an object with protocol, name"),
     ('{"name":"x"}', "the description has no protocol; it must be 1, the only version"),
     ('{"protocol":1}', "the description has no name; it must be a text that is not empty"),
+    ('{"protocol":1,"name":" "}', "the description's name is ' '; it must be a text that is not empty"),
     ('{"protocol":2,"name":"x"}', "the description's protocol is 2; it must be 1"),
     (
         '{"protocol":1,"name":"x","presicion":"float32"}',
