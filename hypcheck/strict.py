@@ -9,9 +9,10 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import repeat
 from typing import Any, NoReturn, TypeVar
 
 from hypcheck import toml
@@ -26,6 +27,19 @@ Check = Callable[[object], Value]
 
 It may also raise InputError, whose text is then the whole sentence.
 """
+
+
+class PartError(ValueError):
+    """The refusal of a value within a checked one: its path there, the value, and as text what it must be."""
+
+    def __init__(self, path: Path, value: object, wanted: str) -> None:
+        super().__init__(wanted)
+        self.path, self.value = path, value
+
+
+def _at_fault(error: ValueError, value: object) -> tuple[Path, object]:
+    """The path and the value that a check refuses, which took this value."""
+    return (error.path, error.value) if isinstance(error, PartError) else ((), value)
 
 
 class Origin:
@@ -61,7 +75,9 @@ class Origin:
         try:
             return check(value)
         except ValueError as error:
-            self.refuse(path, f"{self.named_value(path)} is {self.shown(value)}; it must be {error}")
+            within, part = _at_fault(error, value)
+            where = (*path, *within)
+            self.refuse(where, f"{self.named_value(where)} is {self.shown(part)}; it must be {error}")
         except InputError as error:
             self.refuse(path, str(error))
 
@@ -196,16 +212,6 @@ class StrictTable:
             self.refuse(f"{self.title} has no {key}; it must be {self.origin.table_kind} with {', '.join(keys)}")
         return table
 
-    def listed(
-        self, key: str, check: Check[Value], wanted: str, least: int = 0, most: int | None = None
-    ) -> tuple[Value, ...]:
-        """The checked elements of the list of that key, from `least` to `most` of them; `wanted` says what it must be.
-
-        The key must be there.
-        """
-        values, path = self.required(key, list_with(wanted, least, most)), (*self._path, key)
-        return tuple(self.origin.checked((*path, place), value, check) for place, value in enumerate(values))
-
 
 def _wanted(check: Check[Any]) -> str:
     """The requirement of a check: the sentence with which it refuses what no file holds."""
@@ -263,6 +269,26 @@ def list_with(wanted: str, least: int = 0, most: int | None = None) -> Check[lis
         return value
 
     return check
+
+
+def parts(values: Sequence[object], checks: Iterable[Check[Any]]) -> tuple[Any, ...]:
+    """What the checks make of the values, each of its own. Raises PartError, which names the value by its place."""
+    checked = enumerate(zip(values, checks, strict=False))
+    return tuple(_part(place, value, check) for place, (value, check) in checked)
+
+
+def _part(place: int, value: object, check: Check[Value]) -> Value:
+    try:
+        return check(value)
+    except ValueError as error:
+        within, part = _at_fault(error, value)
+        raise PartError((place, *within), part, str(error)) from None
+
+
+def list_of(check: Check[Value], wanted: str, least: int = 0, most: int | None = None) -> Check[tuple[Value, ...]]:
+    """A check for a list of `least` to `most` values that the check takes; `wanted` says what the list must be."""
+    listed = list_with(wanted, least, most)
+    return lambda value: parts(listed(value), repeat(check))
 
 
 def texts(wanted: str, *, least: int = 1) -> Check[tuple[str, ...]]:

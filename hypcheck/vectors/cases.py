@@ -229,9 +229,12 @@ def _kind(value: object) -> Kind:
     return kind
 
 
+_number_or_inf = strict.or_word("inf", a_number)
+
+
 def _measure(value: object) -> float:
     """A number, or inf."""
-    return float("inf") if value == "inf" else a_number(value)
+    return float(_number_or_inf(value))
 
 
 def _flips(table: StrictTable, position: Position, read: Check[Bracket]) -> Mapping[Position, Bracket]:
@@ -249,7 +252,7 @@ def _distance(value: object) -> Bracket:
 
 def _bracket(value: object) -> Bracket:
     wanted = 'a list of 2 numbers from 0 to 1, the lower first, or of "inf" twice'
-    lower, upper = map(_measure, strict.list_with(wanted, 2, 2)(value))
+    lower, upper = strict.list_of(_measure, wanted, 2, 2)(value)
     if not (0 <= lower <= upper <= 1 or lower == upper == float("inf")):
         raise ValueError(wanted)
     return Bracket(lower, upper)
@@ -263,21 +266,33 @@ def _certificate(table: StrictTable, *, ended: bool) -> StoredCertificate:
     proof.optional("rule", strict.one_of("height"), None)
     return StoredCertificate(
         multiplier=proof.optional("multiplier", a_rational, None),
-        offsets=proof.listed("points", _offset, "a list of one or two points", 1, 2) if "points" in proof else (),
+        offsets=proof.optional("points", strict.list_of(_offset, "a list of one or two points", 1, 2), ()),
         double_root=proof.optional("double_root", a_rational, None),
-        pieces=proof.listed("pieces", _piece, "a list of pieces") if "pieces" in proof else (),
+        pieces=proof.optional("pieces", strict.list_of(_piece, "a list of pieces"), ()),
     )
 
 
 def _piece(value: object) -> Piece:
-    low, high, *numbers = strict.list_with("a list of 4", 4, 4)(value)
-    multiplier, plane = map(a_rational, numbers)
-    bottom, top = (None if end == word else a_rational(end) for end, word in ((low, "-inf"), (high, "inf")))
-    return Piece(bottom, top, multiplier, plane)
+    return Piece(*strict.parts(strict.list_with("a list of 4", 4, 4)(value), _PIECE))
+
+
+def _bound(infinite: str) -> Check[Fraction | None]:
+    """A check for a fraction, or the word for no bound, of which it makes None."""
+    bound = strict.or_word(infinite, a_rational)
+
+    def check(value: object) -> Fraction | None:
+        made = bound(value)
+        return None if isinstance(made, str) else made
+
+    return check
+
+
+_PIECE = (_bound("-inf"), _bound("inf"), a_rational, a_rational)
+"""The checks of the ends of a piece, of its multiplier and its plane."""
 
 
 def _offset(value: object) -> Offset:
-    s, t, w = map(a_rational, strict.list_with("a list of 3", 3, 3)(value))
+    s, t, w = strict.list_of(a_rational, "a list of 3", 3, 3)(value)
     return s, t, w
 
 
@@ -306,7 +321,7 @@ def _first(value: object) -> Bounds | None:
     if value is None:
         return None
     wanted = "null, or two times from 0 to 1, the lower first"
-    lower, upper = map(a_number, strict.list_with(wanted, 2, 2)(value))
+    lower, upper = strict.list_of(a_number, wanted, 2, 2)(value)
     if not 0 <= lower <= upper <= 1:
         raise ValueError(wanted)
     return lower, upper
@@ -314,16 +329,16 @@ def _first(value: object) -> Bounds | None:
 
 def _passage(table: StrictTable) -> StoredCertificate:
     proof = table.required_table("certificate", _PASSAGE_FIELDS)
-    steps = proof.listed("pieces", _step, "a list of pieces")
+    steps = proof.required("pieces", strict.list_of(_step, "a list of pieces"))
     time, root = (proof.required(name, _rational_or_null) for name in ("time", "double_root"))
-    points = proof.listed("points", _offset, "a list of two points at most", 0, 2)
+    points = proof.required("points", strict.list_of(_offset, "a list of two points at most", 0, 2))
     if (time is None) != (not points and root is None) or (points and root is not None):
         table.refuse("a certificate has a time with points or with a double_root, or none of these keys")
     return StoredCertificate(offsets=points, double_root=root, steps=steps, time=time)
 
 
 def _step(value: object) -> tuple[Fraction, Fraction]:
-    multiplier, end = map(a_rational, strict.list_with("a list of 2", 2, 2)(value))
+    multiplier, end = strict.list_of(a_rational, "a list of 2", 2, 2)(value)
     return multiplier, end
 
 

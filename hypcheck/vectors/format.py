@@ -284,7 +284,7 @@ def a_number(value: object) -> float:
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise ValueError("a number")  # noqa: TRY004 - turned into a sentence about the value
     if not is_shortest(value):
-        raise ValueError("the shortest decimal that float64 reads back as itself: it does not round-trip")
+        raise ValueError("the shortest decimal that float64 reads back as itself")
     return float(value)
 
 
@@ -311,13 +311,11 @@ def row_of(table: StrictTable, content: Content) -> Row:
     return tuple(row)
 
 
+_number_or_infinity = strict.or_word("inf", strict.or_word("-inf", a_number))
+
+
 def _height(value: object) -> float:
-    if value in ("inf", "-inf"):
-        return float(str(value))
-    try:
-        return a_number(value)
-    except ValueError as error:
-        raise ValueError(f'{error}, "inf" or "-inf"') from None
+    return float(_number_or_infinity(value))
 
 
 def check_hex(table: StrictTable, what: str, text: object, number: float) -> None:

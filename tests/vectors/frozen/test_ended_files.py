@@ -91,6 +91,10 @@ def test_a_wrong_label_of_a_case_that_ends_is_found(tmp_path, change, sentence, 
         (lambda case: case["row"].__setitem__(12, 2.0) or case["hex"].__setitem__(12, "0x1p+1"), "solid is 2.0"),
         (lambda case: case.update(certificate={"rule": "width"}), "certificate"),
         (lambda case: case.update(certificate={"pieces": [["0", "1", "1"]]}), "a list of 4"),
+        (
+            lambda case: case.update(certificate={"pieces": [["-inf", "-inf", "1", "1"]]}),
+            r'pieces\[0\]\[1\] is "-inf"; it must be an integer or p/q, such as -3/4, or "inf"',
+        ),
     ],
 )
 def test_a_malformed_case_that_ends_is_refused(tmp_path, change, sentence):

@@ -146,6 +146,10 @@ FIRST = SOUND.index('"cases": [') + 1
         (lambda case: case["flips"].update(contact=0.5), "a list of 2"),
         (lambda case: case["flips"].update(contact=[0.5, 0.25]), "the lower first"),
         (lambda case: case["flips"].update(contact=[0.5, 1.5]), "from 0 to 1"),
+        (
+            lambda case: case["flips"].update(contact=[0.5, "1"]),
+            r'flips.contact\[1\] is "1"; it must be a number, or "inf"',
+        ),
         (lambda case: case["flips"].pop("contact") and None, "flips has no contact"),
         (lambda case: case.update(flags=["ring"]), "not among those"),
     ],

@@ -177,6 +177,7 @@ POINT = ["0", "0", "0"]
 @pytest.mark.parametrize(
     ("change", "message"),
     [
+        (lambda case: case.update(first=[0.25, "0.5"]), r'first\[1\] is "0.5"; it must be a number'),
         (
             lambda case: case.update(hit=False, first=None),
             "first_hex is .*; it must be null, which follows from the field first",
