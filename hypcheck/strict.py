@@ -43,7 +43,7 @@ def _at_fault(error: ValueError, value: object) -> tuple[Path, object]:
 
 
 class Origin:
-    """Where tables come from, and how messages name them and their values. `title` names the outermost table."""
+    """The source of tables; it names them and their values in messages. `title` names the outermost table."""
 
     title: str
     table_kind = "an object"
@@ -71,7 +71,7 @@ class Origin:
         raise NotImplementedError
 
     def checked(self, path: Path, value: object, check: Check[Value]) -> Value:
-        """What the check makes of the value at the path. Raises InputError."""
+        """The result of the check of the value at the path. Raises InputError."""
         try:
             return check(value)
         except ValueError as error:
@@ -166,7 +166,7 @@ class StrictTable:
         return iter(self._content)
 
     def check(self, name: str, value: object, check: Check[Value]) -> Value:
-        """What the check makes of a part of the table, which messages name so. Raises InputError."""
+        """The result of the check of a part of the table; messages use the given name. Raises InputError."""
         return self.origin.checked((*self._path, name), value, check)
 
     def required(self, key: str, check: Check[Value]) -> Value:

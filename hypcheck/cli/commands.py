@@ -28,14 +28,14 @@ from hypcheck.version import VERSION
 
 @dataclass(frozen=True, slots=True)
 class Ending:
-    """How the program ends: the exit code, and lines for standard error."""
+    """The end of the program: the exit code, and lines for standard error."""
 
     code: int
     lines: tuple[str, ...] = ()
 
 
 def ending_of(error: BaseException) -> Ending:
-    """How the program ends after `error`: by the first row of the table that fits."""
+    """The end of the program after `error`: the first row of the table that fits."""
     for kind, ending in _ENDINGS:
         if isinstance(error, kind):
             return ending(error)

@@ -363,12 +363,12 @@ def isolated(limits: Limits, isolate: str | None, pass_env: str | None, see: Seq
 
 
 def seen_text(limits: Limits) -> str:
-    """What isolation shows an implementation beyond what it needs, as the end of a sentence; empty without --see."""
+    """The files that --see shows an isolated implementation, as the end of a sentence; empty without --see."""
     return f"; --see shows it {', '.join(map(escaped, limits.isolation.seen))}" if limits.isolation.seen else ""
 
 
 def isolation_of(specs: Iterable[str], limits: Limits) -> IsolationPart | None:
-    """How the run isolates these implementations, as its record has it; None if all are built in.
+    """The isolation of these implementations in the form of the record; None if all are built in.
 
     Raises NotIsolatedError if it must, and the system cannot.
     """

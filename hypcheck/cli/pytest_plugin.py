@@ -100,7 +100,7 @@ def _words(options: Mapping[str, Any]) -> Iterator[str]:
 
 
 def _told(out: Path) -> str | None:
-    """What failed, from the record of the run; None if there is none, since the run was refused."""
+    """The failures in the record of the run; None if there is no record, because the run was refused."""
     from hypcheck.messages import counted, sentence
     from hypcheck.record import read
     from hypcheck.record.reader import FILE

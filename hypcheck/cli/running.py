@@ -1,4 +1,4 @@
-"""What a command shows and writes while its long work runs: a progress bar, the record, and reports at the end.
+"""The output of a command during long work: a progress bar, the record, and reports at the end.
 
 A bar has the rate and the time left on a terminal; in a pipe there is none. If the terminal is closed, the work goes on
 without a bar. A run with a record has stages under a bar. An interrupted run leaves a record that `--resume` continues;
@@ -332,7 +332,7 @@ def _print_summary(record: Record, lines: Sequence[str]) -> None:
 def resumed(
     path: Path, out: Path, plan: ConformancePlan, options: Mapping[str, Any], files: Mapping[str, str], cases: int
 ) -> ResumedRun | int:
-    """What the record of an interrupted run has finished; the exit code of a finished run, which gets its reports.
+    """The finished part of an interrupted run. For a finished run: write its reports and return its exit code.
 
     `path` is a record, or the folder of a run. Raises InputError if the record cannot be read, is being written, or is
     of another run, naming what differs.

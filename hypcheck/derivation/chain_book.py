@@ -142,7 +142,7 @@ def _attained_at_minus_A() -> Link:
 
 
 def _attained_at_B() -> Link:
-    """Where the bound is attained: in the half plane y = 0, x ≥ 0 of the centre (r, 0, 0).
+    """The link about the points that attain the bound: in the half plane y = 0, x ≥ 0 of the centre (r, 0, 0).
 
     k says by how much A·P exceeds (A + B)².
     """

@@ -22,7 +22,7 @@ from hypcheck.derivation.program import Program, needed, split
 
 @dataclass(frozen=True)
 class Arithmetic:
-    """What the operations of a program mean.
+    """An arithmetic: a function for each operation of a program.
 
     `convert` brings an input or an integer constant into the arithmetic; for machine numbers it rounds, and it is the
     first operation. `operations` has a function for each operation the arithmetic knows, by its name in

@@ -204,7 +204,7 @@ Meanings = dict[sympy.Symbol, sympy.Expr]
 
 @dataclass(frozen=True)
 class Repair:
-    """How a printed formula fails, in one sentence, and the formula put right.
+    """The error of a printed formula in one sentence, and the corrected formula.
 
     `one_place` is true where one factor or one term, changed in one place, is all it takes.
     """
@@ -262,7 +262,7 @@ def _repaired_factor(printed: sympy.Expr, factor: sympy.Expr) -> Repair:
 
 
 def _change(rebuilt: Callable[[sympy.Expr], sympy.Expr], gap: sympy.Expr, meanings: Meanings) -> sympy.Expr | None:
-    """What closes the gap when added to the sum in this place; None where the formula is not linear in that sum."""
+    """The term that corrects the formula if added to the sum in this place; None if the formula is not linear in it."""
     unknown = sympy.Dummy()
     slope = sympy.diff(rebuilt(unknown), unknown).subs(meanings)
     if slope == 0 or slope.has(unknown):

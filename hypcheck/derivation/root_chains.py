@@ -219,7 +219,7 @@ def true_of_patterns(statement: str, where: Callable[[Pattern], bool], right: Ca
 
 
 def no_contact_but_the_ring() -> Link:
-    """What Δ ≤ 0 means for every size."""
+    """The link about Δ ≤ 0 for every size."""
     return true_of_patterns(
         "So Δ ≤ 0 means contact or the ring, and for the interior nothing else than “no”.",
         lambda roots: roots.delta <= 0,
@@ -228,7 +228,7 @@ def no_contact_but_the_ring() -> Link:
 
 
 def positions_chain() -> Chain:
-    """What the propositions have in common."""
+    """The chain that all propositions use."""
     return chain(
         "positions",
         "Exterior has three positive roots, different but on the ring; interior has two different negative roots; and "

@@ -35,7 +35,7 @@ Answers: TypeAlias = Any
 
 @dataclass(frozen=True)
 class CallForm:
-    """How questions of one kind are written: the layout of their rows, the points behind the sizes, and a sentence.
+    """The form of one kind of question: the layout of its rows, the points after the sizes, a sentence for messages.
 
     `points` stand for three columns each, in their order; `apart`: these columns may be given in place of the points.
     `other_names` are those of columns that have two.
@@ -127,7 +127,7 @@ def questions_of(
     if not mean_no_ends(heights):
         _add(columns, dict(zip(HEIGHTS, heights, strict=True)))
     if not columns:
-        raise InputError(f"nothing is asked: {form.sentence}")
+        raise InputError(f"there are no arguments: {form.sentence}")
     rows = columns.pop("rows", None)
     if rows is None:
         return Questions(columns, form=form)

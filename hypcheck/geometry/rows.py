@@ -67,7 +67,7 @@ class Layout:
 
     @property
     def widths(self) -> tuple[int, int, int]:
-        """How many numbers rows have: of upright spheroids, with an axis, with an axis and heights."""
+        """The numbers of columns that rows can have: upright, with an axis, with an axis and heights."""
         return len(self.upright), len(self.tilted), len(self.ended)
 
     def groups(self, rows: Rows | Sequence[object]) -> Groups:

@@ -194,7 +194,7 @@ def _json(text: str | bytes, where: str) -> object:
 
 @dataclass(frozen=True)
 class _Foreign(Origin):
-    """What foreign code says, whose texts may hold secrets and signs that a terminal obeys."""
+    """A description by foreign code, whose texts may hold secrets and control characters."""
 
     title: str
 

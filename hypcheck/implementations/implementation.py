@@ -199,9 +199,9 @@ class Implementation:
 
     def _check_scene(self, rows: Rows, *, by_scene: bool) -> None:
         if by_scene and not self.scene:
-            raise InputError(f"{self.spec} cannot be asked by scene")
+            raise InputError(f"{self.spec} has no function for scenes")
         if by_scene and len(scenes_of(rows)) > 1:
-            raise InputError(f"{self.spec} cannot be asked by scene about rows of several sizes")
+            raise InputError(f"{self.spec} cannot answer rows of several sizes by its function for scenes")
 
 
 ALONE = 4096

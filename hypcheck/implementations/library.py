@@ -231,7 +231,7 @@ class _AnswerRoom:
         return answers
 
     def written(self) -> GivenAnswers:
-        """What was written; raises ContractError if anything was written outside."""
+        """The values that were written. Raises ContractError if anything was written outside the memory."""
         self._answers.check("hit" if self._call.layout.has_end else "position")
         if self._times is not None:
             self._times.check("time")

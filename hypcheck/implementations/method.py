@@ -27,7 +27,7 @@ Answers = NDArray[np.int8]
 
 @dataclass(frozen=True)
 class MethodClaims:
-    """What a method is and claims, for `verify` as for `bench`.
+    """A method's name, title and claims, for `verify` and `bench`.
 
     `question` and `precision` are those of judge.Criterion. `domain` is where the method claims to be right. `exact`
     marks a method that is never wrong.

@@ -1,4 +1,4 @@
-"""What foreign programs print, as reports quote it: safe to print, and with secrets masked."""
+"""The output of foreign programs as reports quote it: safe to print, and with secrets masked."""
 
 from __future__ import annotations
 

@@ -286,7 +286,7 @@ class Process:
 
 
 class ProcessSession:
-    """What all sessions of a program have in common. Raises StartError.
+    """The common part of all sessions of a program. Raises StartError.
 
     `revealed` is as in Process. A subclass says how the program describes itself, and asks it.
     """
@@ -323,11 +323,11 @@ class ProcessSession:
 
     @property
     def evidence(self) -> str:
-        """What the program wrote to standard error since the last question, as the end of a sentence."""
+        """The program's standard error since the last question, as the end of a sentence."""
         return stderr_excerpt(self._process.stderr)
 
     def advice(self, reason: str) -> str:
-        """What to do where isolation is the reason of a fault, as the end of a sentence."""
+        """The advice if isolation caused a fault, as the end of a sentence."""
         return isolation_advice(reason, self._words, self._limits.isolation)
 
     def close(self) -> None:
@@ -383,7 +383,7 @@ _BY_ISOLATION = {
 
 
 def _end_of(code: int, *, isolated: bool) -> str:
-    """How a process with this return code ended."""
+    """The end of a process with this return code, in words."""
     if code < 0:
         others = _OTHER_CAUSES | (_BY_ISOLATION if isolated else {})
         return f"it was ended by {_signal_name(-code)}{others.get(-code, '')}"

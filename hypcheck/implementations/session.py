@@ -47,7 +47,7 @@ class Limits:
 
 
 class Outcome(IntEnum):
-    """How a question about a row ended: with an answer, or with a fault; the labels are those of judge.Status."""
+    """The outcome of a question about a row: an answer or a fault. The labels are those of judge.Status."""
 
     ANSWERED = 0
     ERROR = 1
@@ -118,11 +118,11 @@ class Session(Protocol):
 
     @property
     def evidence(self) -> str:
-        """What the implementation wrote to standard error since the last question, as the end of a sentence."""
+        """The implementation's standard error since the last question, as the end of a sentence."""
         ...
 
     def advice(self, reason: str) -> str:
-        """What to do where isolation is the reason of a fault, as the end of a sentence."""
+        """The advice if isolation caused a fault, as the end of a sentence."""
         ...
 
     def close(self) -> None:
@@ -159,7 +159,7 @@ class Answered:
 
     @property
     def outcomes(self) -> frozenset[Outcome]:
-        """How rows ended, each outcome once."""
+        """The outcomes of the rows, each once."""
         if not self.reasons:
             return frozenset({Outcome.ANSWERED}) if len(self.status) else frozenset()
         return frozenset(map(Outcome, np.unique(self.status).tolist()))

@@ -1,4 +1,4 @@
-"""Finds out from a program's error text whether isolation made it fail, and says what to do about it.
+"""The advice about a program that fails because of isolation, recognised by its error text.
 
 A failure that also happens without isolation must not be attributed to it. So a sign in the text is not enough: it is
 compared with this system, all of which this process sees. A file must exist, a module must belong to this package, and
@@ -33,7 +33,7 @@ _CARDS = ("/dev/nvidia*", "/dev/dri/*", "/dev/kfd")
 
 
 def isolation_advice(text: str, words: Sequence[str], isolation: Isolation) -> str:
-    """What to do if the program of these words failed with this text because it is isolated: the end of a sentence.
+    """The advice if isolation made the program of these words fail with this text: the end of a sentence.
 
     Empty if nothing isolates, and if the program would fail without isolation too.
     """

@@ -67,12 +67,12 @@ class Means:
 
     @property
     def word(self) -> str:
-        """How a program here runs: "isolated", "partly isolated" or "not isolated"."""
+        """The isolation of a program here, in words: "isolated", "partly isolated" or "not isolated"."""
         return isolation_word(self.names)
 
 
 def isolation_word(means: Sequence[str]) -> str:
-    """How a program runs with these means: "isolated", "partly isolated" or "not isolated"."""
+    """The isolation of a program with these means, in words: "isolated", "partly isolated" or "not isolated"."""
     return "isolated" if {"namespaces", "seccomp"} <= {*means} else "partly isolated" if means else "not isolated"
 
 
@@ -253,7 +253,7 @@ class IsolationError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Isolation:
-    """How foreign programs are isolated.
+    """The isolation of foreign programs: its mode, and what they may see.
 
     mode: one of MODES. hidden: paths that they must not see. variables: names of environment variables that they see
     beyond those of runtimes. seen: paths that they see beyond what they need. here: the means of this system; None:

@@ -138,7 +138,7 @@ def _ended_clearances(rows: Rows, threads: int | None = None) -> Clearance:
 
 
 def _still_apart(result: Clearance, whole: Mask) -> Mask:
-    """Where the gap to a whole hyperboloid has to be measured, after the points known as nearest were measured again.
+    """A mask of the rows whose gap must be measured, after the known nearest points were measured again.
 
     The bound of a long spheroid's measured gap grows by the square of d/b in clearance_bounds.py, and here not at all.
     """
@@ -156,7 +156,7 @@ def _still_apart(result: Clearance, whole: Mask) -> Mask:
 
 
 def _apart(result: Clearance) -> Mask:
-    """Where the bounds of a distance from a whole hyperboloid are too far apart, and the gap can be measured."""
+    """A mask of the rows with bounds of the distance that are too far apart, and a gap that can be measured."""
     low, high = result.distance_lower, result.distance_upper
     longer = np.maximum(result.rows[:, 2], result.rows[:, 3])
     apart: Mask = are_apart(low, high, longer) & np.isfinite(high)

@@ -313,7 +313,7 @@ def _halve(rows: Rows, low: Floats, high: Floats, clear: Question, meets: Questi
 
 
 def _usual(rows: Rows) -> Mask:
-    """Which rows have lengths within the range of the bounds; coordinates may be smaller."""
+    """A mask of the rows with lengths within the range of the bounds; coordinates may be smaller."""
     size = np.abs(rows[:, : len(COLUMNS)])
     return np.asarray((size <= _RANGE[1]).all(axis=1) & (size[:, :4] >= _RANGE[0]).all(axis=1))
 

@@ -243,7 +243,7 @@ def tilted_touches(rows: Rows, at: Floats | None = None) -> Touches:
 
 
 def _at_a_pole(form: Floats, unit: Floats, ratio: Floats, centre: Floats) -> Floats:
-    """Where |X − C|² is least on XᵀDX = 1, (n, 3), if the multiplier is next to a pole or at it.
+    """The points, (n, 3), of XᵀDX = 1 with the least |X − C|², if the multiplier is at a pole or next to it.
 
     In the principal axes of D beside the spheroid, whose eigenvalues are e, X is g/(1 + λe) there. At the pole λ = −1/e
     one g is 0, as where the centre is on the hyperboloid's axis: then XᵀDX = 1 says how long that part of X is, and
@@ -279,14 +279,14 @@ def _at_a_pole(form: Floats, unit: Floats, ratio: Floats, centre: Floats) -> Flo
 
 
 def _is_before(place: Floats, other: Floats) -> Mask:
-    """Which places are farther towards +x, or else +z, or else +y, than the others."""
+    """A mask of the places that are farther towards +x (if equal: +z, then +y) than the other ones."""
     offset = (place - other)[:, (0, 2, 1)]
     clear = np.abs(offset) > _OFF * np.abs(place).max(axis=1, keepdims=True)
     return np.asarray(clear.any(axis=1) & (offset[np.arange(len(offset)), np.argmax(clear, axis=1)] > 0))
 
 
 def _error(rows: Rows, unit: Floats, at: Floats, form: Floats, place: Floats, matrix: Floats, least: Floats) -> Floats:
-    """How far the exact place is from a computed one at most, in units of b; NaN where nothing is shown.
+    """A bound of the distance from a computed place to the exact one, in units of b; NaN if no bound is known.
 
     `least` is a guess of half the least eigenvalue of the matrix M + λD.
     """
@@ -333,7 +333,7 @@ def _adjugate(matrix: Floats) -> tuple[Floats, Floats]:
 
 
 def _factor(rows: Rows, unit: Floats, point: Floats) -> Floats:
-    """How many times as large the spheroid reaches the point."""
+    """The factor by which the spheroid must grow to reach the point."""
     offset = point - rows[:, 4:7]
     along = (unit * offset).sum(axis=1)
     across = offset - along[:, None] * unit

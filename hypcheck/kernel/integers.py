@@ -207,7 +207,7 @@ def _at_ratio(f: Sequence[int], over: int, under: int) -> list[int]:
 
 
 def _at_root(pair: QuarticWithPoles, side: Position) -> list[int]:
-    """The same at B (side 1) or −A2: in μ = k2 λ, a root of μ² = k1 μ + k0 k2, everything is some u + v μ."""
+    """The signs of F's coefficients at B (side 1) or −A2: with μ = k2 λ, a root of μ² = k1 μ + k0 k2, each is u+vμ."""
     (f0, f1, f2, f3, _), (k0, k1, k2) = pair.f, pair.k
     left = [(k2**3 * f0, 0), (k2 * k2 * f1, 0), (k2 * f2, 0), (f3, 0), (pair.q, 0)]
     for first in range(4):

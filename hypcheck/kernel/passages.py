@@ -58,14 +58,14 @@ class Passages:
     @cached_property
     @in_default_environment
     def first_lower(self) -> Floats:
-        """No contact comes before this time, rounded down; NaN where there is none."""
+        """A lower bound, rounded down, of the time of the first contact; NaN if there is no contact."""
         times: Floats = self._rounded(0, -math.inf)
         return times
 
     @cached_property
     @in_default_environment
     def first_upper(self) -> Floats:
-        """The first contact is not after this time, rounded up; NaN where there is none."""
+        """An upper bound, rounded up, of the time of the first contact; NaN if there is no contact."""
         times: Floats = self._rounded(1, math.inf)
         return times
 

@@ -205,7 +205,7 @@ def _centers(paths: Paths, segment: Indices, time: Floats) -> Floats:
 
 
 def first_segments(paths: Paths, hits: Indices) -> tuple[Mask, Indices]:
-    """Which paths have contact, (k,), and the number of the first segment that has it, among all (m,), ascending.
+    """A mask of the paths with contact, (k,), and for each of these the number of its first segment with contact.
 
     `hits` are the numbers of all segments that have contact, ascending.
     """

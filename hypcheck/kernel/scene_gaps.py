@@ -210,7 +210,7 @@ def _try(result: Gaps, of: _Pairs, owner: Indices, place: Floats) -> Floats:
 
 
 def from_spheroids(b: Floats, d: Floats, axes: Rows, offset: Rows) -> tuple[Floats, Rows]:
-    """How far points, `offset` (n, 3) from the centres, are from spheroids with unit axes (n, 3), and unit normals."""
+    """Distances of points, `offset` (n, 3) from the centres, from spheroids with unit axes (n, 3); and unit normals."""
     along = (axes * offset).sum(axis=1)
     across = offset - along[:, None] * axes
     off = np.sqrt((across * across).sum(axis=1))

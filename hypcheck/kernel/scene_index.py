@@ -57,7 +57,7 @@ class Bodies:
 
     @cached_property
     def tilted(self) -> Mask:
-        """Which hyperboloids are tilted, (m,)."""
+        """A mask of the tilted hyperboloids, (m,)."""
         return np.asarray((self.axes[:, :2] != 0).any(axis=1))
 
 
@@ -102,7 +102,7 @@ def reaches(bodies: Bodies, mover: Mover, height: Span | None) -> Floats:
 
 
 def _farthest(bodies: Bodies, height: Floats, b: float, d: float) -> Floats:
-    """How far from each axis a spheroid so far up or down can be in contact."""
+    """The greatest distance from each axis at which a spheroid at this height can be in contact."""
     share = (height + d) / bodies.shapes[:, 1]
     return np.asarray(bodies.shapes[:, 0] * np.sqrt(1 + share * share) + b)
 
@@ -314,7 +314,7 @@ def near_sweeps(
 
 
 def _pieces_of(grid: PlaneGrid, starts: Rows, ends: Rows) -> Indices:
-    """How many pieces each sweep, (n, 3), is cut into; 0 for one that is to be looked up alone.
+    """The number of pieces of each sweep, (n, 3); 0 for a sweep that is looked up alone.
 
     That is also one so far out that the padding of a piece, for its rounding, is wider than a cell.
     """

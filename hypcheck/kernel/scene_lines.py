@@ -61,7 +61,7 @@ def _slope(line: Line | None) -> float:
 
 
 def _threshold(line: Line | None, M: float, reach: float, side: int) -> float:
-    """What R − M T must exceed (side 1), or stay below (side −1): then the exact place is on that side of the line."""
+    """The threshold of R − M T: above it (side 1) or below it (side −1) the exact place is on that side of the line."""
     if line is None:
         return side * inf
     at_ends = line[0], line[0] + (line[1] - M) * reach

@@ -1,4 +1,4 @@
-"""Which hyperboloid of a scene is nearest to the mover: distances of pairs between proved numbers, and the least.
+"""The nearest hyperboloid of a scene to the mover: proved bounds of the distances of all pairs, and the least one.
 
 A pair's distance is that of clearance() for the rounded offset from the hyperboloid's centre to the mover's; each
 coordinate of the offset is rounded by u of its size at most, which _ROUNDED of their sum holds. If one of two bodies is
@@ -290,7 +290,7 @@ def _decide_contact(pairs: _Pairs, low: Floats, high: Floats) -> None:
 
 
 def _reached(mover: Mover, axes: Floats | None, offset: Rows) -> Floats:
-    """How far points, `offset` (n, 3) from the centre of a mover with these axes (n, 3), are from the mover at most."""
+    """Upper bounds of the distances of movers with axes (n, 3) from points, `offset` (n, 3) from their centres."""
     length = _length(offset)
     if axes is None:
         across, along = np.hypot(offset[:, 0], offset[:, 1]), offset[:, 2]

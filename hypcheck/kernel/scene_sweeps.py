@@ -41,7 +41,7 @@ from hypcheck.truth.ended_sweeps import EndedSweep
 def hits_beside(
     bodies: Bodies, body: Indices, semi_axes: Rows, starts: Rows, ends: Rows, axes: Rows | None = None
 ) -> Mask:
-    """Which sweeps of spheroids have contact with their hyperboloid, (n,).
+    """A mask of the sweeps of spheroids with contact with their hyperboloid, (n,).
 
     `semi_axes` are b and d (n, 2); `starts` and `ends`, (n, 3), are in the scene's coordinates, and `axes`, (n, 3),
     those of the spheroids; None: they are upright.

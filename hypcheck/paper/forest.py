@@ -335,7 +335,7 @@ class ForestPlan:
         """The number of tried steps. Raises InputError if they are too many."""
         steps = self.rules.steps if self.steps is None else self.steps
         if steps > MOST_STEPS:
-            raise InputError(f"{steps:,} steps were asked for; it must be {MOST_STEPS:,} at most")
+            raise InputError(f"{steps:,} steps are too many; the limit is {MOST_STEPS:,}")
         return steps
 
 

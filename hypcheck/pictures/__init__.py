@@ -41,7 +41,7 @@ Numbers = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class ShownContact:
-    """Where the mover has its first contact on a segment: its centre, and the hyperboloid's number."""
+    """The first contact of the mover on a segment: the mover's centre, and the hyperboloid's number."""
 
     segment: int
     center: Sequence[float]

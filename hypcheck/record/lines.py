@@ -53,7 +53,7 @@ class SettingsPart(fields.LinePart, frozen=True, kw_only=True):
 
 
 class IsolationPart(fields.LinePart, frozen=True, kw_only=True):
-    """How implementations were isolated: the mode (auto, on or off), the means, and why others are missing."""
+    """The isolation of implementations: the mode (auto, on or off), the means, and why others are missing."""
 
     mode: str
     means: list[str]
@@ -131,7 +131,7 @@ class DisagreementPart(fields.LinePart, frozen=True, kw_only=True):
 
 
 class OracleLine(fields.RecordLine, frozen=True, kw_only=True):
-    """What one oracle answered about one family."""
+    """The answers of one oracle about one family."""
 
     oracle: str
     family: str
@@ -261,7 +261,7 @@ class FixedSizesPart(fields.LinePart, frozen=True, kw_only=True):
 
 
 class DomainPart(fields.LinePart, frozen=True, kw_only=True):
-    """Where an implementation claims to be right."""
+    """The domain in which an implementation claims to be right."""
 
     regimes: list[Annotated[str, fields.one_of("a>=1", "c2>=a")]]
     ratio: fields.Limits
@@ -299,7 +299,7 @@ class Retest(fields.LinePart, frozen=True, kw_only=True):
 
 
 class SlicesPart(fields.LinePart, frozen=True, kw_only=True):
-    """How evenly rows near contact were spread, since 1.9.0, as shares of the range of each coordinate.
+    """The evenness of the rows near contact, since 1.9.0, as shares of the range of each coordinate.
 
     In each slice of one coordinate that is `one` wide, three rows or more were asked; in each slice of any two of them
     that is `two` wide in both, a row or more.

@@ -205,7 +205,7 @@ class Scenery(fields.LinePart, frozen=True, kw_only=True):
 
 
 class PlacesLine(fields.RecordLine, frozen=True, kw_only=True):
-    """Where a method is wrong in a half plane: a text for each z; "." right, c false clear, w false contact, s side."""
+    """A method's errors in a half plane: a text for each z; "." right, c false clear, w false contact, s wrong side."""
 
     method: str
     scene: Scenery

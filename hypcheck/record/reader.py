@@ -140,7 +140,7 @@ def _decoded(raws: Sequence[Raw], path: Path) -> Iterator[RecordLine]:
 
 
 def _explained(error: msgspec.ValidationError, raw: Raw) -> str:
-    """What is wrong with a line: where, which value, and what would be right."""
+    """The error of a line as a sentence: its place, the value, and the allowed values."""
     what, _, path = str(error).partition(" - at `$")
     path = path.removesuffix("`").removeprefix(".")
     missing = re.fullmatch(r"Object missing required field `(\w+)`", what)

@@ -167,7 +167,7 @@ def _new_file(path: Path) -> BinaryIO:
 
 @dataclass(frozen=True)
 class Provenance:
-    """What the headers of some runs add.
+    """The fields that the headers of some runs have in addition.
 
     files: the sha256 of the files under test, by path.
     program: the sha256 of hypcheck's own files.

@@ -109,7 +109,7 @@ class LineFacts(Generic[Line]):
 
     @classmethod
     def clause(cls, together: Sequence[Line]) -> str:  # noqa: ARG003 - a type that has a clause reads them
-        """What the verdict of a passing run says about all lines of this type; "" if it says nothing."""
+        """The clause about all lines of this type in the verdict of a passing run; "" if there is none."""
         return ""
 
     def not_judged(self) -> NotJudged | None:

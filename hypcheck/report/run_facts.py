@@ -86,7 +86,7 @@ def _farthest(methods: Sequence[model.ImplementationTotal]) -> str:
 
 
 def benchmark_facts(record: Record) -> Iterator[str]:
-    """The price of other shapes, and the distances at which errors end."""
+    """Sentences about a benchmark: the cost of other shapes, and the distances at which errors end."""
     yield from sentences_of(record, BoundingLine)
     for method in sweep_totals(record):
         yield _sweep_fact(method)

@@ -66,7 +66,7 @@ class Equations(fields.LinePart, frozen=True, kw_only=True):
 
 
 class Proofs(fields.LinePart, frozen=True, kw_only=True):
-    """How many quantities of formulas must be proved, and how many are."""
+    """The number of quantities of formulas to prove, and the number of proved ones."""
 
     asked: fields.Count
     hold: fields.Count
@@ -108,7 +108,7 @@ class FamilySummary(fields.LinePart, frozen=True, kw_only=True):
 
 
 class Claims(fields.LinePart, frozen=True, kw_only=True):
-    """What an implementation under test declares, or what it was judged as."""
+    """The declarations of an implementation under test, or the values that replaced them."""
 
     question: fields.Question
     precision: fields.Precision

@@ -97,7 +97,7 @@ CHUNK_ROWS = 64 * BLOCK
 
 @dataclass(frozen=True, slots=True)
 class Pace:
-    """How many rows a run sends at once, how many it repeats in a retest, and how often it writes its progress.
+    """The numbers of rows that a run sends at once and repeats in a retest, and how often it writes its progress.
 
     Generated rows are divided into chunks of `chunk_rows`, a multiple of 64. After `retest_after` rows their pending
     cases are retested, which bounds the number of pending cases: a retest holds all of them in memory, and twice as
@@ -152,7 +152,7 @@ class CaseChunk:
 
     @property
     def movement(self) -> int:
-        """How many consecutive cases follow one object from moment to moment; 1 if cases are independent."""
+        """The number of consecutive cases that follow one object from moment to moment; 1 if cases are independent."""
         return 1 if self.seed is None else family_of(self.family).movement
 
     def part(self, chunk_rows: int = CHUNK_ROWS) -> int:

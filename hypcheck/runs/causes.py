@@ -61,7 +61,7 @@ class AnsweredRows:
 
     @property
     def subject(self) -> str:
-        """What the rows are about."""
+        """The subject of the rows."""
         return self.criterion.layout.subject(self.rows)
 
     def part(self, places: Sequence[int] | Indices) -> AnsweredRows:
@@ -202,7 +202,7 @@ class Numbers:
         return np.asarray(carried + 16 * unit * terms)
 
     def possible(self, unit: float, *, printed: bool = False, roots: bool = False) -> NDArray[np.bool_]:
-        """Which of −1, 0, +1 a plain evaluation with roundings of this unit can give: a mask (n, 3).
+        """A mask (n, 3) of the signs −1, 0, +1 that a plain evaluation with roundings of this unit can give.
 
         With `printed`, the evaluation is one of the rules of Propositions 3 and 5, which do not compare roots with the
         poles −A and B. With `roots`, it is a rule about computed roots, with or without the poles: a root at a pole can

@@ -175,7 +175,7 @@ def _explained(causes: int, some: Sequence[tuple[WrongCase, tuple[Place, str]]],
 
 
 def _against(cause: Cause, answered: AnsweredRows, answers: Answers, first: int = 0) -> int:
-    """How strongly the given answers, from the index `first` on, deny a rule that gives `answers`."""
+    """The strength with which the given answers, from the index `first` on, contradict a rule that gives `answers`."""
     other = (answers != SILENT) & (answers != answered.given)
     other[:first] = False
     certain = 0 if cause.certain is None or not other.any() else int((other & cause.certain(answered)).sum())

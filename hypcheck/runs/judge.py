@@ -86,7 +86,7 @@ DANGEROUS = (Mistake.FALSE_CLEAR, Mistake.LATE)
 
 @dataclass(frozen=True, slots=True)
 class Criterion:
-    """How answers are judged: the question (of QUESTIONS), the precision (of PRECISIONS), and the tolerance in u."""
+    """The criterion for answers: the question (of QUESTIONS), the precision (of PRECISIONS), and the tolerance in u."""
 
     question: str = "position"
     precision: str = "float64"

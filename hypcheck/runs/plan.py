@@ -97,7 +97,7 @@ class ConformancePlan:
         return self.workers or (usable_processors() if planned_size(self) >= LARGE_RUN else None)
 
     def opener(self, number: int) -> ImplementationOpener:
-        """How the implementation with this number is opened."""
+        """The opener of the implementation with this number."""
         return ImplementationOpener(self.specs[number], self.limits, self.precision, self.question, self.domain)
 
     @property
@@ -229,7 +229,7 @@ def require_named(plan: ConformancePlan, used: Description) -> None:
         reasons = _reasons_for(plan, family, rules)
         if reasons:
             raise InputError(
-                f"--families names {name}, and {used.name} is asked no row of it: "
+                f"--families names {name}, and {used.name} can be tested on none of its rows: "
                 f"{' and '.join(f'{number:,} are {domain.ROWS[reason]}' for reason, number in reasons.items())}; "
                 "leave it out, or set --precision or --domain"
             )
@@ -291,7 +291,7 @@ def steps_of(plan: ConformancePlan, used: Description) -> Iterator[Step]:
 
 
 def rules_of(plan: ConformancePlan, used: Description) -> JudgingRules:
-    """How an implementation with this description is judged. Raises InputError as known_failures_of does."""
+    """The rules for judging an implementation with this description. Raises InputError as known_failures_of does."""
     criterion = Criterion(used.question, used.precision, plan.tolerance)
     named = frozenset(name for name in plan.families if name in ALL)
     return JudgingRules(criterion, used.domain, known_failures_of(plan), plan.seed, plan.fresh, named)

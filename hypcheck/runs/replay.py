@@ -287,7 +287,7 @@ def _judged(
     place = int(changed[0])
     otherwise = again.reasons.get(place, f"it answers {int(again.answers[place])}")
     reason = (
-        f"answers {alone.answer} when asked alone; asked {REPEATED_ROWS} times at once, at place {place + 1}: "
+        f"answers {alone.answer} to the row alone; among {REPEATED_ROWS} copies of it, at place {place + 1}: "
         f"{otherwise}"
     )
     return replace(alone, status=Status.NONDETERMINISTIC, reason=reason)

@@ -114,7 +114,7 @@ RETESTED_MOVEMENTS = 8
 
 @dataclass(frozen=True)
 class JudgingRules:
-    """How an implementation is judged: the criterion, its domain, the known failures, the seeds of the run.
+    """The rules for judging an implementation: the criterion, its domain, the known failures, the seeds of the run.
 
     `fresh` is the seed of the fresh rows, if there are any. `named` are the families that the plan names in full: their
     rows with subnormal numbers are tested too.

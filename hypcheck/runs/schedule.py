@@ -29,7 +29,7 @@ Step = CaseChunk | RetestStep | SearchStep | results.InvalidRows
 
 @dataclass(frozen=True, slots=True)
 class ImplementationOpener:
-    """How an implementation is opened: its SPEC, its limits, and values that replace what it declares.
+    """The data for opening an implementation: its SPEC, its limits, and values that replace its declarations.
 
     `declared` is the description that it must declare, if it was opened before in another process.
     """

@@ -1,4 +1,4 @@
-"""How evenly a run tested: the width of a fault near contact that it can miss, and the tested coincidences.
+"""The evenness of a run's rows: the width of a fault near contact that it can miss, and the tested coincidences.
 
 A fault in a slice of one coordinate, such as |z|/γ between 0.50 and 0.51, is visible only in a row near contact within
 the slice. So a run reports the greatest width of a slice with fewer than three such rows, and of a slice of two

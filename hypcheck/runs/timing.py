@@ -304,12 +304,12 @@ def measured_samples(entries: Sequence[TimingEntry], rounds: int) -> dict[str, S
 
 
 def times_as_fast(mine: Samples, other: Samples) -> list[float]:
-    """How many times as fast `mine` answers a row as `other` does, in each round."""
+    """The ratio of the time per row of `other` to that of `mine` in each round: above 1 if `mine` is faster."""
     return [theirs / own for own, theirs in zip(mine.samples_ns, other.samples_ns, strict=True)]
 
 
 def times_as_long(mine: Samples, other: Samples) -> list[float]:
-    """How many times as long `mine` takes for a row as `other` does, in each round."""
+    """The ratio of the time per row of `mine` to that of `other` in each round: above 1 if `mine` is slower."""
     return times_as_fast(other, mine)
 
 

@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Language:
-    """How an adapter is made in one language.
+    """The data for making an adapter in one language.
 
     files: the templates in the language's folder; `predicate` is the one that holds the stub.
     build: the command line that builds the adapter.

@@ -1,4 +1,4 @@
-"""What the workflow of `hypcheck init` installs: `--from` as pip reads it, pinned to one state of its source.
+"""The requirement that the workflow of `hypcheck init` installs: `--from` as pip reads it, pinned to one state.
 
 No package index is known to have hypcheck, and anyone may take a free name there. So only what was named is installed,
 and it is pinned: a git repository by a commit, a file by its SHA-256, a release by its version. The text is written
@@ -95,7 +95,7 @@ def pinned(wanted: Requirement) -> Requirement:
     if isinstance(refs, str):
         if wanted.repository.startswith("file:"):
             raise InputError(f"--from: git cannot read {wanted.repository}: {refs}")
-        fault = f"{wanted.repository} could not be asked for the commit of {named} ({refs}); name one by @COMMIT"
+        fault = f"{wanted.repository} could not be queried for the commit of {named} ({refs}); name one by @COMMIT"
         return replace(wanted, says=(*wanted.says, f"not pinned: {fault}"))
     commit = next((refs[name] for name in _names(named) if name in refs), None)
     if commit is None and _ABBREVIATED.fullmatch(named):

@@ -94,7 +94,7 @@ class Mover:
 
 @dataclass(frozen=True, slots=True)
 class Region:
-    """Where the mover's centre can be, in the scene's coordinates; None: anywhere."""
+    """The region of the mover's centre, in the scene's coordinates; None: anywhere."""
 
     x: Span | None = None
     y: Span | None = None
@@ -106,7 +106,7 @@ TURNS = ("executed", "obeyed", "free")
 
 @dataclass(frozen=True, slots=True)
 class Start:
-    """Where flights begin: at a height uniform in `z`, uniform over a disc about the axis, heading anywhere.
+    """The starts of flights: heights uniform in `z`, places uniform over a disc about the axis, any headings.
 
     The disc has the `radius`, or ends `margin` before the surface at that height; one of the two is None.
     """
@@ -118,7 +118,7 @@ class Start:
 
 @dataclass(frozen=True, slots=True)
 class Flight:
-    """How a quadcopter flies at random until it has covered `distance`: what the paper says of it, and leaves open.
+    """The rules of a quadcopter's random flight over `distance`: those of the paper, and those that it leaves open.
 
     Each draw is straight with the chance `straight`, up or down (half each) with the chance `vertical`, else a turn
     uniform within ±`largest_turn` degrees. Straight is ahead, or half of the time back where `backward`. A turn that is
@@ -139,7 +139,7 @@ class Flight:
 
 @dataclass(frozen=True, slots=True)
 class Walk:
-    """How a walker wanders: `steps` moves of length `step`, each after a turn uniform within ±`largest_turn` degrees.
+    """The rules of a random walk: `steps` moves of length `step`, each after a turn uniform in ±`largest_turn` degrees.
 
     It begins at `start` with `heading` (degrees from the x axis). After a refusal the next turn is by `refused_turn`
     degrees more, left or right alike.

@@ -23,7 +23,7 @@ _WALK = ("start", "heading", "steps", "step", "largest_turn", "refused_turn")
 
 
 def _flight(top: StrictTable) -> model.Flight | None:
-    """What [flight] says, None where it is not there. Raises InputError."""
+    """The flight in the table [flight]; None if there is no such table. Raises InputError."""
     table = top.table("flight", _FLIGHT)
     if table is None:
         return None
@@ -60,7 +60,7 @@ def _start(flight: StrictTable) -> model.Start:
 
 
 def _walk(top: StrictTable) -> model.Walk | None:
-    """What [walk] says, None where it is not there. Raises InputError."""
+    """The walk in the table [walk]; None if there is no such table. Raises InputError."""
     table = top.table("walk", _WALK)
     if table is None:
         return None
@@ -183,7 +183,7 @@ def _parts(mover: StrictTable, b: float, d: float) -> Iterable[model.MoverPart]:
         if not within(part, b, d):
             table.refuse(
                 f"mover part {number} reaches beyond the mover (b = {b!r}, d = {d!r}); it must lie within it, "
-                "for it is asked only where the mover is not clear"
+                "because it is tested only if the mover is not clear"
             )
         yield part
 

@@ -170,7 +170,7 @@ def _chunks(records: _Records, width: int, places_of: Mapping[str, int], *, mark
         yield partial(_chunk, cells, texts, places, columns, mark=mark)
         count += len(texts)
     if count == 0:
-        raise NothingJudgedError(f"{records.name} has no rows below its header; nothing was asked")
+        raise NothingJudgedError(f"{records.name} has no rows below its header; nothing was answered")
 
 
 def _chunk_of_block(

@@ -110,7 +110,7 @@ def _chunks(reader: Reader, *, mark: bool) -> Iterator[UnreadChunk]:
         yield partial(_chunk, texts, RowPlaces(reader.name, count, numbers), layout, mark=mark)
         count += len(texts)
     if count == 0:
-        raise NothingJudgedError(f"{reader.name} has no rows; nothing was asked")
+        raise NothingJudgedError(f"{reader.name} has no rows; nothing was answered")
 
 
 def _layout_of(text: str) -> Layout:

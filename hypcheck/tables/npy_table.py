@@ -71,7 +71,7 @@ def _render(_chunk: TableChunk, answers: Answers) -> bytes:
 
 @dataclass(frozen=True, slots=True)
 class _NpyLayout:
-    """What a header says: how many rows and columns, their byte order, whether by columns, and where they begin."""
+    """The content of a header: numbers of rows and columns, byte order, memory order, and the offset of the data."""
 
     count: int
     width: int
@@ -90,7 +90,7 @@ def _layout(reader: Reader) -> _NpyLayout:
     if len(shape) != 2 or shape[1] not in PAIRS.widths or shape[0] < 0:
         raise InputError(f"{reader.name} has shape {shape}; it must be {_SHAPES}")
     if shape[0] == 0:
-        raise NothingJudgedError(f"{reader.name} has no rows; nothing was asked")
+        raise NothingJudgedError(f"{reader.name} has no rows; nothing was answered")
     size = reader.size()
     if size is None:
         if by_columns:

@@ -59,7 +59,7 @@ def route(source: str, target: str, stated: str | None) -> Route:
         raise InputError(f"--format {stated} contradicts the names {source} and {target}; leave it out")
     if source_format != target_format and "npy" not in (source_format, target_format):
         raise InputError(
-            f"{source_format} cannot become {target_format}, since other columns are passed through as they stand; "
+            f"{source_format} cannot become {target_format}, because the text of other columns is copied; "
             f"--output must be {source_format} too, or npy"
         )
     return Route(source, source_format, target, target_format)

@@ -1,4 +1,4 @@
-"""How far an answer about a pair is from being right: the least relative change of its numbers that makes it right.
+"""The backward error of an answer about a pair: the least relative change of the numbers that makes it right.
 
 The backward error is the infimum of the ε for which changing each number by a relative ε at most makes the answer
 right. changes.py decides whether one ε is enough. For an upright pair one exact decision suffices, so that bisection
@@ -248,7 +248,7 @@ def _is_sharp(pair: Pair) -> bool:
 
 
 def _reached_end(flip: Flip | EndedFlip) -> Fraction:
-    """A change that is reached, at most 9/8 times a change that is not found to be reached."""
+    """A change that reaches the goal, at most 9/8 times a change that was not found to reach it."""
     missed = rounded(flip.estimate(), BITS)
     high, step = rounded(missed * Fraction(11, 10), BITS), 2
     while high < 1 and not flip.reached(high):

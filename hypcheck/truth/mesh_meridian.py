@@ -53,7 +53,7 @@ class Meridian:
     one: int
 
     def tangents_meet(self, e: int, f: int) -> tuple[int, int]:
-        """Where the tangents at e and at f meet: (r, z) in units, each coordinate rounded down; at e = f the point."""
+        """The intersection (r, z) of the tangents at e and f in units, rounded down; the arc's point if e = f."""
         product, square, total = e * f, self.one * self.one, (e + f) * self.one
         return (
             ((self.a.numerator * (product + square)) << UNIT_BITS) // (self.a.denominator * total),
@@ -216,7 +216,7 @@ def _length(v: Point) -> float:
 
 
 def _seen_from_center(meridian: Meridian, e: int, f: int) -> Point:
-    """Where the tangents at e and f meet (the arc's point if e = f), relative to C. Dividing integers rounds once."""
+    """The intersection of the tangents at e and f (the arc's point if e = f), relative to C. It is rounded once."""
     r, z = meridian.tangents_meet(e, f)
     return ((r - meridian.rho) / UNIT, (z - meridian.zeta) / UNIT)
 

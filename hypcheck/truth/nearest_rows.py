@@ -30,7 +30,7 @@ class NearestBatch:
 
     @property
     def tangent(self) -> Mask:
-        """Which pairs are tangent, bool (n,)."""
+        """A mask (n,) of the tangent pairs."""
         return np.asarray(self.clearance == 0.0)
 
 
@@ -48,7 +48,7 @@ def clearances(rows: Rows) -> NearestBatch:
 
 
 def upright_mask(rows: Rows) -> Mask:
-    """Which rows, (n, 7) or (n, 10), are about an upright spheroid, bool (n,): the axis is vertical, or b = d."""
+    """A mask (n,) of the rows (n, 7) or (n, 10) of an upright spheroid: the axis is vertical, or b = d."""
     if not PAIRS.has_axis(rows):
         return np.ones(len(rows), dtype=np.bool_)
     return np.asarray((rows[:, 7:9] == 0).all(axis=1) | (rows[:, 2] == rows[:, 3]))

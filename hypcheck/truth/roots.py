@@ -152,7 +152,7 @@ def _position(
 
 
 def _occurs(pair: Invariants) -> dict[str, bool]:
-    """Which of the conditions in Kind.occurs hold: a < 1 ⟺ A < 1, and c² < a ⟺ B² < A."""
+    """The conditions in Kind.occurs that hold: a < 1 ⟺ A < 1, and c² < a ⟺ B² < A."""
     square = pair.B**2
     return {
         "always": True,

@@ -227,7 +227,7 @@ def wrong_description(head: Metadata) -> Iterator[str]:
 
 
 def wrong_meanings(flags: Mapping[str, FlagFacts], known: Mapping[str, FlagFacts]) -> Iterator[str]:
-    """A sentence for each flag whose description in a file is not the meaning that is checked."""
+    """A sentence for each flag that a file describes otherwise than the checked meaning."""
     for flag, facts in flags.items():
         for name, stated, right in _differences(facts, known[flag]):
             yield f"the {name} of the flag {flag} is {stated}; it is {right}"

@@ -51,7 +51,7 @@ class Draw:
 
     @classmethod
     def of_blocks(cls, names: Sequence[Sequence[object]]) -> Draw:
-        """The streams of these names side by side; every requested n must be a multiple of their number."""
+        """The draw that joins a stream for each name; every requested n must be a multiple of the number of names."""
         draw = cls.__new__(cls)
         draw._streams = [_stream(name) for name in names]
         return draw

@@ -205,12 +205,10 @@ def select(patterns: Sequence[str] = (), taken: Groups | None = NO_GROUPS) -> tu
     for pattern in patterns:
         named = _named(pattern, known)
         if not named and _named(pattern, TILTED_FAMILIES):
-            raise InputError(
-                f"{pattern!r} names tilted spheroids, which only an implementation with tilt is asked about"
-            )
+            raise InputError(f"{pattern!r} names tilted spheroids; only implementations with tilt are tested on them")
         if not named and _named(pattern, ENDED_FAMILIES | ENDED_SWEEP_FAMILIES):
             raise InputError(
-                f"{pattern!r} names hyperboloids that end, about which only implementations that take heights are asked"
+                f"{pattern!r} names hyperboloids that end; only implementations that take heights are tested on them"
             )
         if not named and _named(pattern, SWEEP_FAMILIES):
             raise InputError(f"{pattern!r} names sweeps, which only the question passage is about")

@@ -197,7 +197,7 @@ def slight(draw: Draw, n: int) -> Rows:
 
 
 def stiff(draw: Draw, n: int) -> Rows:
-    """Near contact, ratios of sizes up to 2²⁷, about 10⁸."""
+    """Rows near contact, with ratios of sizes up to 2²⁷, about 10⁸."""
     size = sizes(draw, draw.log_uniform(n, -14, 14), draw.log_uniform(n, -14, 14), units=(-13, 13))
     height = draw.signs(n) * draw.log_uniform(n, -20, 4)
     return beside(draw, size, height, anywhere(draw, n), _nearly(draw, n))

@@ -289,7 +289,7 @@ def test_a_function_is_timed_and_a_fault_while_timing_is_reported():
         assert it.time(some, 1, row_by_row=True) > 0
         with pytest.raises(InputError, match="0 rows cannot be timed 1 time;"):
             it.time(some[:0], 1)
-        with pytest.raises(InputError, match="cannot be asked by scene"):
+        with pytest.raises(InputError, match="has no function for scenes"):
             it.time(some, 1, by_scene=True)
     with open_implementation(function("raises"), LIMITS) as it:
         with pytest.raises(TimingError, match="could not be timed: it raised ZeroDivisionError"):

@@ -185,7 +185,7 @@ def test_the_scene_function_of_a_library_is_called_for_rows_of_one_size(right, t
     with open_implementation(f"library:{library}", LIMITS) as it:
         assert not it.scene
         assert it.description.name == "faulty.so"
-        with pytest.raises(InputError, match="cannot be asked by scene"):
+        with pytest.raises(InputError, match="has no function for scenes"):
             it.classify(one, by_scene=True)
 
 

@@ -210,7 +210,7 @@ def test_one_sweep_beside_several_ends_is_tested_once_for_each():
         (lambda: hypcheck.clearance(SIZES, POINTS, margin=1), "there is no argument 'margin' here"),
         (lambda: hypcheck.classify(TABLE | {"axis_x": 1}), "the columns axis_y, axis_z are missing"),
         (lambda: hypcheck.classify(TABLE | {"axis_x": [1] * 4, "axis_z": 0}), "the column axis_y is missing"),
-        (hypcheck.passage, "nothing is asked: passage takes"),
+        (hypcheck.passage, "there are no arguments: passage takes"),
         (lambda: hypcheck.passage({**TABLE, "x": 3, "y": 0, "z": 5, "x1": 0, "y1": np.nan, "z1": 5}), "^y1 is nan"),
         (lambda: hypcheck.passage({"alpha": 1}), "columns gamma, b, d, x, y, z, x1, y1, z1 are missing"),
     ],
@@ -264,7 +264,7 @@ def test_heights_may_be_columns():
 @pytest.mark.parametrize(
     ("arguments", "named", "sentence"),
     [
-        ((), {}, "nothing is asked: it takes rows, a table of columns by name"),
+        ((), {}, "there are no arguments: it takes rows, a table of columns by name"),
         ((1, 2, 3), {}, r"3 arguments: it takes rows, .* or \(alpha, gamma, b, d, x, y, z\)"),
         ((SIZES[:3], POINTS), {}, "the sizes are 3; they must be four: alpha, gamma, b, d"),
         (("sizes", POINTS), {}, "the sizes are 'sizes'; they must be four"),

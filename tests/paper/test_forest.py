@@ -219,7 +219,7 @@ def test_number_of_steps_comes_from_the_scene_if_the_plan_has_none():
     ("scene", "steps", "message"),
     [
         (replace(FOREST, walk=None), 5, r"has no \[walk\]"),
-        (FOREST, 10**7, "10,000,000 steps were asked for; it must be 1,000,000 at most"),
+        (FOREST, 10**7, "10,000,000 steps are too many; the limit is 1,000,000"),
         (replace(FOREST, mover=replace(FOREST.mover, b=1e-9)), 5, "a simulation takes lengths from 1e-06"),
         (replace(FOREST, walk=replace(FOREST.walk, start=(0.0, 30.0, 0.0))), 5, "outside the scene's region"),
         (replace(FOREST, walk=replace(FOREST.walk, start=(0.0, 1e308, 0.0))), 5, "the walk's start is at 1e\\+308"),

@@ -30,7 +30,7 @@ class Number:
 
 @dataclass(frozen=True)
 class Kind:
-    """What a file answers about a row with these `columns`.
+    """A kind of emitted file: the answer that it gives about a row with these `columns`.
 
     `routine` makes a number, which is the answer where it is below `decided`; of a `passage` it is a time, and one up
     to 1 is the answer 1. Without a routine the statements are a program's, which makes exterior, interior and decided.

@@ -198,7 +198,7 @@ def axis_text(setting: Setting) -> str:
 
 
 def region(setting: Setting) -> str:
-    """Where the centre can be, as seen from the hyperboloid's, in a sentence or two."""
+    """The region of the centre, relative to the hyperboloid's centre, in a sentence or two."""
     spans = [f"{name} {_span(span)}" for name, span in zip("xyz", setting.box.spans, strict=True) if span is not None]
     beyond = "" if setting.cut is None else f" Beyond the height {_span(setting.cut)} the answer is {CANNOT_SAY}."
     return f"Region: {', '.join(spans) or 'everywhere'}.{beyond}"

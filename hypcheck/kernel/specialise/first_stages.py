@@ -196,7 +196,7 @@ def lines_for(
 
 
 def beyond(line: ProvedLine, form: FloatFormat, R: Floats, zz: Floats) -> Mask:
-    """Which centres the line decides, computed as the kernel does."""
+    """A mask of the centres that the line decides, computed as in the kernel."""
     inputs = {"R": R, "zz": zz, **line.constants}
     (mask,) = outputs(line.program, float_arithmetic(form.name), inputs, (line.holds,))
     return np.asarray(mask, dtype=bool)

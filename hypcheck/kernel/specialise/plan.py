@@ -134,10 +134,10 @@ def plan_of(scene: SceneModel, precision: str = "float64", most: int = MOST_SETT
     if len(settings) > most:
         raise InputError(
             f"the scene has {len(settings)} different pairs of sizes; a plan holds at most {most} "
-            "(hypcheck emit --whole keeps them in tables, and hypcheck.Scene asks any number)"
+            "(hypcheck emit --whole keeps them in tables, and hypcheck.Scene has no such limit)"
         )
     if not settings:
-        raise InputError("no kernel is made: no hyperboloid's height meets the region, so nothing is ever asked there")
+        raise InputError("no kernel is made: the region contains no height of a hyperboloid, so no query can reach one")
     return ScenePlan(scene, scene.question, form, tuple(_within(setting, scene.question, form) for setting in settings))
 
 

@@ -29,7 +29,7 @@ SWING = 1 + Fraction(1, 2**40)
 
 @dataclass(frozen=True, slots=True)
 class Box:
-    """Where the spheroid's centre can be, from the hyperboloid's centre; None: anywhere on that axis."""
+    """The region of the spheroid's centre, relative to the hyperboloid's centre; None: no limit along that axis."""
 
     x: Span | None = None
     y: Span | None = None
@@ -86,7 +86,7 @@ def _require_printable(scene: SceneModel) -> None:
             raise InputError(
                 f"no kernel is made: the hyperboloid {body.name!r} has the axis {list(body.axis)}, and a kernel counts "
                 "centres and the mover's axis in a frame in which the hyperboloid is upright; make one for that frame "
-                "and turn what you ask it into it, or ask hypcheck.Scene, which is exact in any frame"
+                "and convert each query into it, or use hypcheck.Scene, which is exact in any frame"
             )
         if body.solid and body.height is not None:
             raise InputError(

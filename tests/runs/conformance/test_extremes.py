@@ -37,7 +37,7 @@ def test_declared_range_limits_extreme_rows(tmp_path, capsys, domain):
     options = ["--families", FAMILY, "--domain", domain]
     assert main(["verify", "builtin:dual-float64", "--out", str(out), *options]) == 2
     said = capsys.readouterr().err
-    assert f"--families names {FAMILY}, and dual-float64 is asked no row of it: " in said
+    assert f"--families names {FAMILY}, and dual-float64 can be tested on none of its rows: " in said
     assert " of magnitudes outside its domain; leave it out, or set --precision or --domain" in said
 
 
