@@ -135,7 +135,7 @@ def _unproved(pair: Pair) -> DisagreementError:
 
 
 def answer_as_json(answer: Answer) -> str:
-    """The answer as one JSON object on one line, rationals as strings such as "3/2", what is infinite as "inf"."""
+    """The answer as one JSON object on one line, rationals as strings such as "3/2", infinite numbers as "inf"."""
     decision, (low, high) = answer.decision, distance_of(answer.pair)
     return json.dumps(
         {

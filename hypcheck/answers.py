@@ -1,4 +1,4 @@
-"""Answers about many rows, the same as about each pair alone but without proofs; and about a whole table.
+"""Answers about many rows, equal to those about single pairs but without proofs; and about a whole table.
 
 A table is answered a chunk at a time. One process reads the lines and writes the answers in order. Of a long table,
 other processes read the numbers and answer.

@@ -68,7 +68,7 @@ def first_that_applies(reasons: Iterable[int]) -> Exit:
 
 @dataclass
 class RunOutcome:
-    """The codes that a run has a reason to end with; the lines of its record say the reasons."""
+    """The exit codes for which a run has a reason; the lines of its record have the reasons."""
 
     codes: set[Exit] = field(default_factory=set)
 
@@ -103,7 +103,7 @@ class NothingJudgedError(HypcheckError):
 
 
 class UnavailableError(HypcheckError):
-    """An optional part (an oracle, a plot) cannot run here; the sentence says why and what would enable it."""
+    """An optional part (an oracle, a plot) cannot run here; the sentence gives the reason and the remedy."""
 
     exit_code = Exit.USAGE
 

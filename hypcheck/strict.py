@@ -367,7 +367,7 @@ def direction(value: object) -> tuple[float, float, float]:
 
 
 def or_word(word: Other, check: Check[Value]) -> Check[Value | Other]:
-    """A check for one word, or for what the other check takes."""
+    """A check that accepts one word, or any value that the other check accepts."""
 
     def with_word(value: object) -> Value | Other:
         if value == word:

@@ -60,7 +60,7 @@ class Forest:
 
     @cached_property
     def model(self) -> SceneModel:
-        """The forest as a scene that asks whether the walker is clear of it, on a plain."""
+        """The forest on a plain as a scene whose question is whether the walker is clear of all trees."""
         pairs = zip(self.kinds.tolist(), self.places.tolist(), strict=True)
         trees = tuple(_tree(number, kind, (x, y)) for number, (kind, (x, y)) in enumerate(pairs, start=1))
         return SceneModel("forest", "exterior", trees, WALKER, Region(z=Span(0.0, 0.0)))

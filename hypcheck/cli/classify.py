@@ -165,7 +165,7 @@ def _watch(size: int | None) -> Iterator[Callable[[int, int], object]]:
 def _pair_of(
     sizes: dict[str, str | None], center: tuple[str, str, str] | None, axis: tuple[str, str, str] | None
 ) -> Pair:
-    """The pair that these texts write. Raises InputError naming what is missing or no valid number."""
+    """The pair with these numbers, given as texts. Raises InputError naming a missing or invalid number."""
     missing = [f"--{name}" for name, text in sizes.items() if text is None] + ["--center"] * (center is None)
     if len(missing) == len(sizes) + 1 and axis is None:
         raise InputError("nothing to classify; give --alpha --gamma --b --d --center X Y Z, or --input and --output")
@@ -183,7 +183,7 @@ def _pair_of(
 
 
 def _with_heights(pair: Pair, z_min: str | None, z_max: str | None, solid: bool) -> Pair:
-    """The pair with these ends. Raises InputError naming what is not a valid height."""
+    """The pair with these ends. Raises InputError naming an invalid height."""
     if solid and z_min is None and z_max is None:
         raise InputError("--solid says that flat ends belong to the hyperboloid; give --z-min, --z-max or both")
     low = -math.inf if z_min is None else _number("--", "z-min", z_min)

@@ -61,7 +61,7 @@ def _from_here(word: str) -> str:
 @engines.command("list", short_help="Show the engines, their versions, and which are installed.")
 @_CACHE
 def list_(cache: Path) -> None:
-    """Show each engine: its name and version, what stands for a spheroid, and whether it is installed."""
+    """Show each engine: its name and version, the shape that it uses for a spheroid, and whether it is installed."""
     from hypcheck.engines.engine import ENGINES, is_installed, missing_tool
 
     click.echo(f"{'engine':<14} {'version':<10} {'body':<12} state")

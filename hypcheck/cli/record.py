@@ -179,7 +179,7 @@ def check(context: click.Context, /, record: Path) -> None:
     help="The file to write; - is standard output.",
 )
 def repair(record: Path, out: Path) -> None:
-    """Write everything of RECORD up to its last good line to another file, and say what is lost.
+    """Copy RECORD up to its last good line to another file, and report what is lost.
 
     A result without a footer is read as truncated: reports can be made of it, but it counts as no pass.
     """

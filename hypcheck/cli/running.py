@@ -63,7 +63,7 @@ class DetachableTerminal(io.TextIOBase):
             self._escape()
 
     def _escape(self) -> None:
-        """Send what is buffered to the null device: Python would try to write it again as it ends."""
+        """Send buffered output to the null device, because Python would try to write it again at its end."""
         with suppress(OSError):
             null = os.open(os.devnull, os.O_WRONLY)
             os.dup2(null, self._terminal.fileno())
@@ -236,7 +236,7 @@ def recording(
 
 
 def _print_beginning(title: str, provenance: Provenance | None) -> None:
-    """Print the title of a run, and how its implementations are isolated; the summary says its settings."""
+    """Print the title of a run and the isolation of its implementations; the summary prints the settings."""
     if provenance is not None and provenance.isolation is not None:
         from hypcheck.isolation.launch import isolation_text
 

@@ -1,4 +1,4 @@
-"""A project's settings: `hypcheck.toml` in the working directory. Each key stands for an option of the command line.
+"""A project's settings: `hypcheck.toml` in the working directory. Each key sets an option of the command line.
 
 Options on the command line take precedence. An unknown key or an invalid value is refused.
 """

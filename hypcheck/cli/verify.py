@@ -282,7 +282,7 @@ def verify(context: click.Context, /, specs: tuple[str, ...], **values: Any) -> 
 
 
 def in_ci() -> bool:
-    """Whether this is continuous integration, as the environment variable CI says."""
+    """Whether this process runs in continuous integration, by the environment variable CI."""
     return os.environ.get("CI", "").lower() not in ("", "0", "false")
 
 

@@ -100,7 +100,7 @@ def evaluate(program: Program, arithmetic: Arithmetic, inputs: Mapping[str, Any]
 def outputs(
     program: Program, arithmetic: Arithmetic, inputs: Mapping[str, Any], wanted: Iterable[str]
 ) -> tuple[Any, ...]:
-    """The values of the wanted names alone, as an Evaluator gives them; for a program that is evaluated once."""
+    """The values of the wanted names, as from an Evaluator; for a program that is evaluated once."""
     return Evaluator(program, arithmetic, wanted)(inputs)
 
 

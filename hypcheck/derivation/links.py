@@ -252,7 +252,7 @@ class Link:
 
     @property
     def holds(self) -> bool:
-        """Whether there is something to check and all of it holds."""
+        """Whether there is at least one part to check, and all parts hold."""
         return bool(self.parts) and all(part.holds for part in self.parts)
 
 
@@ -286,7 +286,7 @@ def chain(name: str, statement: str, *links: Link, needs: tuple[str, ...] = ()) 
 
 
 def identity(text: str, left: sympy.Expr, **meanings: sympy.Expr) -> Identity:
-    """A formula that says that `left` equals what the text says right of its last "=".
+    """A formula that `left` equals the expression in the text after its last "=".
 
     `meanings` are what letters there stand for.
     """
@@ -300,7 +300,7 @@ def known(text: str) -> Identity:
 
 
 def matrix_identity(text: str, left: sympy.Matrix) -> Identity:
-    """A formula that says that the matrix is what the text says right of "=".
+    """A formula that the matrix equals the matrix in the text after "=".
 
     Its rows are parted by semicolons, its entries by commas.
     """

@@ -36,7 +36,7 @@ def symbol(name: str) -> sympy.Symbol:
 
 
 def read(text: str) -> sympy.Expr:
-    """The formula that the text says; a matrix where it says diag(…)."""
+    """The formula that is written in the text; a matrix if the text is diag(…)."""
     code = text.replace("(λ)", "").replace("(g_i)", "").replace("−", "-").replace("·", "*")
     code = re.sub(f"[{_RAISED}]+", lambda digits: f"**{digits[0].translate(_TO_DIGITS)}", code)
     code = re.sub(r"√(\d+)", r"sqrt(\1)", code)

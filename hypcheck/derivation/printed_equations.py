@@ -131,7 +131,7 @@ def _cubic() -> Iterator[PrintedClaim]:
 
 @cache
 def rotor_meanings() -> dict[str, sympy.Expr]:
-    """What the letters of section 3.2 stand for: C(g_i) and B2 part (x_i² + y_i²)/b_s² into what turns and its mean."""
+    """The meanings of the letters of section 3.2: B2 is the rotors' mean of (x_i² + y_i²)/b_s², C(g_i) the rest."""
     x, y, z = rotor_centre()
     cubic, reach = rotor_cubic(), (x**2 + y**2) / ROTOR_B**2
     size_part = sympy.diff(pencil.cubic().c1, pencil.A).subs(pencil.IN_SEVEN)

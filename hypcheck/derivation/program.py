@@ -203,14 +203,14 @@ def cut(program: Program, known: Iterable[str], wanted: Iterable[str]) -> Progra
 
 @dataclass(frozen=True, slots=True)
 class Hoisting:
-    """A program's steps in two parts: those that depend on fixed inputs alone, and those that move with the rest."""
+    """A program's steps in two parts: those that depend only on fixed inputs, and the others."""
 
     outside: tuple[Step, ...]
     inside: tuple[Step, ...]
 
 
 def hoist(program: Program, fixed: Collection[str]) -> Hoisting:
-    """The program's steps, parted by whether they depend on the `fixed` inputs (and constants) alone.
+    """The program's steps in two parts: those that depend only on the `fixed` inputs and constants, and the others.
 
     Raises ValueError where one of these is no input of the program.
     """
@@ -229,7 +229,7 @@ def hoist(program: Program, fixed: Collection[str]) -> Hoisting:
 
 
 def split(program: Program, wanted: tuple[str, ...], fixed: tuple[str, ...]) -> tuple[Program, Program]:
-    """A program in two: what the fixed inputs alone decide, and what is left, up to the wanted names.
+    """A program as two: one of the steps that depend only on fixed inputs, and one from there to the wanted names.
 
     Inputs of a program are numbers, so a comparison of fixed numbers stays in the second part: it costs one operation.
     Raises KeyError where a wanted name does not exist.
@@ -249,13 +249,13 @@ _PREFIX = {operation.sign: name for name, operation in KNOWN.items() if len(oper
 
 
 def steps_of(text: str) -> tuple[Step, ...]:
-    """The steps a listing says, without remarks and blank lines. Raises ValueError naming a line it cannot read."""
+    """The steps that a listing contains. Raises ValueError naming a line that is not a step, a remark or blank."""
     lines = (line.partition("#")[0].strip() for line in text.splitlines())
     return tuple(_step_of(line) for line in lines if line)
 
 
 def program_of(name: str, inputs: tuple[str, ...], *listings: str) -> Program:
-    """The program whose steps the listings say one after the other."""
+    """The program with the steps of these listings, one listing after the other."""
     return Program(name, inputs, tuple(step for text in listings for step in steps_of(text)))
 
 

@@ -117,7 +117,7 @@ def questions_of(
     heights: Sequence[Argument] = WITHOUT_ENDS,
     form: CallForm = PAIR,
 ) -> Questions:
-    """The pairs or sweeps of a call. Raises InputError for other numbers of arguments, and for what is given twice."""
+    """The pairs or sweeps of a call. Raises InputError for a wrong number of arguments, and for a value given twice."""
     columns: dict[str, Argument] = {}
     _require_known(named, form)
     _add(columns, _by_position(arguments, named, form))

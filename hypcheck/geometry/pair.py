@@ -121,7 +121,7 @@ class Pair:
 
     @property
     def row(self) -> tuple[float, ...]:
-        """The numbers in the order of COLUMNS, those of the axis behind them unless it is UPRIGHT, then the heights.
+        """The numbers in the order of COLUMNS, followed by those of the axis unless it is UPRIGHT, then by the heights.
 
         Where the hyperboloid ends, both are there.
         """

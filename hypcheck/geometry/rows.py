@@ -56,7 +56,7 @@ CANNOT_SAY = 2
 
 @dataclass(frozen=True, slots=True)
 class Layout:
-    """The columns of rows: `upright` are the names of those of upright spheroids; for tilted ones, AXIS is behind.
+    """The columns of rows: `upright` are the names for upright spheroids; for tilted ones, AXIS follows them.
 
     Where hyperboloids end, HEIGHTS are behind AXIS, which is there for upright spheroids too. `subjects` say in a word
     what rows with none, one or both of these groups are about: of hyperboloids that end no cause is known.
@@ -104,7 +104,7 @@ class Layout:
         return self.ended[:width]
 
     def split(self, row: Sequence[Any]) -> tuple[Sequence[Any], Sequence[Any], Sequence[Any]]:
-        """The numbers of a row in three: sizes and centres, the axis, the heights; empty is what is not there."""
+        """The numbers of a row in three parts: sizes and centres, the axis, the heights; a missing part is empty."""
         upright, tilted = len(self.upright), len(self.tilted)
         return row[:upright], row[upright:tilted], row[tilted:]
 
@@ -276,7 +276,7 @@ def invalid(rows: Rows, layout: Layout = PAIRS) -> Mask:
 
 
 def parts_of(rows: Rows, layout: Layout = PAIRS) -> tuple[Rows, Rows, Rows]:
-    """The columns of rows in three: sizes and centres, the axis, the heights; (n, 0) what is not there."""
+    """The columns of rows in three parts: sizes and centres, the axis, the heights; a missing part is (n, 0)."""
     places = len(layout.upright), len(layout.tilted)
     return rows[:, : places[0]], rows[:, places[0] : places[1]], rows[:, places[1] :]
 
@@ -291,7 +291,7 @@ def with_axis(rows: Rows, layout: Layout = PAIRS) -> Rows:
 
 
 def scenes_of(rows: Rows) -> list[Indices]:
-    """The indices of the rows that differ in their centres alone, from the most rows to the fewest."""
+    """The indices of the rows of each scene, the largest scene first: rows of a scene differ only in their centres."""
     fixed = np.delete(rows, (4, 5, 6), axis=1)
     _, scene = np.unique(fixed, axis=0, return_inverse=True)
     order = np.argsort(scene.reshape(-1), kind="stable")

@@ -160,7 +160,7 @@ def numpy_roots(rows: Rows) -> Answers:
 
 
 def mpmath_roots(rows: Rows, digits: int) -> Answers:
-    """Positions (n,) by mpmath.polyroots; a root is real if polyroots says so."""
+    """Positions (n,) by mpmath.polyroots; a root is real if polyroots returns it as real."""
     return np.array([_mpmath_position(row, digits) for row in rows.tolist()], dtype=np.int8)
 
 

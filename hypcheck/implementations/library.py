@@ -243,7 +243,7 @@ class _AnswerRoom:
 
 
 class _Fenced:
-    """Memory for n values of that type; what is beside them is a fence, or a guard page."""
+    """Memory for n values of that type, between fences or guard pages."""
 
     def __init__(self, memory: GuardedMemory, n: int, kind: np.dtype[Any]) -> None:
         self._n = n

@@ -145,7 +145,7 @@ class BinaryReply(_Answers):
 
 
 class TextReply(_Answers):
-    """`SEQ N` and N lines of one integer, and of a time behind a 1 if there are times."""
+    """`SEQ N` and N lines with one integer each; if there are times, a time follows each 1."""
 
     def _after(self, incoming: bytearray, end: int) -> int:
         self._check_head(incoming, end)
@@ -263,7 +263,7 @@ class CommandSession(ProcessSession):
         return line
 
     def classify(self, rows: Rows, *, by_scene: bool = False) -> GivenAnswers:  # noqa: ARG002 - it has no entry for scenes
-        """An integer for each row, and times if the description says so."""
+        """An integer for each row, and times if the description promises them."""
         n, rows = len(rows), self._columns(rows)
         self._sequence += 1
         question, reply = f"classify {self._sequence} {n} {self._how}", self._reply(n)

@@ -104,7 +104,7 @@ class Session(Protocol):
     """Whether it has an entry for scenes: one set of sizes, many centres."""
 
     def classify(self, rows: Rows, *, by_scene: bool = False) -> GivenAnswers:
-        """Ask the rows: an integer for each and, if the description says so, times; neither is checked."""
+        """Send rows; return an unchecked integer for each and, if the description promises them, unchecked times."""
         ...
 
     def time(
@@ -359,7 +359,7 @@ class Supervisor:
 
 
 def _used_up(restarts: int) -> str:
-    """The part of a sentence that says that no restart is left."""
+    """The part of a sentence about restarts that are used up."""
     if not restarts:
         return "no restart is allowed"
     return "the one restart is used up" if restarts == 1 else f"{restarts} restarts are used up"

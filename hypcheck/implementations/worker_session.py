@@ -109,7 +109,7 @@ class WorkerSession(ProcessSession):
         return description
 
     def classify(self, rows: Rows, *, by_scene: bool = False) -> GivenAnswers:
-        """An integer for each row, and times if the description says so."""
+        """An integer for each row, and times if the description promises them."""
         call = self._call._replace(scene=by_scene)
         width, body = self._ask(frames.CLASSIFY, call, rows, 1, frames.ANSWERS)
         n, times = len(rows), self._call.times

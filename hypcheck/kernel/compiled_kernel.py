@@ -30,7 +30,7 @@ _SCALARS = (np.float32, np.int8, np.uint8, np.int16, np.uint16, np.int32, np.uin
 
 @cache
 def extension() -> ModuleType:
-    """The extension, which knows numpy's arrays from now on."""
+    """The extension module, after giving it numpy's array type."""
     module = compiled()
     samples = tuple(kind(77) for kind in _SCALARS)
     module.use_arrays(np.ndarray, np.empty, np.dtype(np.int8), 2 * ROWS_A_THREAD - 1, samples)

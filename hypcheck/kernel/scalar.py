@@ -132,7 +132,7 @@ def _valid_row(numbers: Sequence[float], axis: object) -> list[float]:
 
 
 def _plain(number: Argument) -> Argument:
-    """A scalar of numpy as a number of Python, and anything else as it is. From now on C knows numpy's scalars."""
+    """A scalar of numpy as a number of Python; other values are unchanged. Afterwards C knows numpy's scalar types."""
     numpy = sys.modules.get("numpy")  # until something imports it, nothing can be one
     if numpy is None or not isinstance(number, numpy.number):
         return number

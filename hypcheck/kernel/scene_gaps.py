@@ -264,7 +264,7 @@ def _heights(of: _Pairs, cells: Floats, normal: Floats) -> Floats:
 
 
 def _turns(of: _Pairs, cells: Floats, normal: Floats, heights: Floats) -> Floats:
-    """Angles (3, 3, m), three at each height; beside an upright spheroid one alone, which says nothing."""
+    """Angles (3, 3, m), three at each height; beside an upright spheroid only one, which has no effect."""
     if of.upright.all():
         return cells[None, None, :, 2]
     (n_x, n_y, _), share = normal.T, heights / of.gamma

@@ -164,7 +164,7 @@ class PlaneGrid:
         )
 
     def near_sweep(self, x: float, y: float, x_end: float, y_end: float) -> set[int] | None:
-        """The hyperboloids that may be near a sweep; None if it is too long, or too far out, to say at once."""
+        """The hyperboloids that may be near a sweep; None if it is too long or too far out for a quick look-up."""
         pad_x, pad_y = PAD * (abs(x) + abs(x_end)), PAD * (abs(y) + abs(y_end))
         across, along = x_end - x, y_end - y
         count = max(abs(across), abs(along)) / self.side

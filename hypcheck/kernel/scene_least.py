@@ -341,7 +341,7 @@ def _worth_asking(search: _Search, first: Indices, last: Indices, body: Indices,
 
 
 def _longer_reach(search: _Search, within: float, height: Span) -> float:
-    """How much farther from its axis than the grid knows a hyperboloid can be `within` a distance of the mover."""
+    """The length by which the grid's reach must grow to find all hyperboloids `within` a distance of the mover."""
     mover = search.mover
     larger = Mover((mover.b + within) * OUTWARD, (mover.d + within) * OUTWARD, axis=mover.axis)
     far = reaches(search.bodies, larger, height)

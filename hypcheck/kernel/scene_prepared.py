@@ -256,7 +256,7 @@ class PreparedScene:
 
 
 def bodies_with(bodies: Bodies, other: Bodies, place: int | None = None) -> Bodies:
-    """The columns with those of one other hyperboloid at a place, in the place of what is there; None: at the end."""
+    """The columns with one hyperboloid replaced at a place; None: with one more at the end."""
     columns = {}
     for part in fields(Bodies):
         column, one = getattr(bodies, part.name), getattr(other, part.name)
@@ -293,7 +293,7 @@ def grid_with(grid: PlaneGrid, place: int, x: float, y: float, reach: float) -> 
 
 
 def grid_without(grid: PlaneGrid, place: int, *, renumbered: bool) -> PlaneGrid:
-    """The grid without a hyperboloid; with `renumbered`, those behind it move up by one."""
+    """The grid without a hyperboloid; with `renumbered`, the numbers of later ones decrease by one."""
     members, starts = np.frombuffer(grid.members, np.intc), np.frombuffer(grid.starts, np.intc)
     gone = np.flatnonzero(members == place)
     fewer = np.searchsorted(gone, starts).astype(np.intc)  # how many are gone before each start

@@ -192,7 +192,7 @@ _HALVINGS = 60
 def first_contact(
     bodies: Bodies, index: int, mover: tuple[float, float, Sweep], parts: Sequence[tuple[float, float, Sweep]] = ()
 ) -> tuple[Fraction, Fraction]:
-    """The time of the first contact of a mover that is_clear says is not clear, in an interval, or as one number twice.
+    """An interval for the time of first contact of a mover that is not clear by is_clear; one number twice if exact.
 
     Where parts decide, exact decisions about the sweep up to a time halve the interval.
     """

@@ -213,7 +213,7 @@ def require_ordinary(scene: SceneModel) -> None:
 
 
 def _places(scene: SceneModel) -> Iterator[tuple[str, float]]:
-    """Every start or limiting coordinate of a simulation, and what is there."""
+    """Every start or limiting coordinate of a simulation, each with a name for messages."""
     for body in scene.hyperboloids:
         yield from ((f"the centre of {body.name!r}", value) for value in body.center)
         yield from _ends(f"the height of {body.name!r}", body.height)

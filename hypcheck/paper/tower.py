@@ -99,7 +99,7 @@ STATEMENT = (
 
 
 def statement(craft: Craft) -> str:
-    """The statement to show with every table; it also says if rotors overlap or leave the body."""
+    """The statement to show with every table; it also mentions rotors that overlap or leave the body."""
     (_, _, b, _), (_, _, small, _) = craft.sizes, craft.rotor
     apart, inside = math.sqrt(2.0) * craft.arm >= 2 * small, craft.arm + small <= b
     if apart and inside:

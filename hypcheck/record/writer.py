@@ -95,7 +95,7 @@ class GrowingFile:
         return self
 
     def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
-        """Close the file. Raises InputError if data may be lost, and no other error says so already."""
+        """Close the file. Raises InputError if data may be lost, unless another error already reports it."""
         try:
             if self._file is not None:
                 self._file.close()

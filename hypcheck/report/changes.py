@@ -215,7 +215,7 @@ _RATIOS = document.prose(
 
 
 def change_section(record: Record, against: Record) -> document.Section:
-    """The changes; if nothing changed, it says so."""
+    """The section of the changes; a sentence if nothing changed."""
     statuses, accuracies = status_changes(against, record), accuracy_changes(against, record)
     ratios = ratio_changes(against, record)
     began = against.header.started

@@ -214,7 +214,7 @@ def bullets(items: Sequence[Text | Item]) -> Bullets:
 
 
 def count(number: int, *, bad: bool = False) -> TableCell:
-    """The cell of a count; with `bad`, a count above zero stands out."""
+    """The cell of a count; with `bad`, a count above zero has the tone "bad"."""
     shown = f"{number:,}"
     return TableCell(Strong(shown), number, "bad") if bad and number else TableCell(shown, number)
 

@@ -207,7 +207,7 @@ class MethodSummary(fields.LinePart, frozen=True, kw_only=True):
 
 
 class FailureSummary(fields.LinePart, frozen=True, kw_only=True):
-    """A failure of the run, and how many of its kind it stands for."""
+    """A failure of the run, and the number of failures of its kind that it represents."""
 
     subject: Annotated[str, fields.one_of("proof", "oracle", "implementation", "findings", "measurement")]
     name: str

@@ -302,7 +302,7 @@ def _direction_in_float32(x: Floats, y: Floats, z: Floats) -> Axes:
 
 
 def _along(factor: Callable[[Rows], Floats]) -> Rule:
-    """M = I/b² + (1/d² − 1/b²) f v vᵀ/(v·v): the spheroid that a factor f of 1 would leave as it is."""
+    """The matrix I/b² + (1/d² − 1/b²) f v vᵀ/(v·v), which is the spheroid's own if f = 1."""
 
     def change(rows: Rows) -> Rows:
         b, d = rows[:, 2], rows[:, 3]

@@ -149,7 +149,10 @@ def _require_valid_mover(mover: Mover) -> None:
         if trouble is None and part.arm < 0:
             trouble = f"arm is {part.arm!r}; it must be 0 or more"
         if trouble is None and not within(part, mover.b, mover.d):
-            trouble = "it reaches beyond the mover; it must lie within it, because it is tested only if the mover is not clear"
+            trouble = (
+                "it reaches beyond the mover; it must lie within it, "
+                "because it is tested only if the mover is not clear"
+            )
         if trouble is not None:
             raise InputError(f"part {number}: {trouble}")
     trouble = None if mover.axis == FREE else trouble_with_axis(mover.axis)

@@ -91,7 +91,7 @@ def in_layout(numbers: Rows, columns: Sequence[str], layout: Layout) -> Rows:
 
 
 def added_to(columns: Sequence[str]) -> tuple[str, ...]:
-    """The names of all that may be added to rows of these columns: what a column of the table cannot be called."""
+    """The names of all columns that may be added to rows of these columns; the table must not have these names."""
     return ADDED_TO_SWEEPS if pair.END[0] in columns else (*ADDED, WITH_MARGIN)
 
 
@@ -167,7 +167,7 @@ class Table:
 
     @property
     def added(self) -> tuple[str, ...]:
-        """The names of what is added to a row."""
+        """The names of the cells that are added to a row."""
         return tuple(name for name in added_to(self.columns) if name != WITH_MARGIN or self.margin)
 
 
@@ -202,7 +202,7 @@ class Answers(Protocol):
 def with_answers(
     texts: Iterable[str], answers: Answers, cell_text: Callable[[Cell], str], marks: Sequence[str], end: str
 ) -> bytes:
-    """The text of each row, then each added cell behind its mark, then the end."""
+    """The text of each row, followed by the added cells, each after its mark, and the end."""
 
     @cache
     def head_text(head: tuple[Cell, ...]) -> str:

@@ -236,7 +236,7 @@ HEADING, FLIGHT = "heading", "flight"
 
 @dataclass(frozen=True)
 class FlightTable:
-    """Flights of a file: `names`, corners (T, 3) each, and per segment, of all one after the other, what is given.
+    """Flights of a file: `names`, corners (T, 3) each, and the given headings and axes of all segments in order.
 
     `headings` (n,) and `axes` (n, 3) are None where the file has none.
     """

@@ -121,7 +121,7 @@ class Writer:
             self._file.write(data)
 
     def flush(self, *, to_disk: bool = False) -> None:
-        """Write what is buffered, with `to_disk` to the disk itself. Raises InputError."""
+        """Write the buffered data; with `to_disk`, wait until they are on the disk. Raises InputError."""
         with _errors_name("write", self.name):
             self._file.flush()
             if to_disk:

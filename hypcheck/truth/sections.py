@@ -179,7 +179,7 @@ class Sections:
         return 2 * roots == sum(self.roots(chain, low, high) for chain in chains)
 
     def wall_crosses(self, low: int, high: int) -> bool:
-        """Whether points of the wall between two heights lie inside the spheroid, and not on its surface alone.
+        """Whether points of the wall between two heights lie strictly inside the spheroid.
 
         Between two roots next to each other of the critical polynomial the least e of the circles keeps its sign: one
         height in each gap is asked, and the two ends, for the gaps that they cut.

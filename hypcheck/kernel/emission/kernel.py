@@ -95,7 +95,7 @@ def require_prefix(prefix: str, language: str) -> None:
 
 
 def emitted(plan: ScenePlan, language: str, command: Sequence[str], prefix: str = PREFIX) -> str:
-    """The text of the kernel; `command` is what its header says made it. Raises InputError.
+    """The text of the kernel; its header names `command` as the command that wrote it. Raises InputError.
 
     Its exported functions are `prefix`_classify, `prefix`_classify_scene and `prefix`_describe.
     """

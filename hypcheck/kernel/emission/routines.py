@@ -63,7 +63,7 @@ class _Printer:
         return self.dialect.say(phrase, number=self.dialect.number_of(self.precision), **words)
 
     def type_of(self, kind: str) -> str:
-        """The type of what is of this kind."""
+        """The name of the language's type for this kind."""
         if kind in self.dialect.types:
             return self.dialect.types[kind]
         return self.spelling.number if kind == NUMBER else self.spelling.boolean

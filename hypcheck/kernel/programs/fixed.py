@@ -1,4 +1,4 @@
-"""The programs of the stage before the integers: the same rule in fixed point, 128 bits with a bound of what is cut.
+"""The programs of the stage before the integers: the same rule in 128-bit fixed point, with a bound of the cut bits.
 
 Each number is a whole number of units, in two's complement; a product keeps the highest 128 of its 256 bits. Nothing is
 rounded by the machine's floats, so one bound holds under every rounding mode.

@@ -199,7 +199,7 @@ BOUNDED = {**tilted.BOUNDED, "F_slope": "e_slope", "F_bend": "e_bend"}
 
 @cache
 def counted() -> ErrorCounts:
-    """The counts of rounding factors and the magnitudes of what is bounded."""
+    """The counts of rounding factors, and the magnitudes, of the bounded values."""
     return relative_error_counts(VALUES, (*BOUNDED, "distance", "distance_2", "s_along"), positive=(*SIZES, *LENGTHS))
 
 

@@ -129,7 +129,7 @@ BOUNDED = {"p_l": "e_pl", "k": "e_k", "d_l": "e_d", "F": "e_F", "psi": "e_psi"}
 
 
 def counted() -> ErrorCounts:
-    """The counts of rounding factors and the magnitudes of what is bounded."""
+    """The counts of rounding factors, and the magnitudes, of the bounded values."""
     return relative_error_counts(VALUES, BOUNDED, positive=SIZES)
 
 

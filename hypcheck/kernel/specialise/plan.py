@@ -69,7 +69,7 @@ class Omission:
 
 @dataclass(frozen=True)
 class Stages:
-    """A setting's way to an answer: `entry`, then lines, the centre's side and the discriminant, then what is `last`.
+    """The stages of a setting in order: `entry`, then lines, the centre's side and the discriminant, then `last`.
 
     `entry` leads from x, y, z to R, zz and height with `entry_constants`; `centre` holds the constants of the side,
     whose test follows the lines where the question is one-sided. `last` is a search, which answers all that is left;

@@ -234,7 +234,7 @@ def _over(bodies: Iterable[Hyperboloid], kept: tuple[tuple[str, str, str], ...],
 
 
 def position_routine(scene: SceneModel) -> Routine:
-    """The position of a mover in the scene, or the answer to its question, by a number; 2 cannot say."""
+    """The routine of a mover's position in the scene, or of the answer to its question; 2 means "cannot say"."""
     body: tuple[Part, ...] = (
         *steps_of(_AXIS_SIZES + _level("place") + _OF_PLACE + _ENDS),
         Call("found", LOOK, (*_arguments(sweep=False), 0)),

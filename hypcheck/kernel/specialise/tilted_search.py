@@ -140,7 +140,7 @@ def _highs(*pairs: str) -> tuple[str, ...]:
 
 
 def _nearly(*pairs: str) -> tuple[Half, ...]:
-    """The first numbers of pairs: what doubles know of them."""
+    """The first numbers of pairs: their values rounded to doubles."""
     return tuple(Half(high, pair) for high, pair in zip(_highs(*pairs), pairs, strict=True))
 
 

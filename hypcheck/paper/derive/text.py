@@ -26,7 +26,7 @@ _NUMBER, _VERDICT, _TITLE = 34, 49, 10
 
 
 def lines(chosen: Selection) -> Iterator[str]:
-    """All that was chosen; each part says at its head what it is."""
+    """The selected parts, each with a heading."""
     if "derivation" in chosen.parts:
         yield from _heading("derivation")
         yield from paragraph(

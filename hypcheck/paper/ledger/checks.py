@@ -85,12 +85,12 @@ REMARK_6 = (
 
 
 def same_cubic_of_interior_and_contact() -> Evidence:
-    """Evidence that no function of g tells an interior pair from one in contact (Remark 4)."""
+    """Evidence that no function of g distinguishes an interior pair from one in contact (Remark 4)."""
     return _same_cubic(REMARK_4, Position.INTERIOR, lambda pair: pair.B**2 >= pair.A)
 
 
 def same_cubic_of_exterior_and_contact() -> Evidence:
-    """Evidence that no function of g tells an exterior pair from one in contact (Remark 6)."""
+    """Evidence that no function of g distinguishes an exterior pair from one in contact (Remark 6)."""
     return _same_cubic(REMARK_6, Position.EXTERIOR, lambda pair: pair.A >= 1)
 
 
@@ -189,7 +189,7 @@ def scaling_of_the_spheroid() -> Evidence:
 
 
 def mirrored_cubic() -> Evidence:
-    """Evidence that g(−λ) is what the proof of Proposition 3 says."""
+    """Evidence that g(−λ) is as stated in the proof of Proposition 3."""
     cubic, at = pencil.cubic(), pencil.LAMBDA
     mirrored = -(at**3) + cubic.c2 * at**2 - cubic.c1 * at + cubic.c0
     return _same("g(−λ)", sympy.expand(cubic.g.subs(at, -at)), sympy.expand(mirrored))

@@ -110,7 +110,7 @@ class CurveStyle(NamedTuple):
 
 
 def colour(role: str) -> str:
-    """The colour that stands for a role while a plot is drawn (SVG makes it a class)."""
+    """The colour that represents a role while a plot is drawn; the SVG has a class instead."""
     return ROLES[role][0]
 
 

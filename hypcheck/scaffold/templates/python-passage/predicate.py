@@ -46,7 +46,7 @@ def predicate(*columns: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def tilted(*columns: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The same with the spheroids' axes of revolution, axis_x, axis_y, axis_z, behind the other columns.
+    """The same with the spheroids' axes of revolution, axis_x, axis_y, axis_z, after the other columns.
 
     They are vectors of any length and sign, the same all the way. The stub ignores them.
     """

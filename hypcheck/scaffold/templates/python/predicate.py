@@ -47,7 +47,7 @@ def predicate(*columns: NDArray[np.float64]) -> NDArray[np.int8]:
 
 
 def tilted(*columns: NDArray[np.float64]) -> NDArray[np.int8]:
-    """The same with the spheroids' axes of revolution, axis_x, axis_y, axis_z, behind the other columns.
+    """The same with the spheroids' axes of revolution, axis_x, axis_y, axis_z, after the other columns.
 
     They are vectors of any length and sign, upright where axis_x = axis_y = 0. The stub ignores them: wrong as soon as
     a spheroid is tilted.
