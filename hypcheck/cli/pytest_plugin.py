@@ -42,7 +42,7 @@ GATES_NOTHING: Mapping[str, str] = MappingProxyType(
         "resume": "reports what another run asked",
     }
 )
-"""Options of `hypcheck verify` with which a test would pass although nothing was asked."""
+"""Options of `hypcheck verify` with which a test would pass although nothing was tested."""
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

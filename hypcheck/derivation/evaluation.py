@@ -40,7 +40,7 @@ class Arithmetic:
 class Evaluator:
     """A program made ready for one arithmetic: a function from inputs by name to the wanted values, in their order.
 
-    Only the steps that the wanted names depend on are evaluated, and only the inputs that these read are asked for;
+    Only the steps that the wanted names depend on are evaluated, and only the inputs that these read are needed;
     `inputs` names them. `fixed_values` are values by name that every call uses, converted once. Names are
     looked up once, so that a call on small arrays spends its time on arithmetic; an intermediate value is freed after
     its last use, so that large arrays take no more memory than they must.

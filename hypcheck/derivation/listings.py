@@ -315,7 +315,7 @@ def proposition_5(suffix: str = "") -> str:
 
 
 def not_all_positive(suffix: str = "") -> str:
-    """`some_negative`: not (c2 < 0 and c1 > 0), which Proposition 5 put right asks for beside Δ > 0."""
+    """`some_negative`: not (c2 < 0 and c1 > 0), which the corrected Proposition 5 requires in addition to Δ > 0."""
     end = suffix
     return f"""
     c2_negative{end} = c2{end} < 0

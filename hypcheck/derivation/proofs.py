@@ -1,6 +1,6 @@
 """The proof that each program computes its formula: what each step must equal, over sympy, and each decision.
 
-The numbers of a program are evaluated in symbols and compared with the derivation. Its decision is asked for every
+The numbers of a program are evaluated in symbols and compared with the derivation. Its decision is tested for every
 combination of signs (decisions.py). The rules themselves rest on the identities of links.py and on the argument in
 listings.py.
 """
@@ -253,7 +253,7 @@ def _prove_decision(formula: Formula, decision: DecisionRule) -> Proof:
 
 
 def _decides(part: Program, decision: DecisionRule) -> bool:
-    """Whether the program decides every case by the rule; all are asked at once, as arrays.
+    """Whether the program decides every case by the rule; all cases are evaluated at once, as arrays.
 
     Whole numbers below 2⁵³ are exact in float64, and what is not a whole number there proves nothing.
     """

@@ -82,7 +82,7 @@ class Position(IntEnum):
 
 
 REFUSED = 127
-"""The answer code of a row that is not a valid query, if the caller asked for invalid rows to be marked."""
+"""The answer code of an invalid row, if the caller wants invalid rows to be marked."""
 
 
 @dataclass(frozen=True, slots=True)

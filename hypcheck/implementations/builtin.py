@@ -37,7 +37,7 @@ DIGITS = (15, 30, 50, 100)
 """Decimal digits with which mpmath computes roots."""
 
 SLOW_ROWS = 24
-"""A method that takes milliseconds for a row is asked so many rows of a family."""
+"""The number of rows of a family on which a method that takes milliseconds for a row is tested."""
 
 LONG_DOUBLE = {2.0**-63: "x87", 2.0**-112: "binary128"}.get(float(np.finfo(np.longdouble).eps))
 """The precision of numpy's long double on this machine; None if it is float64, or two of them."""
@@ -135,7 +135,7 @@ def _nearest(rows: Rows) -> Answers:
 
 
 FCL_ROWS = 12
-"""Plain FCL is asked so many rows of a family: it builds a mesh for each, which takes milliseconds."""
+"""The number of rows of a family on which plain FCL is tested: it builds a mesh for each, which takes milliseconds."""
 
 NAIVE_FCL = {
     "ellipsoid": "FCL's ellipsoid against a plain mesh of 2,000 triangles",
@@ -213,7 +213,7 @@ SAMPLES = (4, 16, 64, 256)
 """Positions of a sweep at which a sampling method looks."""
 
 SWEEP_ROWS = 200
-"""A method that takes a millisecond for a sweep is asked so many of a family."""
+"""The number of sweeps of a family on which a method that takes a millisecond for a sweep is tested."""
 
 
 @cache
@@ -265,7 +265,7 @@ def _passage_method(
 
 @cache
 def passage_mesh_methods() -> dict[str, Method]:
-    """Every built-in method that asks a collision engine about sweeps, by its name, even if the engine is not here."""
+    """The built-in methods for sweeps that use a collision engine, by name, even if the engine is not installed."""
     return {name: _sweep_mesh_method(solver) for name, solver in SWEEP_SOLVERS.items()}
 
 

@@ -1,6 +1,6 @@
 """The domain where an implementation claims to be right, and which rows it and a precision hold. Others are skipped.
 
-A row that is not asked is not right. Every report says how many there are, and why.
+A row that is not tested does not count as right. Every report has the number of such rows and the reasons.
 """
 
 from __future__ import annotations
@@ -84,7 +84,7 @@ class Domain:
     def holds(self, rows: Rows, *, extreme: bool = False, layout: Layout = PAIRS) -> Mask:
         """A mask (n,) of the rows inside the domain.
 
-        `extreme` rows belong to a family that is asked only on request; then ranges that were not declared are
+        `extreme` rows belong to a family that runs only on request; then ranges that were not declared are
         unbounded.
         """
         unbounded = extreme or self.settings
@@ -180,7 +180,7 @@ ROWS: Mapping[str, str] = MappingProxyType(
         "slow": "beyond what a slow method is asked",
     }
 )
-"""Why rows of a family that is asked are not, in words, by the reasons' names in a record."""
+"""The reasons why single rows of a tested family are not tested, in words, by their names in a record."""
 
 FAMILIES: Mapping[str, str] = MappingProxyType(
     {
@@ -191,7 +191,7 @@ FAMILIES: Mapping[str, str] = MappingProxyType(
         "question": "about another question",
     }
 )
-"""Why no row of a family is asked, likewise."""
+"""The reasons why no row of a family is tested, in words, by their names in a record."""
 
 
 FEWEST, SHARE = 100, 100

@@ -69,7 +69,7 @@ mark that nobody can guess; then the rows."""
 REPLY = struct.Struct("=4sIQQ")
 """The kind of reply, the bytes of an answer (1 or 8), the bytes that follow, and the mark of the request.
 
-Answers are followed by their times, if these were asked.
+Answers are followed by their times if these were requested.
 
 Without the mark, bytes that foreign code writes into the pipe would look like a reply, and the true reply like that to
 the next question. The first reply, which has no request, has the mark 0.

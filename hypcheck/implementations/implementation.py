@@ -36,7 +36,7 @@ from hypcheck.implementations.worker_session import WorkerSession
 from hypcheck.messages import counted
 
 MAX_FAULTS = 1 << 14
-"""The number of rows that may fail without ending the process, so that not every row of a broken one is asked."""
+"""The number of rows that may fail without ending the process: it spares testing every row of a broken one."""
 
 _FIRST, _GROWTH = 64, 16
 _SHARE = 10
@@ -77,7 +77,7 @@ class Implementation:
         self.max_rows = self._supervisor.max_rows
         """The most rows of a family that it answers in reasonable time; None if that is not known."""
         self.scene = self._supervisor.scene
-        """Whether it can be asked by scene: one set of sizes, many centres."""
+        """Whether it has a function for scenes: one set of sizes, many centres."""
         self.proven_batch = min(_FIRST, self._supervisor.max_batch)
         """Largest batch that it has answered well within the timeout so far."""
 
@@ -205,7 +205,7 @@ class Implementation:
 
 
 ALONE = 4096
-"""Rows that are asked one by one to find the one that ends the process; more rows are first asked in such parts.
+"""Rows that are tested one by one to find the one that ends the process; more rows are first tested in such parts.
 
 Thus the search costs at most two more processes, and one for each further such row. Rows that end no process are found
 by halving.
@@ -253,7 +253,7 @@ class RowQuestions:
     def _search(self, start: int, stop: int, fault: FaultError, reason: str) -> None:
         """Find the rows at fault by asking parts, and parts of the parts that fail.
 
-        Only the rows at fault are charged, because the cost of the search depends on how many rows were asked at once.
+        Only the rows at fault are charged, because the cost of the search depends on the size of the question.
         """
         if stop - start == 1:
             self._charge(start, fault, reason)

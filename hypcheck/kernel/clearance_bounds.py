@@ -66,7 +66,7 @@ CONSTANTS = {
 """Those of the same steps in C (core/parts/near.h). Products from least_grown to greatest_grown are rounded well."""
 
 Question = Callable[[Indices, Floats], Mask]
-"""Whether rows of these numbers have what is asked, for these factors or lengths."""
+"""A function from the numbers of rows and factors or lengths to a mask of the rows with the wanted property."""
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,6 @@
 """Many straight sweeps, of one pair of sizes or of a whole scene: which have contact, when first, and with what.
 
-Hits are decided at once, times when they are asked for: the first costs a microsecond, the other a millisecond a sweep.
+Hits are decided at once, times at their first use: a hit costs a microsecond, a time a millisecond a sweep.
 """
 
 from __future__ import annotations

@@ -175,7 +175,7 @@ class Scene(PreparedScene):
         `start` and `end` are (n, 3) or (3,), in the scene's coordinates; `heading`, (n,) or a number, and `axis`, as in
         classify, are the same all along. `.hit` says exactly whether there is contact on the sweep, whatever the
         scene's question is; `.first_lower` ≤ first time ≤ `.first_upper`, 0 at the start and 1 at the end, `.index` is
-        the hyperboloid, and `.first` has the times as fractions; they are found when they are asked for, a millisecond
+        the hyperboloid, and `.first` has the times as fractions; they are computed at their first use, a millisecond
         a hit. A part moves straight from its place at the start to its place at the end; it is tested if the mover has
         contact. Beside an end of a hyperboloid, a miss by less than 2^−240 of the mover's size counts as contact.
         Raises InputError for numbers that are not finite, and for an axis where the scene fixes it.
@@ -200,7 +200,7 @@ class Scene(PreparedScene):
         other. `.hit`, `.segment` and the first contact's `.time_lower` ≤ time ≤ `.time_upper`, `.index`, the
         hyperboloid's, and `.center` are decided as by passage. `.least` has the least distance of the mover itself,
         without its parts: `.distance_lower`, `.distance_upper`, `.segment`, `.time`, `.index`, `.center`. Times and
-        `.least` are found when they are asked for. Raises InputError for numbers that are not finite and for a path
+        `.least` are computed at their first use. Raises InputError for numbers that are not finite and for a path
         without points.
 
         """

@@ -297,7 +297,7 @@ def _least_on(
 ) -> tuple[Floats, Floats, Indices, Mask]:
     """Both bounds of the least distance on each piece, the hyperboloid that it is from, and whether there is contact.
 
-    Where the mover meets contact, the distance is 0, and which hyperboloid it meets is not asked.
+    Where the mover meets contact, the distance is 0, and the hyperboloid is not determined.
     """
 
     def first_contacts(chosen: list[int]) -> FirstContact:

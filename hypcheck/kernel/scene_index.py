@@ -1,6 +1,6 @@
 """The scene index (broad phase): hyperboloids as columns, how far each reaches, and a grid over the plane.
 
-Beyond its reach from a hyperboloid's axis a mover is exterior, and nothing is asked. A spheroid at height z occupies
+Beyond its reach from a hyperboloid's axis a mover is exterior without a test. A spheroid at height z occupies
 heights z − d … z + d and reaches b from its centre. The surface is nowhere wider in that range than
 ρ = α √(1 + ((|z| + d)/γ)²), so a centre farther than ρ + b from the axis touches nothing and is outside. That is formed
 in floats with eight roundings at most, on positive terms: OUTWARD, far more than 8u, covers them, and the rounding of a
@@ -117,10 +117,10 @@ def in_reach(bodies: Bodies, mover: Mover, centre: tuple[float, float, float]) -
 
 
 MOST_CELLS = 64
-"""Cells that one hyperboloid may stand in; above that it is asked always."""
+"""The most cells that one hyperboloid may occupy; a hyperboloid in more cells is always tested."""
 
 WIDEST = 2**30
-"""Cells are numbered from −WIDEST to WIDEST on either axis; what is farther out is asked always."""
+"""Cells are numbered from −WIDEST to WIDEST on either axis; hyperboloids farther out are always tested."""
 
 ROOM = 2
 """Places of the table for each entry, at least."""
@@ -133,7 +133,7 @@ ACROSS, ALONG = 73856093, 19349663
 class PlaneGrid:
     """Place p of the table holds the `members` from `starts[p]` up to `starts[p + 1]`; its size is a power of two.
 
-    `everywhere` are the hyperboloids that every centre is asked about.
+    `everywhere` are the hyperboloids that are tested for every centre.
     """
 
     side: float

@@ -39,7 +39,7 @@ _ROUNDED = 2.0**-44
 """More than the rounding of a place on a segment, and of a distance there, in units of the coordinates."""
 
 _ROUNDS, _MOST_PIECES = 200, 1 << 18
-"""Where more would have to be asked, the bounds stay as they are."""
+"""If more pieces than this would have to be tested, the bounds are not narrowed further."""
 
 _FEW = 8
 """Sweeps that are decided exactly where bounds do not decide; each takes some milliseconds."""

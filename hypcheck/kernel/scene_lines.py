@@ -87,7 +87,7 @@ PROVES_NOTHING: dict[str, Line] = {"beyond": (NEVER, 0), "within": (-1, 0), "und
 
 @dataclass(frozen=True, slots=True)
 class KnownPlace:
-    """A place of the plane of T = z² and R = x² + y² where the position is known not to be the one asked about."""
+    """A place in the plane of T = z² and R = x² + y² whose position is known to differ from the tested one."""
 
     T: float
     R: float

@@ -126,7 +126,7 @@ def is_clear(
 ) -> bool:
     """Whether a mover (b, d, sweep) stays clear of a hyperboloid, or its parts do, always together on one side.
 
-    The parts are asked at the times at which the mover is in contact.
+    The parts are tested at the times at which the mover is in contact.
     """
     spheroids = [mover, *parts]
     if all(_between_ends(bodies, index, *spheroid) for spheroid in spheroids):

@@ -417,7 +417,7 @@ class PitchVerdicts(VerdictCounts):
 
 
 CENTRES = 20_000
-"""How many centres near the wall are asked about."""
+"""The number of tested centres near the wall."""
 
 VERSION = 1
 """Version of the centres near the wall, raised whenever they are other ones."""

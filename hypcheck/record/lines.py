@@ -37,7 +37,7 @@ class Machine(fields.LinePart, frozen=True, kw_only=True):
 
 
 class WeakenedPart(fields.LinePart, frozen=True, kw_only=True):
-    """An option with which a run fails less or asks less than by default; `source`: settings file or command line."""
+    """An option that makes a run less strict or smaller than by default; `source`: settings file or command line."""
 
     option: str
     value: str

@@ -250,7 +250,7 @@ def _not_asked(total: model.ImplementationTotal, record: Record) -> Iterator[str
 
 
 _NAMED = 3
-"""At most so many families without a row that was asked are named in a verdict."""
+"""The most families without a tested row that a verdict names."""
 
 
 def _oracle_clause(totals: list[model.OracleTotal]) -> str:

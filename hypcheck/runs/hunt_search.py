@@ -154,7 +154,7 @@ CROSSING_BLOCK = 96
 """Rows of a crossing that are made at a time: to reach the border costs more than a question."""
 
 SWEEPS_TOGETHER = 24
-"""Sweeps of a family that are asked at a time: one takes milliseconds to decide."""
+"""The number of sweeps of a family that are tested at a time: one takes milliseconds to decide."""
 
 VERSION = 1
 """The version of the generator of crossings, part of its seed."""
@@ -384,7 +384,7 @@ FIRST_LOOK = 128
 """Rows of each stratum in the first round; whole blocks follow."""
 
 CLIMBERS_TOGETHER = 4
-"""The number of climbers, each of another cluster, that are asked at the same time."""
+"""The number of climbers, each of another cluster, whose rows are tested together."""
 
 Progress = Callable[[Hunt], object]
 

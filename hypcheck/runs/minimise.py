@@ -204,7 +204,7 @@ PIECE = {PAIRS: 2048, SWEEPS: 64}
 """Rows of a question. What happens on a sweep takes milliseconds to decide."""
 
 MAX_ROWS = 30_000
-"""At most so many rows are asked for one step, the simplest ones."""
+"""The most rows that one step tests; the simplest ones come first."""
 
 
 Variants = Callable[[Row, Layout], Iterable[Row]]

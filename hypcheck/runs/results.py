@@ -103,13 +103,13 @@ def merged_result(results: Iterable[CasesResult]) -> CasesResult:
 
 
 RETESTED_CASES = 32
-"""At least so many cases of each chunk are asked again; of large chunks, one in a hundred."""
+"""The least number of cases of each chunk that are tested again; of large chunks, one in a hundred."""
 
 RETESTED_OF_SCENE = 2048
 """At least so many of a family's first chunk, if all are of one scene and a function for scenes is to be asked."""
 
 RETESTED_MOVEMENTS = 8
-"""At least so many movements of each chunk are asked again if its cases follow objects from moment to moment."""
+"""The least number of movements of each chunk that are tested again if its cases follow moving objects."""
 
 
 @dataclass(frozen=True)

@@ -74,7 +74,7 @@ COORDINATES: Mapping[str, Callable[[Rows], Floats]] = MappingProxyType(
 UPRIGHT = tuple(COORDINATES)[:6]
 
 ROWS_OF_ONE = 3
-"""So many rows are asked in each slice of one coordinate that is as wide as a run says."""
+"""The number of tested rows in each slice of one coordinate that has the reported width."""
 
 MOST = 40_000
 """Rows of a family and a seed that are looked at: more would make no slice wider."""

@@ -26,7 +26,7 @@ _SLIGHTLY = 1e-3
 """Times that are off by less were computed inexactly; those that are later by more are of another position."""
 
 _MOST_SWEEPS = 512
-"""Where bounds do not decide a sweep, it costs milliseconds, so only so many sweeps of a chunk are asked again."""
+"""A sweep that bounds do not decide costs milliseconds, so at most this many sweeps of a chunk are tested again."""
 
 
 def _touches(answered: AnsweredRows, times: Floats | float) -> Answers:

@@ -135,7 +135,7 @@ class TableChunk:
     """Some rows of a table.
 
     rows: float64 of the layout, with an axis where a row has one; the numbers of a refused row mean nothing.
-    refused: bool (n,), the rows that are no valid query; all False unless marking was asked for.
+    refused: bool (n,), the rows that are no valid query; all False unless invalid rows are to be marked.
     texts: the text of each row without its line end; None if the table is not text.
     layout: SWEEPS where rows have an end.
     """

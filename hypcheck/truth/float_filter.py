@@ -50,7 +50,7 @@ from hypcheck.truth import exact
 
 LINE_MARGIN = 64 * 2.0**-53
 SHARES = (0.0, 1 / 3, 2 / 3, 1.0)
-"""Heights that have a line of their own, as parts of the height that is asked for."""
+"""Heights that have a line of their own, as parts of the requested height."""
 
 Line = tuple[float, float]
 

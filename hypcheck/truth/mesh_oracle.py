@@ -1,4 +1,4 @@
-"""The mesh oracle: FCL asked about one-sided meshes of the surface (docs/mesh-oracle.md).
+"""The mesh oracle: FCL with one-sided meshes of the surface (docs/mesh-oracle.md).
 
 It answers clear, contact or undecided, and is never wrong: bounds found without FCL decide the pair, and FCL, given the
 mesh that shows the decision, must agree. The only question to FCL (python-fcl) is the distance of C from a mesh. FCL

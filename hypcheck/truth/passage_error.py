@@ -40,7 +40,7 @@ RELATIVE_WIDTH = Fraction(1, 100)
 """A size error is bracketed to this part of itself."""
 
 _LARGEST = 1 - Fraction(1, 2**53)
-"""The largest change of the size that is asked about: no size is 0."""
+"""The largest tested change of the size, so that no size is 0."""
 
 
 @dataclass(frozen=True, slots=True)

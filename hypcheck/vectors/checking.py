@@ -184,7 +184,7 @@ _TIMES = 16
 """Pieces of a sweep beside a hyperboloid that ends, at whose ends the least value looks for contact."""
 
 _SLACK = 2.0**-30
-"""It is asked of a spheroid smaller or larger by this part, so that a rounded centre does not matter."""
+"""The test uses a spheroid that is smaller or larger by this part, so that a rounded centre does not matter."""
 
 
 def _ended_sweep_sentences(case: SweepVector) -> Iterator[str]:

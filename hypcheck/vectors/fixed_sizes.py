@@ -29,7 +29,7 @@ OPEN = 2.0
 """Where the centre may be anywhere, rows lie within so many waist radii of the axis and heights γ of the waist."""
 
 FARTHEST = 2.0**1000
-"""Metres; what lies farther out, as of sizes with ratios near 10¹⁰⁰ it may, is asked here."""
+"""The largest coordinate of a row, in metres; ratios near 10¹⁰⁰ could lead to larger ones."""
 
 _SPAN = re.compile(r"([xyz])=([^:]+):([^:]+)")
 
@@ -251,7 +251,7 @@ TRAPS: dict[str, Trap] = {
     "zeros": _zeros,
     "axes": _axes,
 }
-"""What an upright spheroid is asked; descriptions.toml says what for."""
+"""The constructions of rows of upright spheroids, by name; descriptions.toml has their purposes."""
 
 
 def _axes_of(setting: FixedSizes, draw: Draw, n: int) -> tilted.Vectors:

@@ -115,7 +115,7 @@ def test_a_remote_repository_that_cannot_be_reached_is_reported_as_not_pinned(en
     monkeypatch.setenv("PATH", str(tmp_path))  # no git, hence no network
     wanted = pinned(requirement(f"https://example.org/hypcheck.git{end}", tmp_path))
     assert wanted.text == f"hypcheck @ git+https://example.org/hypcheck.git{end}"
-    assert wanted.says[0].startswith("not pinned: https://example.org/hypcheck.git could not be asked")
+    assert wanted.says[0].startswith("not pinned: https://example.org/hypcheck.git could not be queried")
 
 
 @pytest.mark.parametrize(("end", "said"), [("@v9", "has no branch or tag 'v9'"), ("", "git cannot read")])

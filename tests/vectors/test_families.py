@@ -320,7 +320,7 @@ def test_select_takes_tilted_families_only_if_tilt_is_requested():
     assert select(taken=AXIS_ALONE) == (*select(), *(each for each in TILTED_FAMILIES.values() if not each.extreme))
     assert select(["*"], AXIS_ALONE) == (*FAMILIES.values(), *TILTED_FAMILIES.values())
     assert select(["tilted-uniform", "ring"], AXIS_ALONE) == (FAMILIES["ring"], TILTED_FAMILIES["tilted-uniform"])
-    with pytest.raises(InputError, match="'tilted-\\*' names tilted spheroids, which only an implementation with tilt"):
+    with pytest.raises(InputError, match="'tilted-\\*' names tilted spheroids; only implementations with tilt"):
         select(["ring", "tilted-*"])
 
 

@@ -44,7 +44,7 @@ _FLOATS = {
 """The program in float64 of a method, and its constants."""
 
 _SIGNS = ("n2", "n1", "delta", "slope_at_B", "slope_at_A", "offset_at_B", "offset_at_A", "ring_excess")
-"""What the last stage asks the signs of."""
+"""The values whose signs the last stage needs."""
 
 _ANSWER = ("exterior", "interior", "decided")
 

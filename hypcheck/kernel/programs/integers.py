@@ -313,7 +313,7 @@ SIGNED = frozenset(("p_q_R", "t_s_S", "R_minus_q", "W"))
 BEFORE = ("D_K", "n2", "inner")
 EQUATIONS = ("r1", "r2")
 LAST = ("r3", "room_within", "beyond", "room_without")
-"""What the parts of TANGENCY are asked for, in the order of the C."""
+"""The results that the C code needs from the parts of TANGENCY, in its order."""
 
 
 def statements_of(program: Program, wanted: tuple[str, ...], known: tuple[str, ...] = (), *, short: bool) -> list[str]:

@@ -151,7 +151,7 @@ _JOINED = {"beyond": "or", "within": "or", "under": "and", "above": "and"}
 def _one_and_two(
     names: tuple[str, str], inputs: tuple[str, ...], place: str, border: Callable[[str, int, str], str], answers: str
 ) -> tuple[Program, Program]:
-    """The program that asks one border a side, number 0, and the one that asks two, 1 and 2."""
+    """The program that tests one border a side, number 0, and the one that tests two, 1 and 2."""
     one = program_of(names[0], inputs, place, *(border(side, 0, holds) for side, holds in _HOLDS.items()), answers)
     two = program_of(
         names[1],

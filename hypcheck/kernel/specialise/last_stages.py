@@ -13,7 +13,7 @@ included, so that |computed − exact| ≤ γ_k M, where M is the sum of the ter
 
 What the sign says. Δ < 0: contact, whatever the sizes. Δ > 0: clear, where a ≥ 1 and c² ≥ a (the pair of roots below
 the largest can then be nowhere but between the poles: docs/mathematics.md), on the side on which the centre is
-(first_stages.py). Elsewhere Δ > 0 settles nothing, and the search is asked.
+(first_stages.py). Elsewhere Δ > 0 decides nothing, and the search follows.
 
 The search finds the sign of the dual function φ at the λ where it is largest, and cannot cancel. F = φ' = (a r/(A+λ))²
 − (c z/(B−λ))² − 1, r² = P, falls from one pole to the other. Its sign at 0 tells on which side of 0 the root lies, its

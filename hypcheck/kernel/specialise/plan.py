@@ -123,7 +123,7 @@ class ScenePlan:
 def plan_of(scene: SceneModel, precision: str = "float64", most: int = MOST_SETTINGS) -> ScenePlan:
     """The plan for a scene's own question, with at most `most` settings.
 
-    Raises InputError for another format, too many or too extreme sizes, and where nothing is ever asked.
+    Raises InputError for another format, too many or too extreme sizes, and a region without a hyperboloid's height.
     """
     form = format_of(precision)
     settings = settings_of(scene)

@@ -68,7 +68,7 @@ class Setting:
 def settings_of(scene: SceneModel) -> tuple[Setting, ...]:
     """One setting for each combination of sizes in the scene, in the scene's order; pairs of the same sizes share one.
 
-    A pair whose heights never meet the region is left out: nothing there is ever asked of it. Raises InputError where
+    A pair whose heights never meet the region is left out: no query can reach it. Raises InputError where
     a hyperboloid is tilted or has flat ends.
     """
     _require_printable(scene)
@@ -106,7 +106,7 @@ def position_of_box(setting: Setting) -> Position | None:
 
     The exterior positions are an up-set when |x| and |y| grow and |z| falls, the interior ones when |x| and |y| fall
     and |z| grows (docs/mathematics.md): one exact decision at the least favourable corner of the box is a proof. Where
-    the spheroid is tilted, that is asked of the smallest ball about it.
+    the spheroid is tilted, that is tested with the smallest ball about it.
     """
     x, y, z = setting.box.spans
     if z is not None and _at(setting, (_least(x), _least(y), farthest(z))) is Position.EXTERIOR:

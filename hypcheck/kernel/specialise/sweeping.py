@@ -10,7 +10,7 @@ need not be right. At the best one numbers may cancel, where it lies next to a p
 are tried that keep away from the poles (programs/sweeps.py). Printed clearances bound the maximum of the dual function
 by several multipliers in the same manner.
 
-Times are numbers of the format, exactly: SWEEP is asked about that very time. A step is shortened by 2⁻⁴⁹, as the sum
+Times are numbers of the format, exactly: SWEEP gets exactly that time. A step is shortened by 2⁻⁴⁹, as the sum
 with the time is rounded, by 2⁻⁵² at most. So `now`, up to which the sweep is proved clear, bounds the first contact.
 """
 

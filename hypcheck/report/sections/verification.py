@@ -53,7 +53,7 @@ def _oracle_table(totals: list[model.OracleTotal]) -> document.TableBlock:
 
 
 _IN_TABLE = ("right", "tolerated", "wrong", "skipped")
-"""The statuses that have a column, and that of cases that were not asked."""
+"""The statuses that have a column, and the status of cases that were not tested."""
 
 
 def method_sections(record: Record) -> Iterator[document.Section]:
