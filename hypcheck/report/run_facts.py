@@ -139,11 +139,13 @@ def _end(distance: float) -> str:
 def tested_facts(record: Record, *, held: bool) -> Iterator[str]:
     """What gated implementations declare, and how they were tested.
 
-    `held`: the verdict says already what was not asked, and how many rows were fresh.
+    `held`: the verdict says already which rows were skipped, how many were fresh and, if --families chose among the
+    families, which were left out.
     """
+    left_out = not (held and record.header.options.get("families"))
     for tested in model.under_test(record):
-        counts: Counter[str] = sum((Counter(group.not_asked or {}) for group in tested.groups), Counter())
-        claims = implementation_claims(tested.line, counts, left_out=not held)
+        skipped = [] if held else [Counter(group.not_asked or {}) for group in tested.groups]
+        claims = implementation_claims(tested.line, sum(skipped, Counter()), left_out=left_out)
         yield from (f"{tested.name}: {claim}" for claim in claims)
         fresh = sum(group.fresh or 0 for group in tested.groups)
         if fresh and not held:

@@ -8,10 +8,11 @@ from pathlib import Path
 import click
 import pytest
 from hypothesis import given, settings
+from msgspec import structs
 
 from hypcheck.record import read
 from hypcheck.record.fields import as_json
-from hypcheck.record.lines import CauseLine
+from hypcheck.record.lines import CauseLine, ImplementationLine
 from hypcheck.record.reader import line_of
 from hypcheck.report.formats import WrittenReport
 from hypcheck.report.terminal import MOST_LINES, WIDTH, summary_lines
@@ -133,3 +134,18 @@ def test_a_benchmark_of_a_users_method_leaves_the_papers_claims_of_cost_to_the_o
     ours = replace(golden, lines=[*others, claim])
     claims = [[line for line in summary_lines(record, ()) if line.startswith("claim ")] for record in (mine, ours)]
     assert claims == [[], ["claim holds, the tower: " + bench_lines.line("cost")["claim"]]]
+
+
+def test_a_passing_run_without_chosen_families_says_which_families_were_not_tested():
+    golden = read(Path(__file__).parent / "goldens" / "held" / "record.jsonl")
+    options = {name: value for name, value in golden.header.options.items() if name != "families"}
+    lines = [
+        structs.replace(line, not_asked={"heights": {"ended-far": 9}}) if isinstance(line, ImplementationLine) else line
+        for line in golden.lines
+    ]
+    whole = replace(golden, header=structs.replace(golden.header, options=options), lines=lines)
+    claims = [[line for line in summary_lines(record, ()) if "not asked: " in line] for record in (golden, whole)]
+    assert [line[: line.index(": ")] for line in claims[0]] == ["HELD"]
+    assert claims[1] == [
+        "mine.py:position: not asked: 1 family of hyperboloids that end (it takes no heights)",
+    ]
