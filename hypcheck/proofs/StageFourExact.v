@@ -26,7 +26,7 @@ Hypotheses (Half_up : forall size n, is_float size -> 0 <= n < 2 ^ 46 -> less (O
   (Nearest : forall size n, is_float size -> 0 <= n < 2 ^ 124 -> less (Of Int 0) size = true ->
     StageFourTouches.is_nearest less nearest (made_by float "*" [size; StageFourTouches.value_of float n])
     /\ StageFourTouches.is_nearest less nearest (made_by float "/" [StageFourTouches.value_of float n; size]))
-  (Hair : forall k p, 0 < k -> (IZR (fst (hair k p)) * power (snd (hair k p) - 1075) <= IZR k * power (p - 1075) / 2 ^ 31)%R).
+  (Hair : hairs_are_short m e hair).
 Variable put_lengths : list datum -> option (list datum).
 Hypothesis Puts : puts_lengths put_lengths.
 

@@ -47,8 +47,10 @@ Section Run.
 Variables (m e : string -> Z) (hair : Z -> Z -> Z * Z) (plane short long : list datum -> option datum) (put_lengths : list datum -> option (list datum)) (about : datum).
 Hypotheses (About : is_float about) (Sizes : forall n, In n ["alpha"; "gamma"; "b"; "d"] -> 0 < m n < 2 ^ 53) (Centre : forall n, In n ["x"; "y"; "z"] -> Z.abs (m n) < 2 ^ 53)
   (Powers : forall n, In n named -> -4096 <= e n <= 2046).
-(** The product of 10^-18 and a length, as floats compute it. *)
-Hypothesis Hair : forall k p, 0 < k -> (IZR (fst (hair k p)) * power (snd (hair k p) - 1075) <= IZR k * power (p - 1075) / 2 ^ 31)%R.
+(** The product of 10^-18 and a length, as floats compute it, where a coordinate is shorter: a hair. *)
+Definition hair_value w := (IZR (fst (hair (m w) (e w))) * power (snd (hair (m w) (e w)) - 1075))%R.
+Definition hairs_are_short := forall n w, In (n, w) [("x", "b"); ("y", "b"); ("z", "gamma")] -> is_hair m e hair n w = true -> (hair_value w <= value_of m e w / 2 ^ 31)%R.
+Hypothesis Hair : hairs_are_short.
 
 Definition holds_row (l : list (string * datum)) (m e : string -> Z) := forall p n, In (p, n) (combine ["0"; "1"; "2"; "3"; "4"; "5"; "6"] named) -> look p l = Some (Double (m n) (e n)).
 Definition is_row (m e : string -> Z) := (forall n, In n ["alpha"; "gamma"; "b"; "d"] -> 0 < m n) /\ (forall n, In n named -> Z.abs (m n) < 2 ^ 53) /\ forall n, In n named -> -4096 <= e n <= 2046.
@@ -94,10 +96,11 @@ Proof.
 Qed.
 Lemma size_is n : Rabs (V n) = (IZR (Z.abs (m n)) * power (e n - 1075))%R.
 Proof. unfold value_of; rewrite Rabs_mult, <- abs_IZR, (Rabs_pos_eq (power _)); [reflexivity | apply Rlt_le, power_positive]. Qed.
-Lemma hair_is n w : 0 < m w -> is_hair m e hair n w = true -> (V n <> 0 /\ V n ^ 2 <= (V w / 2 ^ 31) ^ 2)%R.
+Lemma hair_between n w : is_hair m e hair n w = true -> 0 < Z.abs (m n) /\ (Rabs (V n) < hair_value w)%R.
+Proof. intros H; apply andb_prop in H as [N B]; apply Z.ltb_lt in N; apply below_is in B; rewrite <- size_is in B; split; [exact N | exact B]. Qed.
+Lemma hair_is n w : In (n, w) [("x", "b"); ("y", "b"); ("z", "gamma")] -> is_hair m e hair n w = true -> (V n <> 0 /\ V n ^ 2 <= (V w / 2 ^ 31) ^ 2)%R.
 Proof.
-  intros W H; apply andb_prop in H as [N B]; apply Z.ltb_lt in N; apply below_is in B; pose proof (Hair (m w) (e w) W) as L; rewrite <- size_is in B; fold (V w) in L.
-  split.
+  intros W H; pose proof (Hair n w W H) as L; apply hair_between in H as [N B]; split.
   - intros Z0; unfold value_of in Z0; apply Rmult_integral in Z0 as [Z0 | Z0]; [apply eq_IZR in Z0; lia | pose proof (power_positive (e n - 1075)); lra].
   - rewrite <- (pow2_abs (V n)); apply pow_incr; split; [apply Rabs_pos | lra].
 Qed.
@@ -175,15 +178,15 @@ Proof.
     specialize (T u w U W); rewrite Ea, Eg, Eb, Ed in T.
     apply (beside_is_answered _ _ _ _ _ _ _ (if hx then 0 else V "x")%R (if hy then 0 else V "y")%R (if hz then 0 else V "z")%R); try (apply size_positive; cbn; tauto); try assumption.
     + exact (touching_squares _ _ _ _ _ _ _ inner _ _ _ Qx Qy Qz T).
-    + assert (small : forall n, is_hair m e hair n "b" = true -> (V n <> 0 /\ V n ^ 2 <= V "b" ^ 2 / 2)%R).
-      { intros n H; destruct (hair_is n "b" (proj1 (Sizes "b" ltac:(cbn; tauto))) H) as [N L]; split; [exact N |]; pose proof (pow2_ge_0 (V "b")).
+    + assert (small : forall n, In n ["x"; "y"] -> is_hair m e hair n "b" = true -> (V n <> 0 /\ V n ^ 2 <= V "b" ^ 2 / 2)%R).
+      { intros n In_ H; destruct (hair_is n "b") as [N L]; [destruct In_ as [<- | [<- | []]]; cbn; tauto | exact H |]; split; [exact N |]; pose proof (pow2_ge_0 (V "b")).
         replace ((V "b" / 2 ^ 31) ^ 2)%R with (V "b" ^ 2 / 2 ^ 62)%R in L by field; lra. }
       destruct hx eqn:HX, hy eqn:HY; cbn [orb]; try (split; reflexivity).
-      * destruct (small "x" HX) as [NX LX], (small "y" HY) as [NY LY]; split; [right; split; [reflexivity | exact LX] |]; split; [right; split; [reflexivity | exact LY] |].
+      * destruct (small "x" ltac:(cbn; tauto) HX) as [NX LX], (small "y" ltac:(cbn; tauto) HY) as [NY LY]; split; [right; split; [reflexivity | exact LX] |]; split; [right; split; [reflexivity | exact LY] |].
         pose proof (pow2_ge_0 (V "y")); assert (0 < V "x" ^ 2)%R by (apply square_pos; exact NX); lra.
-      * destruct (small "x" HX) as [NX LX]; split; [right; split; [reflexivity | exact LX] |]; split; [left; reflexivity |]; assert (0 < V "x" ^ 2)%R by (apply square_pos; exact NX); lra.
-      * destruct (small "y" HY) as [NY LY]; split; [left; reflexivity |]; split; [right; split; [reflexivity | exact LY] |]; assert (0 < V "y" ^ 2)%R by (apply square_pos; exact NY); lra.
-    + destruct hz eqn:HZ; [| reflexivity]; destruct (hair_is "z" "gamma" (proj1 (Sizes "gamma" ltac:(cbn; tauto))) HZ) as [N L]; split; [reflexivity |]; split; [exact N |].
+      * destruct (small "x" ltac:(cbn; tauto) HX) as [NX LX]; split; [right; split; [reflexivity | exact LX] |]; split; [left; reflexivity |]; assert (0 < V "x" ^ 2)%R by (apply square_pos; exact NX); lra.
+      * destruct (small "y" ltac:(cbn; tauto) HY) as [NY LY]; split; [left; reflexivity |]; split; [right; split; [reflexivity | exact LY] |]; assert (0 < V "y" ^ 2)%R by (apply square_pos; exact NY); lra.
+    + destruct hz eqn:HZ; [| reflexivity]; destruct (hair_is "z" "gamma" ltac:(cbn; tauto) HZ) as [N L]; split; [reflexivity |]; split; [exact N |].
       assert (A62 : (V "alpha" <= V "b" * 2 ^ 62)%R).
       { rewrite <- Ea, <- Eb; pose proof (Fit62 "alpha" ltac:(cbn; tauto)) as [_ La]; pose proof (positive "b" ltac:(cbn; tauto)) as Lb.
         assert (IZR (ls "alpha") <= 2 ^ 62)%R by (rewrite (pow_IZR 2 62); apply IZR_le; change (2 ^ Z.of_nat 62)%Z with (2 ^ 62)%Z; lia).
