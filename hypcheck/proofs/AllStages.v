@@ -57,16 +57,16 @@ Let tangency := text_of_tangency float less nearest word hair put_lengths.
 Variables (guessed power_guessed : list datum -> Z) (guess power_of_guess : Z) (floats : Z).
 Hypothesis Floats : floats <> 0 -> single_runs m e x pre greater /\ stage_two_runs m e x' pre' mask.
 
-Lemma fourth : exists o, tangency [row m e; Double guess power_of_guess] = Some (Of Int (code o)) /\ forall a, o = Some a ->
-  answers (value_of_bits (w "alpha")) (value_of_bits (w "gamma")) (value_of_bits (w "b")) (value_of_bits (w "d")) (value_of_bits (w "x")) (value_of_bits (w "y")) (value_of_bits (w "z")) a.
+Let bits_value n := value_of_bits (w n).
+Lemma fourth : exists o, tangency [row m e; Double guess power_of_guess] = Some (Of Int (code o)) /\ forall a, o = Some a -> answers
+  (bits_value "alpha") (bits_value "gamma") (bits_value "b") (bits_value "d") (bits_value "x") (bits_value "y") (bits_value "z") a.
 Proof.
   destruct (valid_row w Words (accepted_is_valid w Accepted)) as (L & C & P & M), (values_are w Words) as (Ea & Eg & Eb & Ed & Ex & Ey & Ez).
   assert (H : StageFourPosition.hairs_are_short m e hair).
   { apply (products_are_short m e lowest lowest_counts L P M hair factor Factor).
-    intros n I; destruct I as [<- | [<- | []]]; [change (value_of m e "b") with (value_of (fun n => whole_of (w n)) (fun n => power_of (w n)) "b"); rewrite Eb
-      | change (value_of m e "gamma") with (value_of (fun n => whole_of (w n)) (fun n => power_of (w n)) "gamma"); rewrite Eg];
-      rewrite value_on_bits by (cbn; tauto); apply Products; cbn; tauto. }
-  rewrite <- Ea, <- Eg, <- Eb, <- Ed, <- Ex, <- Ey, <- Ez.
+    intros n I; assert (E : value_of m e n = value n) by (destruct I as [<- | [<- | []]]; (etransitivity; [exact Eb || exact Eg | apply value_on_bits; cbn; tauto])).
+    rewrite E; exact (Products n I). }
+  unfold bits_value; rewrite <- Ea, <- Eg, <- Eb, <- Ed, <- Ex, <- Ey, <- Ez.
   exact (fourth_is_right m e L C P float less nearest word hair Half_up Nearest H put_lengths Puts (Double guess power_of_guess) I).
 Qed.
 

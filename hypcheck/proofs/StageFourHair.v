@@ -19,7 +19,8 @@ Notation V := (value_of m e).
 
 Lemma least n : In n lengths -> m n <> 0 -> (pow (-1074) <= Rabs (V n))%R.
 Proof.
-  intros I N; destruct Zeros as [C]; destruct (C (m n) N) as [Z0 D]; apply Z.divide_abs_r, Z.divide_pos_le in D; [| lia]; pose proof (Multiples n I N).
+  intros I N; destruct Zeros as [C]; destruct (C (m n) N) as [Z0 D]; apply Z.divide_abs_r, Z.divide_pos_le in D; [| lia].
+  pose proof (Multiples n I N).
   rewrite (size_is m e); apply Rle_trans with (IZR (2 ^ zeros (m n)) * power (e n - 1075))%R.
   - rewrite <- power_is, power_whole, <- power_sum by lia; rewrite !power_is; apply bpow_le; lia.
   - apply Rmult_le_compat_r; [apply Rlt_le, power_positive | apply IZR_le, D].
@@ -34,7 +35,8 @@ Qed.
 
 (** 10^-18 as a double, and its products. *)
 Variables (hair : Z -> Z -> Z * Z) (factor : R).
-Hypotheses (Factor : rounded (1 / 10 ^ 18)%R factor) (Products : forall n, In n ["b"; "gamma"] -> Ranges.returned (factor * V n)%R (hair_value m e hair n)).
+Hypotheses (Factor : rounded (1 / 10 ^ 18)%R factor)
+  (Products : forall n, In n ["b"; "gamma"] -> Ranges.returned (factor * V n)%R (hair_value m e hair n)).
 
 Lemma factor_between : (0 <= factor <= pow (-59))%R.
 Proof.
