@@ -13,7 +13,8 @@ Fixpoint some_letter (p : ascii -> bool) s := match s with EmptyString => false 
 Fixpoint ends_with (c : ascii) s := match s with EmptyString => false | String a EmptyString => Ascii.eqb a c | String _ rest => ends_with c rest end.
 Definition begins_with (p : ascii -> bool) s := match s with String c _ => p c | EmptyString => false end.
 
-(** In plainer words: casts are calls, memcpy of a whole array is =, arrays are declared without their sizes, "a[i].field" is a place of
+(** In plainer words: casts are calls, memcpy of a whole array is =, arrays of seven places, or of two with
+    their values, are declared without their sizes, "a[i].field" is a place of
     an array "a.field", and a pointer into an array, "int *const p = a + i;", is the number "p.at" of a place: *p is a[p.at]. What a
     shape finds is written with other words; the pointers are known from then on. *)
 Definition pointers := list (string * string).
@@ -28,8 +29,8 @@ Definition in_plain_words (known : pointers) ws : written := fold_right unless_f
   shaped_as ["("; "uint64_t"; ")"; "("; "int64_t"; ")"; "("] ws (fun _ => Some (["as_word"; "("], []));
   shaped_as ["memcpy"; "("; ""; ","; ""; ","; "sizeof"; ""; ")"] ws (fun l => match l with [a; c; b] => if is a b then Some ([a; "="; c], []) else None | _ => None end);
   shaped_as ["int"; "*"; "const"; ""; "="; ""; "+"] ws (fun l => match l with [p; a] => Some (["const"; "int"; p ++ ".at"; "="], [(p, a)]) | _ => None end);
-  shaped_as [","; ""; "["; ""; "]"; "="; "{"] ws (fun l => match l with [n; _] => Some ([";"; n; "="; "{"], []) | _ => None end);
-  shaped_as [""; ""; "["; ""; "]"; ";"] ws (fun l => match l with [t; n; _] => if is_in t types then Some ([t; n; ";"], []) else None | _ => None end);
+  shaped_as [","; ""; "["; ""; "]"; "="; "{"] ws (fun l => match l with [n; k] => if is "2" k then Some ([";"; n; "="; "{"], []) else None | _ => None end);
+  shaped_as [""; ""; "["; ""; "]"; ";"] ws (fun l => match l with [t; n; k] => if is_in t types && is "7" k then Some ([t; n; ";"], []) else None | _ => None end);
   shaped_as [""; "["; ""; "]"; ""] ws (fun l => match l with
     | [a; i; field] => if begins_with (Ascii.eqb ".") field then Some ([a ++ field; "["; i; "]"], []) else None | _ => None end);
   shaped_as [""; "*"; ""] ws (fun l => match l with
