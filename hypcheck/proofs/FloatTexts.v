@@ -132,8 +132,10 @@ Proof. intros I; apply (new_ones names_of_ints); [vm_compute; reflexivity | appl
 Ltac float F := lazymatch goal with
   | |- eval _ _ (Named ?n) = _ => apply eval_named; exact (F n _ eq_refl)
   | |- eval _ _ (Constant _ _) = _ => reflexivity
-  | |- eval _ _ (Infix "*" _ _) = _ => apply eval_unnamed; [exact (F "HC_slack" _ eq_refl) | exact (F "A" _ eq_refl)]
-  | |- eval _ _ (Infix "-" _ (Named ?n)) = _ => eapply eval_opposite; [cbn [In]; tauto | exact (F n _ eq_refl)] end.
+  | |- eval _ _ (Infix "*" (Named "HC_slack") (Named "A")) = _ => apply eval_unnamed; [exact (F "HC_slack" _ eq_refl) | exact (F "A" _ eq_refl)]
+  | |- eval _ _ (Infix "-" (Constant Int 0) (Named ?n)) = _ => eapply eval_opposite; [cbn [In]; tauto | exact (F n _ eq_refl)] end.
+Ltac answered := lazymatch goal with |- eval _ _ (Infix "*" (Named "apart") (Infix "-" (Named "outside") (Named "inside"))) = _ =>
+  apply eval_answer; reflexivity end.
 Ltac compared F := eapply eval_more; [float F | float F | reflexivity | reflexivity | reflexivity].
 Ltac bits F := lazymatch goal with
   | |- eval _ _ (Infix "&" _ _) = _ => apply eval_and; bits F
@@ -160,7 +162,7 @@ Proof.
     erewrite go_if by bits F.
     unfold says_single, sizes_fit, ratios_fit, one_root, apart, is_outside, is_inside, g; lazymatch goal with |- context [if negb ?c then _ else _] => destruct c end;
       cbv beta iota delta [negb]; cbn [app].
-    + erewrite (go_return known []); [| apply eval_answer; reflexivity]; reflexivity.
+    + erewrite (go_return known []); [| answered]; reflexivity.
     + erewrite (go_return known []); [| reflexivity]; reflexivity.
   - intros n I; rewrite look_given, I; reflexivity.
   - intros s I; apply (new_ones (map name C_single)); [vm_compute; reflexivity | apply in_map; exact I].
