@@ -95,7 +95,7 @@ _SPACE = re.compile(r"[ \t]*")
 _BARE_KEY = re.compile(r"[A-Za-z0-9_-]+")
 _BARE_VALUE = re.compile(r"[^,\]}#\n]+")
 _WITHIN = {'"': re.compile(r'[^"\\]+'), "'": re.compile(r"[^']+")}
-"""What stands in a text between its marks and escapes. No pattern repeats a group: that takes memory each time."""
+"""The parts of a text between its quotation marks and escapes. No pattern repeats a group, which would take memory."""
 
 
 def lines_of(text: str) -> dict[Path, int]:

@@ -206,10 +206,10 @@ def large_pages(setting: Path = LARGE_PAGES) -> str:
     try:
         text = setting.read_text(encoding="ascii")
     except (OSError, UnicodeDecodeError):
-        return "large pages for temporaries: not told by this system"
+        return "large pages for temporaries: not reported by this system"
     chosen = text.partition("[")[2].partition("]")[0]
     words = {"always": "always", "madvise": "where asked for, as numpy does for 4 MB and more", "never": "never"}
-    return f"large pages for temporaries: {words.get(chosen, 'not told by this system')}"
+    return f"large pages for temporaries: {words.get(chosen, 'not reported by this system')}"
 
 
 def against_others(rounds: int) -> Iterator[KernelLine]:

@@ -313,8 +313,8 @@ TILTED_WORKLOADS = _by_name(
     _tilted_workload(
         "stiff",
         "of very different sizes",
-        "Near contact with ratios of sizes up to 1e8, and axes that almost stand or lie (the families tilted-stiff "
-        "and tilted-slight).",
+        "Near contact with ratios of sizes up to 1e8, and axes that are almost vertical or horizontal "
+        "(the families tilted-stiff and tilted-slight).",
         _families("tilted-stiff", "tilted-slight"),
         timed=False,
     ),

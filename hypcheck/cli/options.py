@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 Known = Callable[[click.Context, str], Iterable[str]]
 
 NOTHING = "nothing"
-"""The type of an item that stands for no completion, and no file either: shells' scripts leave out unknown types."""
+"""The type of an item that completes nothing, not even files: the shells' scripts ignore unknown types."""
 
 
 class Names(click.ParamType[str]):

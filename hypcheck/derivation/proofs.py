@@ -66,7 +66,7 @@ INPUTS = {
     "sine": SINE,
     "lambda_": LAMBDA,
 }
-"""The letter each input of a program stands for."""
+"""The letter that each input of a program represents."""
 
 
 @dataclass(frozen=True)

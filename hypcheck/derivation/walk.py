@@ -2,7 +2,7 @@
 
 Each section is a chain of links whose parts are the displayed formulas, in the paper's letters and in the order in
 which the paper prints them; every one is compared with what sympy makes of the two surfaces. Where the paper misprints
-a formula the right one stands here.
+a formula the right one is used here.
 """
 
 from __future__ import annotations

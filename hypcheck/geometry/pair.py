@@ -38,7 +38,7 @@ HEIGHTS = (*ENDS, "solid")
 """The heights between which the hyperboloid ends, in its own frame, and whether flat ends belong to it: 0 or 1."""
 
 GROUPS: Mapping[str, tuple[str, ...]] = MappingProxyType({"end": END, "axis": AXIS, "heights": HEIGHTS})
-"""What a row can ask besides the seven numbers, by name, in the order in which the columns stand."""
+"""The groups of columns that a row can have besides the seven numbers, by name, in the order of the columns."""
 
 Groups: TypeAlias = frozenset[str]
 """Names out of GROUPS."""

@@ -196,7 +196,7 @@ def _rows_of_table(table: Table, names: Sequence[object], layout: Layout, known:
 
 
 _DEFAULTS: Mapping[str, float] = dict(zip((*AXIS, *HEIGHTS), (*UPRIGHT, *WITHOUT_ENDS), strict=True))
-"""What a column that is missing stands for."""
+"""The values of missing columns."""
 
 
 def as_columns(names: Sequence[str], arguments: Sequence[ArrayLike]) -> tuple[Floats, ...]:

@@ -8,7 +8,7 @@ Collision engines are asked too, about upright spheroids: FCL's continuous colli
 engine's distance, which coal's users must take. A scene has one inscribed mesh of the whole surface (meshes.py), as
 high as its sweeps. What FCL's solvers do with a mesh, as python-fcl 0.7.0.11 has them:
 
-- *naive* asks `collide` at equally distant times, ten of them unless told otherwise. It takes every pairing; here it
+- *naive* asks `collide` at equally distant times, ten of them by default. It takes every pairing; here it
   has the ellipsoid, in the caller's units.
 - *conservative advancement*, FCL's own choice, supports no ellipsoid with a mesh, overflows the stack where a sphere
   comes before a mesh, and takes a mesh before a sphere, or two. Its steps are then too long: what does not

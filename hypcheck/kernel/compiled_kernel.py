@@ -25,7 +25,7 @@ KEPT = 16
 """Bytes that keep the answers of a block."""
 
 _SCALARS = (np.float32, np.int8, np.uint8, np.int16, np.uint16, np.int32, np.uint32, np.int64, np.uint64)
-"""numpy's scalars that stand for numbers without a step in Python; np.float64 is a float."""
+"""numpy's scalar types that C reads directly; np.float64 is a float."""
 
 
 @cache

@@ -17,7 +17,7 @@ less than _ROUNDED of the coordinates, b and d. γ is not in that sum, for no le
 others are not: a point of the waist is |C| + α from the spheroid's centre C at most, so that neither the nearest point
 nor an end plane that is nearer than the wall is farther away.
 
-Pairs are left out by the cylinder about what stands: the mover is no nearer to that than to the cylinder.
+Pairs are left out by a cylinder around the hyperboloid: the mover is no nearer to the hyperboloid than to the cylinder.
 """
 
 from __future__ import annotations

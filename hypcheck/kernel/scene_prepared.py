@@ -83,7 +83,7 @@ class PreparedScene:
     ) -> Self:
         """The scene of hyperboloids in arrays: numbers and columns (n,) are broadcast.
 
-        `alpha` and `gamma` are the semi-axes, `center` (n, 3) where they stand in the scene, `axis` (n, 3) or (3,)
+        `alpha` and `gamma` are the semi-axes, `center` (n, 3) their centres in the scene, `axis` (n, 3) or (3,)
         their axes, upright without. `mover` is a Mover, or its two semi-axes b, d. Hyperboloids end at the heights
         `z_min` and `z_max` along their axes from their centres; where `solid`, flat ends belong to them. `names` are
         "hyperboloid 1", … without. All lengths are in one unit. Raises InputError naming the hyperboloid and the number

@@ -140,10 +140,10 @@ Row = Annotated[tuple[_Finite, ...], _SEVEN]
 """α, γ, b, d, x, y, z as hexadecimal floats, which read back exactly."""
 
 Centre = Annotated[tuple[_Finite, ...], _THREE]
-"""x, y, z of the end of a way, which stands beside a row whose centre is its start."""
+"""x, y, z of the end of a sweep; the row has the centre at its start."""
 
 Axis = Annotated[tuple[_Finite, ...], _THREE]
-"""axis_x, axis_y, axis_z of a row of ten numbers, which stands beside the row of its other seven."""
+"""axis_x, axis_y, axis_z of a row of ten numbers; `row` has the other seven."""
 
 Heights = Annotated[tuple[_Any, ...], _THREE]
 """z_min, z_max, solid of a row about a hyperboloid that ends; the first two may be infinite."""

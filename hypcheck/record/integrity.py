@@ -155,7 +155,7 @@ class RecordScan:
         if len(written) > self._longest:
             self._refuse(f"it is longer than {self._longest} bytes, which no line of a record is")
         if self.footer is not None:
-            self._refuse("it stands after the footer, which ends a record")
+            self._refuse("it comes after the footer, which ends a record")
         if self.lines == 0:
             if written.startswith(_BEGINNING[: len(written)]):
                 raise InputError(f"{self._reader.name} is cut off within its first line; nothing of it can be used")
@@ -213,7 +213,7 @@ class RecordScan:
 
     def _check_place(self, line: Raw) -> None:
         if self.footer is not None:
-            self._refuse("it stands after the footer, which ends a record")
+            self._refuse("it comes after the footer, which ends a record")
         if line["type"] == "header" and self.lines:
             self._refuse("it is a second header; a file holds one record")
         if line["type"] == "footer":

@@ -4,15 +4,15 @@ In each chunk, every wrong answer is compared with the answer of each cause's ru
 the same answer form a set, and wrong answers are counted by set. Some right answers are compared too: a right answer at
 a row where a rule is wrong denies that rule. Diagnoses of parts add up in any order, like tallies.
 
-At the end a cause stands (is confirmed) if hardly any right answer denies it. An implementation may have several
+At the end a cause is accepted if hardly any right answer contradicts it. An implementation may have several
 faults, so each wrong answer is counted for one cause; the cause that explains most of the answers that are left comes
 first. A whole rule comes first if it explains more than the others together. Then come the causes about places that are
 wrong in exact arithmetic, then the causes about rounding, then whole rules for the rest. Answers that no cause explains
 are unexplained.
 
 Where floats are often right by luck, and where roundings may give any answer, right answers deny little. A cause of
-this kind stands only if it explains most of the answers that are left, or if wrong answers are much more frequent at
-its rows than elsewhere.
+this kind is accepted only if it explains most of the answers that are left, or if wrong answers are much more frequent
+at its rows than elsewhere.
 """
 
 from __future__ import annotations
@@ -55,10 +55,10 @@ MIXED = 0.25
 """A whole rule has to give this share of the wrong answers that are left for it."""
 
 PLACED = 0.5
-"""Causes about places stand together where they explain this share of the wrong answers."""
+"""Causes about places are accepted together if they explain this share of the wrong answers."""
 
 ROUNDED = 0.9
-"""Causes about rounding stand together where they explain this share of what is left for them."""
+"""Causes about rounding are accepted together if they explain this share of the answers that are left for them."""
 
 LIFT = 4.0
 """Else wrong answers must be this many times as frequent at a cause's rows as at others: it may be chance otherwise."""

@@ -285,7 +285,7 @@ def format_of(precision: str) -> tuple[str, str]:
     if np.finfo(np.longdouble).nmant == _MANTISSA.get(precision):
         return "longdouble", ""
     instead = {"bfloat16": "float32", "exact": "float64"}.get(precision, "longdouble")
-    return instead, f"; numpy has no {precision}, so {instead} stands for it"
+    return instead, f"; numpy has no {precision}, so {instead} is used"
 
 
 def _of_builtin(implementation: Implementation) -> Formula | None:

@@ -108,7 +108,7 @@ UNANSWERED_KEPT = 5
 
 STATUSES = tuple(Status)
 STATUS_CODES: Mapping[Status, int] = {status: code for code, status in enumerate(STATUSES)}
-"""The number that stands for a status in arrays."""
+"""The number that represents a status in arrays."""
 
 StatusCodes = NDArray[np.int8]
 

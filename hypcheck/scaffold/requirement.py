@@ -38,7 +38,7 @@ _ABBREVIATED = re.compile(r"[0-9a-f]{7,39}")
 _DIGEST = re.compile(r"#sha256=[0-9a-f]{64}")
 _ARCHIVES = (".whl", ".tar.gz", ".zip")
 _SECONDS = 15.0
-"""Time for a repository to answer which commit a name stands for."""
+"""The time within which a repository must answer with the commit of a name."""
 
 RIGHT = (
     "a git URL such as https://HOST/OWNER/hypcheck.git@COMMIT, a wheel or sdist (a path, or a URL), "
@@ -64,7 +64,7 @@ class Requirement:
 def requirement(source: str, directory: Path) -> Requirement:
     """The requirement of `--from`, for a workflow of the repository in `directory`. It does not run git.
 
-    Raises InputError unless `source` is RIGHT, and about a URL with a password, which must not stand in a workflow.
+    Raises InputError unless `source` is RIGHT, and for a URL with a password, which must not get into a workflow.
     """
     if len(source) > _LONGEST:
         raise InputError(f"--from is longer than {_LONGEST} characters; it must be {RIGHT}")

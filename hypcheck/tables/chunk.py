@@ -59,7 +59,7 @@ def check_names(names: Sequence[str], where: str, noun: str = "column") -> None:
 def columns_of(names: Iterable[str]) -> tuple[str, ...]:
     """The columns that a table of these names must have: seven, and an end and an axis where one is among them.
 
-    Of heights those that are there: what is missing of them stands for no end, or for an open one.
+    Of heights those that are there: a missing one means no end, or an open end.
     """
     folded = {name.casefold() for name in names}
     heights = tuple(name for name in pair.HEIGHTS if name in folded)

@@ -117,7 +117,7 @@ def _header(reader: Reader) -> tuple[tuple[int, ...], bool, np.dtype[np.generic]
     except Exception as error:  # noqa: BLE001 - numpy evaluates the header's text, which may hold anything
         reason = str(error).partition("\n")[0] or "it cannot be read"
         if reason.startswith("malformed node"):  # the message names an object and its address
-            reason = "it has an expression where a plain value must stand"
+            reason = "it has an expression in place of a plain value"
         raise InputError(f"{reader.name} is not a .npy file, or one cut off in its header: {reason}") from None
     raise InputError(f"{reader.name} is a .npy file of version {version[0]}.{version[1]}; it must be 1.0 or 2.0")
 

@@ -45,7 +45,7 @@ def number_of_text(name: str, text: str) -> float:
 
 _INFINITE = {"inf": math.inf, "+inf": math.inf, "-inf": -math.inf, "infinity": math.inf, "-infinity": -math.inf}
 _WORDS = {"z_min": _INFINITE, "z_max": _INFINITE, "solid": {"true": 1.0, "false": 0.0}}
-"""What stands for a height besides a decimal number."""
+"""The words that are allowed as a height besides decimal numbers."""
 
 
 def is_number(text: str) -> bool:

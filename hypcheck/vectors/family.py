@@ -17,7 +17,7 @@ from hypcheck.geometry.rows import Layout, Rows, columns_with, layout_with
 from hypcheck.vectors.draw import Draw, Maker
 
 MARK = "@"
-"""In the name of a family for given sizes, what stands before the sizes."""
+"""The prefix before the sizes in the name of a family for fixed sizes."""
 
 BLOCK = 1024
 """Rows with a random stream of their own, so that any block can be made alone and in any order."""

@@ -276,7 +276,7 @@ def _trunk(draw: Draw, b: Floats, d: Floats, alpha: Floats) -> Sizes:
 
 
 def forest_type_1(draw: Draw, n: int) -> Rows:
-    """Trunks wider than the walker, who stands within 2 m of the trunk's waist."""
+    """Trunks wider than the walker; the walker is within 2 m of the trunk's waist."""
     b, d = _walker(draw, n)
     size = _trunk(draw, b, d, b * draw.between(n, 1, 6))
     return beside(draw, size, draw.between(n, 0, 2) / d, offsets(draw, n))

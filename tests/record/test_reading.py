@@ -208,9 +208,9 @@ def test_a_record_of_a_newer_minor_version_is_read_without_its_additions(path):
         ('{"type": "header", "schema": "1.x"}\n', "its first line is not a header with a schema such as 1.0.0"),
         (OLDER % "9.0.0", "has schema 9.0.0; this program reads 1.x"),
         (OLDER % "1.2.0", "is damaged in line 1, at byte 0: it has no checksum at its end"),
-        (OLDER % "1.0.0" + "{", "is damaged in line 4, at byte 95: it stands after the footer"),
+        (OLDER % "1.0.0" + "{", "is damaged in line 4, at byte 95: it comes after the footer"),
         (OLDER % "1.0.0" + "{}\n", "in line 4, at byte 95: it is not an object with a type"),
-        (OLDER % "1.0.0" + '{"type": "x"}\n', "in line 4, at byte 95: it stands after the footer"),
+        (OLDER % "1.0.0" + '{"type": "x"}\n', "in line 4, at byte 95: it comes after the footer"),
         (
             (OLDER % "1.0.0").replace("3", "4"),
             "in line 3, at byte 64: it is a footer that counts 4 lines, but it is line 3",

@@ -9,7 +9,7 @@ by LOOK or by the routine of sweeps, which count the difference of centres as a 
   the centre's height, and all else is left open.
 
 A sweep is asked twice: from when it comes near the height to when it leaves it, where it may be clear of the whole, and
-while it is between the ends, where contact is contact with what stands.
+while it is between the ends, where contact is contact with the wall itself.
 
 The level along the axis, n·(C − c)/|n|, is off by some 20u of the sizes of its terms at most. `loose`, 2⁻⁴⁵ = 128u of
 the sum of the sizes of all that goes into it, ends and semi-axes too, covers that, the sums of ends and reach, and what

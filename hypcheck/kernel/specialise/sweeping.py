@@ -30,7 +30,7 @@ WIDEST = 2.0**-60
 TRIES = 3
 
 CONTACT = 8
-"""What stands for contact among reaches."""
+"""The value among reaches that means contact."""
 
 _POLES = """
     k1_squared = k1 * k1
@@ -279,7 +279,7 @@ ROUNDS = 96
 LOOKS = 14
 
 NEVER, UNKNOWN = 2, 3
-"""What stands among times for a sweep without contact, and for "cannot say"."""
+"""The values among times that mean a sweep without contact, and "cannot say"."""
 
 _LOOK_AT = sweeps.ROW
 

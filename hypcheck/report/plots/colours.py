@@ -28,7 +28,7 @@ ROLES = {
     "contact": ("#0073b3", "#4aa8e1"),
     "side": ("#7a1c5b", "#e495c4"),
 }
-"""Every colour by what it means: on light ground, on dark ground. No colour on light ground stands for two roles."""
+"""Every colour by its meaning: on light ground, on dark ground. No two roles have one colour on light ground."""
 
 STEPS = ((0.0, "none wrong"), (0.01, "up to 1 %"), (0.1, "up to 10 %"), (0.5, "up to 50 %"), (1.0, "more"))
 """The shares at which the steps of colour end, and what a legend says of them."""

@@ -225,7 +225,7 @@ _RINGED: dict[str, Any] = {
 """The mark of a position where Δ ≤ 0, about the flight's own."""
 
 _FRAMED: dict[str, Any] = {"frameon": True, "facecolor": colour("surface"), "edgecolor": "none", "framealpha": 1}
-"""A legend that stands among curves."""
+"""The style of a legend that lies over curves."""
 
 
 def tower_plots(result: dict[str, Any]) -> Iterator[Plot]:

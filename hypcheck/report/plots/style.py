@@ -34,7 +34,7 @@ from hypcheck.report.plots.colours import ROLES, dark_rules
 
 WIDTH = 380.0
 SMALL = 178.0
-"""Widths of a plot that stands alone, and of one of many that stand side by side."""
+"""The width of a single plot, and of a plot in a row of plots."""
 
 MARKERS = "osD^vPX*"
 DASHES: tuple[Any, ...] = (

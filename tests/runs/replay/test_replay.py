@@ -98,13 +98,13 @@ def ring_where_table_2_errs():
 def test_replay_shows_values_in_a_format_for_every_precision(capsys, precision, shown):
     found = replayed(capsys, FREE, "builtin:fast", "--precision", precision)
     assert found["values"]["format"] == shown
-    assert ("stands for it" in found["values"]["why"]) is (precision != "float16")
+    assert (" is used" in found["values"]["why"]) is (precision != "float16")
 
 
 @pytest.mark.skipif(np.finfo(np.longdouble).nmant != 63, reason="long double has another format than that of the x87")
 def test_replay_shows_values_in_the_format_of_the_x87_as_they_are(capsys):
     found = replayed(capsys, FREE, "builtin:fast", "--precision", "x87")
-    assert (found["values"]["format"], "stands for it" in found["values"]["why"]) == ("longdouble", False)
+    assert (found["values"]["format"], " is used" in found["values"]["why"]) == ("longdouble", False)
 
 
 def test_replay_has_no_values_of_a_formula_that_finds_no_multiplier(capsys):
