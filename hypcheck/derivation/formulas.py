@@ -335,7 +335,7 @@ def loop_as_printed() -> Operations:
 
 
 def discriminant_share() -> tuple[int, int]:
-    """The rounded operations of Procedure 2.a for a position: those from coefficients to the four Δ(g_i), and all."""
+    """The rounded operations of Procedure 2.a for a position: the number for the four Δ(g_i), and the total."""
     program = FORMULAS["procedure-2a"].program
     coefficients = ("c0_s", *(f"{name}_g{rotor}" for rotor in ROTORS for name in ("c1", "c2")))
     parts = hoist(program, SIZES_OF_A_SCENE & set(program.inputs))

@@ -292,7 +292,7 @@ def names_read(routine: Routine) -> frozenset[str]:
 
 
 def renamed(parts: Iterable[Part], names: Mapping[str, str]) -> Iterator[Part]:
-    """Steps, calls and halves of arguments that are called otherwise."""
+    """The parts with the names of their arguments replaced by `names`."""
     for part in parts:
         if isinstance(part, Half):
             yield replace(part, pair=names.get(part.pair, part.pair))

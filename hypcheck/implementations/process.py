@@ -34,7 +34,7 @@ from hypcheck.isolation.advice import isolation_advice
 from hypcheck.isolation.launch import IsolationError, Launched
 
 STEP = 0.25
-"""At most so many seconds count between two readings of the clock: during the rest this process did not run."""
+"""The most seconds that count between two readings of the clock: during a longer time this process did not run."""
 
 
 _WAITS = 0.05

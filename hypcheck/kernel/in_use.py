@@ -19,9 +19,9 @@ class Kernel(Protocol):
     def fill_valid_scene(
         self, sizes: Sizes, columns: Columns, out: Positions, threads: int | None = None, axis: Axis | None = None
     ) -> bool:
-        """Whether all centres of contiguous columns are valid: then `out`, contiguous and apart, has positions.
+        """Fill `out`, which shares no memory with the columns, with positions; return False if a centre is invalid.
 
-        False, and no output, also where a kernel gains nothing by it.
+        It also returns False, without output, if the kernel gains nothing by this function.
         """
 
     def prepared(self, sizes: Sizes, like: Columns, axis: Axis | None = None) -> bytes:

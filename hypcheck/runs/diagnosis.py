@@ -64,7 +64,7 @@ LIFT = 4.0
 """Else wrong answers must be this many times as frequent at a cause's rows as at others: it may be chance otherwise."""
 
 CERTAIN = 200
-"""As many right answers that may be luck deny a cause as much as one that cannot be."""
+"""The number of right answers that may be luck which contradict a cause as much as one that cannot be luck."""
 
 RIGHT = "right"
 """Among the counts of right answers that deny a cause, the count of all right answers."""

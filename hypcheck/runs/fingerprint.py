@@ -174,7 +174,7 @@ def module_sha256(text: str) -> str:
 
 _PACKAGE = Path(hypcheck.__file__).parent
 MAX_FILES_NAMED = 5
-"""At most so many changed files are named; to check out another commit changes hundreds."""
+"""The most changed files that a message names; a checkout of another commit changes hundreds."""
 
 _HEADER = 16
 """Bytes of the header of compiled Python: version, flags, and time and size of the source, four bytes each."""

@@ -31,7 +31,7 @@ from hypcheck.truth.passage_error import first_contact
 from hypcheck.vectors.draw import Integers
 
 PIECE = 4096
-"""At most so many rows between two checks of the budget; the first piece has the square root of that."""
+"""The most rows between two checks of the budget; the first piece has the square root of this number."""
 
 PIECE_SECONDS = 0.5
 """If a piece takes longer, in seconds, the next pieces are smaller."""
@@ -202,7 +202,7 @@ class Hunt:
                 cluster.tolerated += 1
 
     def ask(self, rows: Rows, ladders: Integers | None = None) -> list[WrongCase]:
-        """Test the rows that the target claims; the wrong answers, with `index` counted in the given rows.
+        """Test the rows that the target claims, and return the wrong answers; `index` is the place in the given rows.
 
         With `ladders`, the number of each row's ladder, (n,), only the last wrong answer of each ladder is judged and
         returned.

@@ -226,7 +226,7 @@ def _measured_position(case: WrongCase, question: str) -> float:
 
 
 KEPT = 4096
-"""So many errors are kept: methods that are judged on the same rows often err alike."""
+"""The number of cached errors: methods that are judged on the same rows often err alike."""
 
 
 @lru_cache(KEPT)

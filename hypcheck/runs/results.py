@@ -106,7 +106,7 @@ RETESTED_CASES = 32
 """The least number of cases of each chunk that are tested again; of large chunks, one in a hundred."""
 
 RETESTED_OF_SCENE = 2048
-"""At least so many of a family's first chunk, if all are of one scene and a function for scenes is to be asked."""
+"""The least number of retested cases of a family's first chunk that has one scene, if a function for scenes exists."""
 
 RETESTED_MOVEMENTS = 8
 """The least number of movements of each chunk that are tested again if its cases follow moving objects."""

@@ -30,29 +30,29 @@ from hypcheck.runs.score import as_slice, score, status_of
 from hypcheck.runs.tally import STATUSES
 
 RetestQuestion = tuple[Indices, int | None]
-"""Indices of cases, and the size of the batches in which they are asked; None: the largest possible."""
+"""Indices of cases, and the size of the batches in which they are sent; None: the largest possible."""
 
 SCENES = 256
-"""So many scenes of a round are asked by the function for scenes: those with the most cases; and about as many of the
-others, evenly, for tilted spheroids hardly share their axes."""
+"""The number of scenes of a round that are tested by the function for scenes: those with the most cases, and about as
+many of the others, evenly chosen, because tilted spheroids hardly share their axes."""
 
 LONG_SCENES = 3
-"""Scenes of the first round whose cases fill questions of FULL_QUESTION centres: those with the most cases."""
+"""The number of scenes of the first round with questions of FULL_QUESTION centres: those with the most cases."""
 
 ALONE, SINGLE_STEP = 32, 20
-"""Cases that are asked one by one, and questions of one row between two looks at the clock."""
+"""The number of cases that are sent one by one, and of questions of one row between two readings of the clock."""
 
 LENGTHS = (7, 3, 11, 2, 5, 13, 9, 6, 15, 10, 4, 14, 12, 8, 17, 16, 31, 33, 63, 65, 129, 127)
 """Rows of small batches: every remainder modulo 2, 4, 8 and 16, and the neighbours of powers of two."""
 
 IN_LENGTHS = 1536
-"""At most so many cases are asked in batches of LENGTHS, unless they are asked more than once."""
+"""The most cases that are tested in batches of LENGTHS, unless they are tested more than once."""
 
 LENGTH_ROUNDS = 3
 """Batches of each of LENGTHS for an implementation that answers LARGE_QUESTION rows at once; they are cheap."""
 
 TWINS = 64
-"""Cases asked four times in one batch, next to each other and apart: an implementation may cache answers by row."""
+"""The number of cases that occur four times in one batch, adjacent and apart: an implementation may cache answers."""
 
 LARGE_QUESTION = 4096
 FULL_QUESTION = LARGE_QUESTION + 128 + 1

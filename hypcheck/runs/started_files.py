@@ -25,7 +25,7 @@ _PACKAGE = Path(hypcheck.__file__).resolve().parent
 _PYTHON = (".py", ".pyw")
 
 MOST_FILES = 2000
-"""So many files of a SPEC are looked at; what has more is not hashed in whole."""
+"""The most files of a SPEC that are hashed; further files are not."""
 
 _DYNAMIC = frozenset(
     {"__import__", "import_module", "exec", "run_path", "run_module", "spec_from_file_location", "CDLL"}

@@ -44,7 +44,7 @@ from hypcheck.truth.mesh import Mesh, MeshOutcome, Refinement, side_of_center
 
 _MOST_CELLS = 1 << 13
 _LEVELS = 80
-"""As many rounds of cutting as leave anything but roundings."""
+"""The most rounds of cutting; after more of them cells are as small as rounding errors."""
 
 _REACH = 1.25
 """Cells farther than this, in radii, are left out at once."""
@@ -55,7 +55,7 @@ _LEAST = 2.0**-60
 _U = 2.0**-52
 
 _TILTED = 4
-"""So many times _slack_of is what roundings may move the corners of a tilted pair."""
+"""The corners of a tilted pair may be wrong by this multiple of _slack_of."""
 
 _START = 8
 """Cells around the axis at the beginning."""

@@ -80,7 +80,7 @@ Bounds = tuple[float, float]
 
 _STEP_BITS = 12
 _FEW = 6
-"""So many multipliers, each of twice as many bits, are tried at most once one of them proves a time clear."""
+"""The most multipliers, each of twice as many bits, that are tried after the first that proves a time clear."""
 _MOST_BITS = 1 << 12
 
 

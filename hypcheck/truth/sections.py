@@ -286,7 +286,7 @@ def _floor_of_quotient(number: int, unit: int) -> int:
 
 
 MOST_HALVINGS = 8
-"""After so many halvings Sturm's theorem decides, because Descartes' rule never decides about a multiple root."""
+"""The number of halvings after which Sturm's theorem decides: Descartes' rule never decides about a multiple root."""
 
 
 def has_root(f: Polynomial, low: int, high: int) -> bool | None:

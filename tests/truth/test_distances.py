@@ -54,7 +54,7 @@ def test_float_stage_is_never_certain_about_a_length_or_axis_out_of_range(column
     assert not certain[1]
 
 
-def test_a_table_with_a_certain_row_of_another_position_than_the_kernel_says_is_refused(monkeypatch):
+def test_answers_are_refused_if_the_kernel_and_the_nearest_point_disagree_about_a_position(monkeypatch):
     rows = TILTED_FAMILIES["tilted-tower"].rows(7, 30)
     expected = answers(rows)
     each = one_by_one(rows)

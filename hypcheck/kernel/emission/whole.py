@@ -35,7 +35,7 @@ from hypcheck.kernel.specialise.tilted_search import SETTING
 from hypcheck.scene.model import Hyperboloid, SceneModel, Span
 
 MOST_SETTINGS = 20_000
-"""As many as a scene file has hyperboloids."""
+"""The most hyperboloids, equal to the limit of a scene file."""
 
 NO_POSITION = 9
 """Stands for the position that answers yes, where the question is the position itself and nothing is compared."""

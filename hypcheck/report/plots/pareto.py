@@ -295,7 +295,7 @@ def _plot(name: str, title: str, methods: Sequence[ParetoPoint], height: float =
 
 
 _FEW = 10
-"""So many methods all have their names."""
+"""The most methods of which a plot names all."""
 
 _UNBEATEN = "no method is faster and more reliable"
 

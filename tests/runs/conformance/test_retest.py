@@ -52,7 +52,7 @@ def test_retest_asks_the_largest_proven_batch(gate, name, code):
 
 
 @pytest.mark.parametrize("name", ["forgets_what_comes_again", "forgets_twins"])
-def test_small_run_retests_rows_too(gate, monkeypatch, name):
+def test_a_small_run_retests_rows_too(gate, monkeypatch, name):
     monkeypatch.setattr(faulty, "_seen", set())
     code, record = gate(name, "--count", "40")
     assert code == 1
