@@ -63,7 +63,7 @@ COMPOSED = (
     *("StageFiveAnswers", "StageFiveLimbs", "StageFiveIntegers", "StagesRuns", "Doubles", "StagesOnDoubles"),
     *("FloatSteps", "FloatTexts", "SingleBound", "SingleRuns", "CertifiedText", "CertifiedAnswers", "StagesOfFloats"),
     *("StageFourBeside", "StageFourPosition", "StageFourExact"),
-    *("TangentTexts", "TangentRuns", "TangentWithin", "DoubleValues", "StageFourHair", "AllStages"),
+    *("TangentTexts", "TangentRuns", "TangentWithin", "DoubleValues", "StageFourHair", "AllStages", "AllStagesMet"),
 )
 """All stages in one theorem, Stages.whatever_stage_answers; from a stage's numbers to the position; the C of words; the
 functions of the C that decide; the C of long integers."""
@@ -77,7 +77,7 @@ OF_STAGES = (
 
 OF_RUNS = (
     *("StageOne", "TangentRuns", "TangentWithin", "StageTwoRuns", "SingleRuns"),
-    *("CertifiedAnswers", "StagesOfFloats", "StageFourHair", "AllStages"),
+    *("CertifiedAnswers", "StagesOfFloats", "StageFourHair", "AllStages", "AllStagesMet"),
 )
 """The same from the steps of the C in float64, with its guards."""
 
