@@ -46,7 +46,7 @@ def usable_processors() -> int:
 
 @contextmanager
 def processes(workers: int) -> Iterator[ProcessPoolExecutor | None]:
-    """A pool of so many fresh processes (forking would copy locks and threads); None for one worker.
+    """A pool of `workers` fresh processes (forking would copy locks and threads); None for one worker.
 
     If an exception leaves the block, the processes are ended, and the rest of their work is not done.
     """
@@ -128,7 +128,7 @@ def in_order(
 
 @dataclass(frozen=True, slots=True)
 class _TaskError:
-    """An error of the tasks themselves, which takes the place of those that it prevented."""
+    """An error of the iterator of tasks; it replaces the tasks that it prevented."""
 
     error: Exception
 

@@ -30,7 +30,7 @@ It may also raise InputError, whose text is then the whole sentence.
 
 
 class PartError(ValueError):
-    """The refusal of a value within a checked one: its path there, the value, and as text what it must be."""
+    """The refusal of a value within a checked one: its path, the value, and the requirement as text."""
 
     def __init__(self, path: Path, value: object, wanted: str) -> None:
         super().__init__(wanted)
@@ -63,7 +63,7 @@ class Origin:
         return dotted(path) or self.title
 
     def named_value(self, path: Path) -> str:
-        """The value at a path, at the beginning of a sentence about what it is."""
+        """The value at a path, as the beginning of a sentence about it."""
         return self.named(path)
 
     def shown(self, value: object) -> str:
@@ -214,7 +214,7 @@ class StrictTable:
 
 
 def _wanted(check: Check[Any]) -> str:
-    """The requirement of a check: the sentence with which it refuses what no file holds."""
+    """The requirement of a check: the sentence with which it refuses an impossible value."""
     try:
         check(object())
     except ValueError as error:

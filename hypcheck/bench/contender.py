@@ -75,7 +75,7 @@ class LoadedMethod:
         """The empty call in a mode, whose time is subtracted; None if no time is subtracted."""
 
     def close(self) -> None:
-        """Release what it holds."""
+        """Release the meshes or the process that it holds."""
 
 
 @dataclass(frozen=True)
@@ -158,7 +158,7 @@ def one_by_one(function: Answering, parts: list[Rows]) -> PreparedWork:
 
 
 def prepared(rows: int, work: Callable[[], Answers]) -> PreparedWork:
-    """Work in this process that answers so many rows."""
+    """Prepared work in this process that answers `rows` rows."""
     return PreparedWork(rows, clocked(work), work)
 
 

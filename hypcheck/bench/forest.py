@@ -84,7 +84,7 @@ def _tree(number: int, kind: int, place: tuple[float, float]) -> Hyperboloid:
 
 
 def forest_of(trees: int, seed: int) -> Forest:
-    """A forest of so many trees, uniform on a square."""
+    """A forest of `trees` trees, uniform on a square."""
     draw = np.random.Generator(np.random.PCG64([seed, trees]))
     side = float(np.sqrt(ROOM * trees))
     return Forest(side, side * draw.random((trees, 2)), draw.integers(0, len(KINDS), trees))

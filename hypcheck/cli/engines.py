@@ -1,4 +1,4 @@
-"""`hypcheck engines`: collision engines installed apart, and the record of what they get wrong."""
+"""`hypcheck engines`: collision engines in separate environments, and the record of their errors."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def engines() -> None:
 
 
 def _installed(names: tuple[str, ...], cache: Path) -> list[Engine]:
-    """The engines of these names, or all that are installed. Raises InputError where one is not, or none is."""
+    """The engines of these names, or all installed ones. Raises InputError if one of them, or each, is missing."""
     from hypcheck.engines.engine import engines_of, is_installed
 
     chosen = [engine for engine in engines_of(names) if names or is_installed(engine, cache)]

@@ -116,7 +116,7 @@ def _end(error: BaseException, *, debug: bool) -> int:
 
 
 def _silence_stdout() -> None:
-    """Keep Python from writing again, as it ends, what could not be written, and from printing an error about it."""
+    """Prevent Python from writing failed output again at its end, and from printing an error about it."""
     with suppress(OSError, ValueError, AttributeError):
         sys.stdout.flush()
         return

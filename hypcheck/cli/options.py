@@ -1,4 +1,4 @@
-"""Options that several commands have: how their values are read, and what shells complete in the place of a value.
+"""Options that several commands have: the reading of their values, and their completions in a shell.
 
 Whole numbers are written in digits, or large ones as 1e9, 2.5e6 or 1_000_000. Names of families, cases, methods,
 scenes, causes and engines are completed, files otherwise: a function gives the names that may stand for a word that is
@@ -47,7 +47,7 @@ class Names(click.ParamType[str]):
         self.files = files
 
     def convert(self, value: str, param: click.Parameter | None, ctx: click.Context | None) -> str:
-        """The text; a list without any name is refused, for what it leads to is that of no list."""
+        """The text; a list without a name is refused, because it would mean the same as no list."""
         if self.many and not names_in(value):
             self.fail(f"{shown(value)} must be names, separated by commas.", param, ctx)
         return value
@@ -58,7 +58,7 @@ class Names(click.ParamType[str]):
         param: click.Parameter,  # noqa: ARG002 - click's signature
         incomplete: str,
     ) -> list[CompletionItem]:
-        """The names that begin so, with those before the last comma; none of them twice."""
+        """The names that complete the last word, each after the names before the last comma, without duplicates."""
         before, comma, last = incomplete.rpartition(",") if self.many else ("", "", incomplete)
         names = [name for name in dict.fromkeys(self.known(ctx, last)) if name.startswith(last)]
         items = [CompletionItem(f"{before}{comma}{name}") for name in names if name not in before.split(",")]
@@ -208,7 +208,7 @@ def integer_of(text: str) -> int | None:
 
 
 def integer_wanted(least: int, greatest: int) -> str:
-    """The end of a sentence: what a number must be."""
+    """The end of a sentence: the requirement for a number."""
     digits = str(greatest)
     power = len(digits) > 6 and not digits[1:].strip("0") and digits[0] == "1"
     return f"a whole number, at least {least} and at most {f'1e{len(digits) - 1}' if power else digits}"

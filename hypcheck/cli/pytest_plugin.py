@@ -66,7 +66,7 @@ def _refused(specs: Iterable[object], options: Mapping[str, Any]) -> str | None:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_runtest_call(item: pytest.Item) -> None:
-    """Gate what the markers of a test name, before its own body runs."""
+    """Gate the implementations that the markers of a test name, before the test runs."""
     for mark in item.iter_markers("hypcheck"):
         trouble = gate(mark.args, mark.kwargs, item.config.rootpath)
         if trouble:

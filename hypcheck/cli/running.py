@@ -56,7 +56,7 @@ class DetachableTerminal(io.TextIOBase):
             return len(text)
 
     def flush(self) -> None:
-        """Write what is buffered, or drop it if the terminal is closed."""
+        """Write buffered output, or drop it if the terminal is closed."""
         try:
             self._terminal.flush()
         except OSError:
@@ -128,7 +128,7 @@ class ShownPace:
             self._bar.label = label
 
     def expect(self, more: int) -> None:
-        """Make the bar longer by so many steps, or shorter."""
+        """Make the bar longer by this number of steps, or shorter if it is negative."""
         if self._bar is not None and self._bar.length is not None:
             self._bar.length += more
 
@@ -275,7 +275,7 @@ def _settle(recorder: Recorder, growing: Path, path: Path) -> None:
 
 
 def _ended_early(growing: Path, recorder: Recorder) -> None:
-    """Keep what was finished, with reports, and print where it is; a run without a result has left nothing."""
+    """Keep the finished part with reports, and print its place; a run without a result leaves nothing."""
     from hypcheck.record import read
     from hypcheck.record.reader import FILE
     from hypcheck.report.write import write_reports

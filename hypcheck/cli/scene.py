@@ -213,7 +213,7 @@ def _require_routine(sweeps: bool, whole: bool, question: str | None, proof: str
 
 
 def _command(context: click.Context) -> list[str]:
-    """The command that writes the same code: what was given and is not the default, except for the files to write."""
+    """The command that writes the same code: all options that differ from the default, except for the output files."""
     command = ["hypcheck", "emit"]
     for option in context.command.params:
         value = context.params[str(option.name)]

@@ -1,4 +1,4 @@
-"""`hypcheck init` and `hypcheck info`: the files of a project under test, and what this installation has."""
+"""`hypcheck init` and `hypcheck info`: the files of a project under test, and the parts of this installation."""
 
 from __future__ import annotations
 
@@ -110,7 +110,7 @@ LIBRARIES = ("numpy", "sympy", "mpmath", "python-fcl", "click", "matplotlib", "j
 @click.command(short_help="Show versions, the kernel in use and why, and the oracles.")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object.")
 def info(as_json: bool) -> None:
-    """Show what this installation has: versions, the kernel in use and the reason for it, the oracles.
+    """Show the parts of this installation: versions, the kernel in use and the reason for it, the oracles.
 
     HYPCHECK_KERNEL=compiled or numpy forces a kernel, HYPCHECK_LEVEL its instruction set, HYPCHECK_THREADS the number
     of threads it may use.

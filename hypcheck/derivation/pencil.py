@@ -143,7 +143,7 @@ def scaled_cubic() -> SymbolicCubic:
 
 
 def cubic_of(hyperboloid_matrix: sympy.Matrix, sphere_matrix: sympy.Matrix) -> SymbolicCubic:
-    """The cubic of two matrices. Raises ArithmeticError where det(λH + S) is not what it must be."""
+    """The cubic of two matrices. Raises ArithmeticError if det(λH + S) does not have the expected factor."""
     f = (LAMBDA * hyperboloid_matrix + sphere_matrix).det(method="berkowitz")
     numerator, denominator = sympy.fraction(sympy.cancel(f))
     factor = SMALL_A**2 + LAMBDA

@@ -1,4 +1,4 @@
-"""The paper's displayed formulas (1) to (23) and those of its Appendix A as printed, and which of them hold.
+"""The paper's displayed formulas (1) to (23) and those of its Appendix A as printed, and checks of them.
 
 The statements are the paper's text in one-line notation, in the order printed. What they must equal comes from the
 derivation (pencil.py) and from no other printed formula, except where a formula claims to follow from one. For one that
@@ -34,7 +34,7 @@ from hypcheck.derivation.pencil import (
 
 @dataclass(frozen=True)
 class PrintedClaim:
-    """One printed equality: each pair is a printed expression and what it must equal.
+    """One printed equality: pairs of a printed expression and the expression that it must equal.
 
     `meanings` says what the letters in the printed expressions stand for.
     """

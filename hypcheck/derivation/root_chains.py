@@ -295,7 +295,7 @@ def ring_is_exterior() -> Link:
 
 
 def proposition_3() -> Chain:
-    """Both directions, and what Δ ≤ 0 leaves."""
+    """The chain of Proposition 3: both directions, and the positions with Δ ≤ 0."""
     return chain(
         "Proposition 3, repaired",
         "For (γ/d)² ≥ α/b: exterior ⟺ Δ > 0, c2 < 0 and c1 > 0, or the ring (z0 = 0, g'(B) = 0, A < B²). Δ ≤ 0 means "
@@ -318,7 +318,7 @@ def proposition_3() -> Chain:
 
 
 def procedure_1() -> Chain:
-    """Both cases of the procedure put right."""
+    """The chain of the corrected Procedure 1: both cases."""
     return chain(
         "Procedure 1, repaired",
         "For (γ/d)² ≥ α/b: exterior ⟺ E > 0 and E² > 4·A where Q = 0, with E = P − A − 1; elsewhere Δ > 0, c2 < 0 and "
@@ -367,7 +367,7 @@ def _in_the_plane_of_the_waist() -> tuple[Link, ...]:
 
 
 def proposition_5() -> Chain:
-    """Both directions, and the patterns that the printed statement leaves out."""
+    """The chain of Proposition 5: both directions, and the patterns that the printed statement omits."""
     return chain(
         "Proposition 5, repaired",
         "For α/b ≥ 1: interior ⟺ Δ > 0 and not (c2 < 0 and c1 > 0). Δ ≤ 0 means contact or the ring.",

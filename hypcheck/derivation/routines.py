@@ -58,7 +58,7 @@ class Half:
 
 @dataclass(frozen=True, slots=True)
 class Stored:
-    """`name` becomes the number as memory holds it: rounded, where a compiler fuses what makes it with what follows.
+    """`name` becomes the number as it is stored in memory: rounded, even if a compiler could fuse operations.
 
     With `opaque` a compiler must not know the number either: it is not computed before the program runs.
     """
@@ -84,7 +84,7 @@ class Table:
 
 @dataclass(frozen=True, slots=True)
 class Loop:
-    """The parts of `body` again and again, so many `times`, one at least.
+    """The parts of `body`, repeated `times` times; at least once.
 
     `kept` are numbers that go from round to round: the name of each, what it is before the first round, and the name
     that it has in the body when a round ends. After the loop they are what the last round made of them; what else
@@ -220,7 +220,7 @@ class Routine:
 
 
 def kind_of_part(part: Step | Call | Half | Stored, kinds: Mapping[str, str]) -> str:
-    """The kind of what a part makes, given the kinds of the names before it. Raises ValueError as Routine does."""
+    """The kind of a part's result, given the kinds of the names before it. Raises ValueError as Routine does."""
     if isinstance(part, Call):
         return _kind_of_call(part, kinds)
     if isinstance(part, Step):
@@ -243,7 +243,7 @@ def _kind_of_call(call: Call, kinds: Mapping[str, str]) -> str:
 
 
 def kinds_in(parts: Iterable[Part], before: Mapping[str, str]) -> dict[str, str]:
-    """The kind of every name that is there after the parts, given those before them."""
+    """The kinds of all names after the parts, given the kinds of the names before them."""
     kinds = dict(before)
     for part in parts:
         if isinstance(part, Loop):
@@ -303,7 +303,7 @@ def renamed(parts: Iterable[Part], names: Mapping[str, str]) -> Iterator[Part]:
 
 
 def called(routine: Routine) -> tuple[Routine, ...]:
-    """The routines that it calls, directly or not, each once and before what calls it."""
+    """The routines that it calls, directly or not; each occurs once, before its callers."""
     routines: dict[str, Routine] = {}
     for call in _calls(routine.needed):
         for inner in (*called(call.routine), call.routine):

@@ -275,7 +275,7 @@ def _sweep_mesh_method(solver: SweepSolver) -> Method:
 
 
 def builtin(name: str) -> Method:
-    """The built-in method of that name; raises InputError naming those that exist, or what it needs and lacks."""
+    """The built-in method of that name. Raises InputError naming the known methods, or a missing requirement."""
     if name in SWEEP_SOLVERS and (trouble := SWEEP_SOLVERS[name].engine.trouble()) is not None:
         raise InputError(f"the built-in method {name!r} cannot be used: {trouble}")
     method = methods_without_meshes().get(name) or passage_methods().get(name) or passage_mesh_methods().get(name)

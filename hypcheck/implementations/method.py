@@ -77,7 +77,7 @@ def on_rows(answer: ByColumns) -> ByRows:
 
 
 def on_scene(answer: ByColumns, before: Callable[[Mapping[str, Any]], Mapping[str, Any]] = dict) -> ByScene:
-    """The function on many centres and one α, γ, b, d; it is given what `before` makes of these, once a call."""
+    """The function on many centres and one α, γ, b, d; it gets the results of `before`, computed once a call."""
 
     def answers(sizes: Sizes, x: Floats, y: Floats, z: Floats) -> Answers:
         known = before(dict(zip(SIZES, sizes, strict=True)))

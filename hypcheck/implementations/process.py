@@ -105,7 +105,7 @@ class Process:
     """One run of a program. Raises StartError if the system cannot run it."""
 
     def __init__(self, words: Sequence[str], limits: Limits, revealed: Sequence[str] = ()) -> None:
-        """Start the program; where it is isolated, it sees of this package no file but those that are `revealed`."""
+        """Start the program. If it is isolated, it sees only the `revealed` files of this package."""
         self._mark = new_environment_mark()
         environment = {**os.environ, **ONE_THREAD, self._mark: "1"}
         try:
@@ -231,7 +231,7 @@ class Process:
         return FaultError(Outcome.CRASH, _end_of(code, isolated=self._launched.isolated), fatal=True)
 
     def mark(self) -> None:
-        """Begin a question, and what `stderr` returns."""
+        """Begin a question: `stderr` returns only later output."""
         self._tail.mark()
         self.sent = 0
 

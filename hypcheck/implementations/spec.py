@@ -37,7 +37,7 @@ class Spec:
 
 
 def parse_spec(text: str) -> Spec:
-    """The SPEC in `text`; raises InputError saying what would be right."""
+    """The SPEC in `text`. Raises InputError with the allowed forms."""
     kind, _, rest = text.partition(":")
     if not begins_as_spec(text):
         kinds = ", ".join(f"{name}:" for name in _KINDS)

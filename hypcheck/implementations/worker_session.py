@@ -42,7 +42,7 @@ WORKER_MODULES = (
 
 @lru_cache
 def worker_files() -> tuple[str, ...]:
-    """The files of these modules, with what Python compiled of them, and the compiled module beside them."""
+    """The files of these modules with Python's compiled versions, and the compiled extension beside them."""
     package = Path(__file__).resolve().parents[1]
     sources = [str(package / f"{name}.py") for name in WORKER_MODULES]
     compiled = [cache_from_source(source) for source in sources] if sys.implementation.cache_tag else []

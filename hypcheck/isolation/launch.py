@@ -55,7 +55,7 @@ class Means:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The means that are there."""
+        """The names of the available means."""
         landlock = f"Landlock {self.landlock}"
         named = {"namespaces": self.namespaces, landlock: bool(self.landlock), "seccomp": self.seccomp}
         return tuple(name for name, there in named.items() if there)

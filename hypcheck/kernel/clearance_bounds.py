@@ -333,7 +333,7 @@ def _measured(rows: Rows, gaps: points.PointGaps) -> Floats:
 def _separated(
     rows: Rows, gaps: points.PointGaps, usual: Mask, least: Floats, most: Floats, threads: int | None
 ) -> Floats:
-    """The distances that a spheroid which contains all points so near proves, or `least` where that is more."""
+    """The distances that are proved by larger spheroids that contain all points within them; at least `least`."""
     v = gaps.support
 
     def clear(some: Indices, length: Floats) -> Mask:

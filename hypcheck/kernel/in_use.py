@@ -52,7 +52,7 @@ class Kernel(Protocol):
 
 
 def kernel() -> Kernel:
-    """The module that choice() names. Raises InputError where the environment asks for one that is not there."""
+    """The module that choice() names. Raises InputError if the environment requires a missing one."""
     return _kernel_named(choice().kernel)
 
 

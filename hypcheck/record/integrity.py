@@ -289,7 +289,7 @@ def repair(path: Path, target: Path) -> FileCondition:
 
 
 def _condition(scan: RecordScan, reader: Reader, why: str) -> FileCondition:
-    """The condition after the scan has ended; what it did not read is counted."""
+    """The condition of the file after the scan; the bytes that the scan did not read are counted."""
     last = scan.written
     size, ends = len(last), last.count(b"\n")
     while block := reader.read(_BLOCK):

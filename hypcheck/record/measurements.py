@@ -314,7 +314,7 @@ class SceneTimes(fields.LinePart, frozen=True, kw_only=True):
 
 
 class SceneLine(fields.RecordLine, frozen=True, kw_only=True):
-    """The kernel of a scene: what each stage decides, and what it saves; since 1.3.0."""
+    """The kernel of a scene: the share that each stage decides, and the time that the kernel saves; since 1.3.0."""
 
     scene: str
     question: str

@@ -1,4 +1,4 @@
-"""The line of progress, since 1.3.0: what a conformance run has finished, so that it can be resumed."""
+"""The line of progress, since 1.3.0: the finished part of a conformance run, so that it can be resumed."""
 
 from __future__ import annotations
 

@@ -109,7 +109,7 @@ def read(path: Path) -> Record:
 
 
 def notes(record: Record) -> list[str]:
-    """Sentences about what a report of this record lacks: its end, or what a later version wrote."""
+    """Sentences about missing parts of a report of this record: its end, or lines of a later version."""
     sentences = []
     if record.footer is None:
         sentences.append("the record has no end: the run was interrupted, and its reports show the finished part")

@@ -85,7 +85,7 @@ class RecordContext:
 
 
 class LineFacts(Generic[Line]):
-    """The facts of one line; a subclass overrides what its type of line has."""
+    """The facts of one line; a subclass overrides the methods for facts that its type of line has."""
 
     def __init__(self, line: Line, context: RecordContext) -> None:
         self.line, self.context = line, context

@@ -248,7 +248,7 @@ def execution_in_pool(
     implementation: Implementation,
     watch: Watch = WATCH,
 ) -> Iterator[schedule.TaskExecution]:
-    """Perform tasks in so many processes, each of which opens the implementation.
+    """Perform tasks in `workers` processes, each of which opens the implementation.
 
     A task raises StartError if the implementation's description in its process differs from the one here.
     """

@@ -101,7 +101,7 @@ def target_of(
 
 @dataclass(frozen=True, slots=True)
 class HuntFinding:
-    """A wrong answer, its error as its judge measures it (also in units u), where its row lies, and what found it."""
+    """A wrong answer, its error as its judge measures it (also in units u), the row's place, and the source."""
 
     case: WrongCase
     error: float

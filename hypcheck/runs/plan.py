@@ -166,7 +166,7 @@ def chosen_families(plan: ConformancePlan, used: Description) -> tuple[Family, .
 
 
 def _lacking(used: Description, family: Family) -> str:
-    """The key of domain.FAMILIES for what an implementation lacks to answer a family; "" if it lacks nothing."""
+    """The key of domain.FAMILIES for the reason why an implementation cannot answer a family; "" if it can."""
     if family.layout != used.asked.layout:
         return "question"
     more = family.groups - used.groups

@@ -129,7 +129,7 @@ def _scene(top: StrictTable) -> model.SceneModel:
 
 
 def _file(name: str) -> tuple[str, str]:
-    """The text of the scene of that name and what messages call it."""
+    """The text of the scene of that name, and its name in messages."""
     if not name.endswith(SUFFIX) and name in shipped_scenes():
         return shipped_text(name), f"the shipped scene {name}"
     try:

@@ -57,9 +57,9 @@ def check_names(names: Sequence[str], where: str, noun: str = "column") -> None:
 
 
 def columns_of(names: Iterable[str]) -> tuple[str, ...]:
-    """The columns that a table of these names must have: seven, and an end and an axis where one is among them.
+    """The columns that a table with these names must have: seven, and all of an end or axis of which one is present.
 
-    Of heights those that are there: a missing one means no end, or an open end.
+    The columns of heights are those that are present: a missing one means no end, or an open end.
     """
     folded = {name.casefold() for name in names}
     heights = tuple(name for name in pair.HEIGHTS if name in folded)
@@ -77,7 +77,7 @@ def layout_of(columns: Sequence[str]) -> Layout:
 
 
 def in_layout(numbers: Rows, columns: Sequence[str], layout: Layout) -> Rows:
-    """The rows of numbers (n, len(columns)) of these columns: with heights all that a row with heights has."""
+    """Rows from numbers (n, len(columns)) of these columns; with heights they get all columns of a row with heights."""
     if frozenset(pair.HEIGHTS).isdisjoint(columns):
         return numbers
     base = len(layout.upright)

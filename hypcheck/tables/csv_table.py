@@ -201,7 +201,7 @@ def _broken(
     *,
     mark: bool,
 ) -> NoReturn:
-    """Raise InputError about the first bad one of these rows, or else about the record of another width after them."""
+    """Raise InputError about the first invalid row, or else about the record of another width after these rows."""
     _chunk(cells, texts, places, columns, mark=mark)
     noun = "cell" if len(record) == 1 else "cells"
     raise InputError(f"{places.of(len(cells))}: {len(record)} {noun}; the header has {width}")

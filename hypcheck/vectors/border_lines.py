@@ -130,7 +130,7 @@ def _turned(rows: Rows, to: tuple[Floats, Floats]) -> Rows:
 
 
 def upright(draw: Draw, n: int) -> Rows:
-    """From 2⁻⁴⁰ to 2⁻³⁰ radii off contact, to either side of it, outside and inside; |z| below 2γ."""
+    """Rows from 2⁻⁴⁰ to 2⁻³⁰ radii off contact, to either side of it, outside and inside; |z| below 2γ."""
     points = lattice(draw, n)
     return upright_at(points, _near(points))
 

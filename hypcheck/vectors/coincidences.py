@@ -180,7 +180,7 @@ ring = in_turn(
 
 
 def ring_neighbourhood(draw: Draw, n: int) -> Rows:
-    """Up to 2⁻⁴⁰ … 2⁻⁶ radii from the ring, in its plane or out of it; every fourth row has the tower's ratios."""
+    """Rows up to 2⁻⁴⁰ … 2⁻⁶ radii from the ring, in its plane or out of it; every fourth has the tower's ratios."""
     tower = turns(n, True, False, False, False)
     a = np.where(tower, 8.0, draw.log_uniform(n, -3, 10))
     c = np.where(tower, 17.8 / 0.15, np.sqrt(a) * draw.log_uniform(n, 1, 8))
@@ -193,7 +193,7 @@ def ring_neighbourhood(draw: Draw, n: int) -> Rows:
 
 
 def osculation(draw: Draw, n: int) -> Rows:
-    """c² = a (1 ± 2⁻⁵⁰ … 2⁻³) and centres near r = a + 1 in or near the plane of the waist.
+    """Rows with c² = a (1 ± 2⁻⁵⁰ … 2⁻³) and centres near r = a + 1 in or near the plane of the waist.
 
     Half of the centres are in or above the plane at random; half are one radius, changed a little, from the groove's
     bottom.
@@ -221,7 +221,7 @@ def near_axis(draw: Draw, n: int) -> Rows:
 
 
 def axis(draw: Draw, n: int) -> Rows:
-    """x = y = 0: at the origin, at heights near the height from which the ball fits, and at any height."""
+    """Rows with x = y = 0: at the origin, at heights near the height from which the ball fits, and at any height."""
     a, c = random_pairs.all_regimes(draw, n)
     fits = np.sqrt(np.maximum((a * a + c * c) * (1 - a * a), 0)) / a
     hair = 1 + draw.signs(n) * draw.log_uniform(n, -50, -1)
@@ -242,7 +242,7 @@ def waist(draw: Draw, n: int) -> Rows:
 
 
 def regime_borders(draw: Draw, n: int) -> Rows:
-    """a = 1 and c² = a, exactly or one ulp of a size to either side, centres all around the surface."""
+    """Rows with a = 1 and c² = a, exactly or one ulp of a size to either side, centres all around the surface."""
     aim = turns(n, True, False)
     b = draw.log_uniform(n, *random_pairs.UNITS)
     top, bottom = draw.integers(n, 1, 4095).astype(np.float64), draw.integers(n, 1, 4095).astype(np.float64)

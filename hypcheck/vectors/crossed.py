@@ -199,7 +199,7 @@ def _centre(draw: Draw, size: list[Floats], values: Mapping[tuple[str, ...], NDA
 
 
 def _motion(motion: NDArray[Any], centre: list[Floats], free: list[Floats]) -> list[Floats]:
-    """From the start to the end."""
+    """The vectors from the start to the end."""
     x, y, z = centre
     i, j, k = free
     zero = np.zeros(len(x))

@@ -53,7 +53,7 @@ def _hair(draw: Draw, n: int) -> Floats:
 
 
 def uniform(beside: Maker = random_pairs.uniform, sizes: Sequence[int] = (3,)) -> Maker:
-    """All regimes and places, the upper end within one and a half radii of the centre's height.
+    """Rows in all regimes and places, with the upper end within one and a half radii of the centre's height.
 
     A radius is the largest of the numbers in these places of a row.
     """
@@ -120,7 +120,7 @@ def with_one_number_changed(draw: Draw, pairs: Rows, columns: Sequence[int], n: 
 
 
 def stiff(draw: Draw, n: int) -> Rows:
-    """Near contact with a rim, ratios of sizes up to 2²⁷."""
+    """Rows near contact with a rim, with ratios of sizes up to 2²⁷."""
     size = sizes(draw, draw.log_uniform(n, -13, 13), draw.log_uniform(n, -13, 13), units=(-12, 12))
     return _at_rim(draw, size, draw.signs(n) * draw.log_uniform(n, -18, 3), _upward(draw, n))
 

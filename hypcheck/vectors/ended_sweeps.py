@@ -43,7 +43,7 @@ def uniform(rows_of: Maker) -> Maker:
 
 
 def over(rows_of: Maker) -> Maker:
-    """Through a place beside or above a rim, 2⁻⁵⁰ to 2⁻³ radii off contact: along the rim, across it, or anywhere."""
+    """Sweeps through a place near a rim, 2⁻⁵⁰ to 2⁻³ radii off contact: along the rim, across it, or anywhere."""
 
     def make(draw: Draw, n: int) -> Rows:
         rows = rows_of(draw, n)
@@ -87,7 +87,7 @@ def one_number_changed(draw: Draw, n: int) -> Rows:
 
 
 def opening(draw: Draw, n: int) -> Rows:
-    """Out through an opening or in, without contact if the body is open."""
+    """Sweeps out through an opening or in, without contact if the body is open."""
     rows = ended.opening(draw, n)
     step = _any_step(draw, rows) * draw.log_uniform(n, -8, 0)[:, None]
     step[:, 2] = rows[:, 3] * draw.signs(n) * draw.log_uniform(n, -1, 3)
@@ -95,13 +95,13 @@ def opening(draw: Draw, n: int) -> Rows:
 
 
 def thin(draw: Draw, n: int) -> Rows:
-    """Through a place near contact with a surface of which a thin slab is left."""
+    """Sweeps through a place near contact with a surface of which only a thin slab exists."""
     rows = ended.thin()(draw, n)
     return _through(draw, rows, _any_step(draw, rows))
 
 
 def touch(draw: Draw, n: int) -> Rows:
-    """Through an exact touch of a rim: along the rim, away from it, or upwards; or up to it."""
+    """Sweeps through an exact touch of a rim: along the rim, away from it, or upwards; or sweeps that end there."""
     rows = ended.rim_tangent(draw, n)
     away = np.where(turns(n, True, False)[:, None], [[0.0, 0.0, 1.0]], rows[:, CENTRE] * [1, 1, 0])
     step = np.where(turns(n, True, True, False)[:, None], _around(rows), away)

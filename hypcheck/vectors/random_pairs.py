@@ -110,7 +110,7 @@ def all_regimes(draw: Draw, n: int) -> tuple[Floats, Floats]:
 
 
 def uniform(draw: Draw, n: int) -> Rows:
-    """All regimes, centres all around the surface."""
+    """Rows in all regimes with centres all around the surface."""
     return around(draw, sizes(draw, *all_regimes(draw, n)))
 
 

@@ -244,7 +244,7 @@ def as_csv(family: Family, seed: int, count: int) -> bytes:
 
 
 def as_npy(family: Family, seed: int, count: int) -> bytes:
-    """Only the rows, as little-endian float64."""
+    """The rows alone as a .npy file of little-endian float64."""
     file = io.BytesIO()
     np.lib.format.write_array(file, family.rows(seed, count).astype("<f8"), version=(1, 0))
     return file.getvalue()

@@ -37,7 +37,7 @@ def through(rows: Rows, steps: Rows, after: Floats) -> tuple[Rows, Mask]:
 
 
 def _exterior_graze(draw: Draw, n: int) -> tuple[Rows, Mask]:
-    """Through an outer tangency along the surface's horizontal section, which curves away from the sweep."""
+    """Sweeps through an outer tangency along the surface's horizontal section, which curves away from the sweep."""
     tangencies = double_roots.by_ratios(draw, n)
     rows = in_metres(draw, np.where(tangencies.usable[:, None], tangencies.rows, 1.0))
     share = ldexp(draw.signs(n), draw.integers(n, -6, 2))
@@ -47,7 +47,7 @@ def _exterior_graze(draw: Draw, n: int) -> tuple[Rows, Mask]:
 
 
 def _interior_graze(draw: Draw, n: int) -> tuple[Rows, Mask]:
-    """Up or down through an inner tangency at the waist, the narrowest place."""
+    """Sweeps up or down through an inner tangency at the waist, the narrowest place."""
     rows = gather(draw, n, double_roots.waist_points)
     rows = in_metres(draw, rows)
     radius = np.sqrt(rows[:, 4] * rows[:, 4] + rows[:, 5] * rows[:, 5])
@@ -97,7 +97,7 @@ def ring_attempt(draw: Draw, n: int) -> tuple[Rows, Mask]:
 
 
 def ring(draw: Draw, n: int) -> Rows:
-    """Across the ring, where the discriminant is 0 in free air, along, up and out.
+    """Sweeps across the ring, where the discriminant is 0 without contact: along the ring, upwards and outwards.
 
     A ring may be so near to the surface that a sweep across it begins in contact. Other sweeps replace these.
     """
@@ -165,7 +165,7 @@ def one_number_changed(ends: Maker, columns: int) -> Maker:
 
 
 def tilted_ring(draw: Draw, n: int) -> Rows:
-    """Across the ring of a tilted spheroid, or through a neighbour of it."""
+    """Sweeps across the ring of a tilted spheroid, or through a place beside it."""
     rows = tilted.ring(draw, n)
     steps = rows[:, 2:3] * ldexp(draw.signs(n), draw.integers(n, -30, -9))[:, None] * _directions(draw, n)
     return through(rows, steps, np.ones(n))[0]
@@ -216,7 +216,7 @@ def tunnelling(draw: Draw, n: int) -> Rows:
 
 
 def uniform(draw: Draw, n: int) -> Rows:
-    """All regimes, both ends all around the surface, or near to each other."""
+    """Sweeps in all regimes, with both ends all around the surface, or near to each other."""
     size = sizes(draw, *all_regimes(draw, n))
     start = random_pairs.beside(draw, size, heights(draw, size.c), 2 * offsets(draw, n))
     return between(start, _ends(draw, size, start))
@@ -264,7 +264,7 @@ def still(draw: Draw, n: int) -> Rows:
 
 
 def along_a_line(draw: Draw, n: int) -> Rows:
-    """Along a straight line of the hyperboloid, or up to 2.5 radii beside one: the distance hardly changes."""
+    """Sweeps along a straight line of the hyperboloid, or up to 2.5 radii beside one: the distance hardly changes."""
     size = sizes(draw, *all_regimes(draw, n))
     cosine, sine = draw.circle(n)
     first, last = draw.between(n, -3, 0), draw.between(n, 0, 3)
@@ -279,7 +279,7 @@ def along_a_line(draw: Draw, n: int) -> Rows:
 
 
 def vertical(draw: Draw, n: int) -> Rows:
-    """Parallel to the hyperboloid's axis, and on it: x and y do not change."""
+    """Sweeps parallel to the hyperboloid's axis, and on it: x and y do not change."""
     size = sizes(draw, *all_regimes(draw, n))
     rows = _beside(draw, size)
     rows[:, 4:6] *= turns(n, 1.0, 1.0, 1.0, 0.0)[:, None]
@@ -298,7 +298,7 @@ def horizontal(draw: Draw, n: int) -> Rows:
 
 
 def very_long(draw: Draw, n: int) -> Rows:
-    """Past the surface, over 2¹⁰ to 2⁴⁰ times the spheroid's size: contact is very short."""
+    """Sweeps past the surface, over 2¹⁰ to 2⁴⁰ times the spheroid's size: contact is very short."""
     size = sizes(draw, *all_regimes(draw, n))
     rows = _beside(draw, size)
     cosine, sine = draw.circle(n)
@@ -309,7 +309,7 @@ def very_long(draw: Draw, n: int) -> Rows:
 
 
 def very_short(draw: Draw, n: int) -> Rows:
-    """From a place within 2⁻²⁰ radii of contact, over 2⁻⁵⁰ to 2⁻¹⁰ of its distance: the ends nearly coincide."""
+    """Sweeps from a place within 2⁻²⁰ radii of contact, over 2⁻⁵⁰ to 2⁻¹⁰ of its distance: the ends nearly coincide."""
     size = sizes(draw, *all_regimes(draw, n))
     offset = draw.signs(n) + ldexp(draw.signs(n), draw.integers(n, -50, -20))
     rows = random_pairs.beside(draw, size, heights(draw, size.c), offset)

@@ -105,7 +105,7 @@ def _nearly(draw: Draw, n: int, low: int = -52, high: int = -4) -> Floats:
 
 
 def uniform(draw: Draw, n: int) -> Rows:
-    """All regimes, all directions, centres all around the surface."""
+    """Rows in all regimes, with axes in all directions and centres all around the surface."""
     size, height = _ordinary(draw, n)
     return beside(draw, size, height, anywhere(draw, n), offsets(draw, n))
 
@@ -121,7 +121,7 @@ def tower(draw: Draw, n: int) -> Rows:
 
 
 def near_contact(draw: Draw, n: int) -> Rows:
-    """From 2⁻⁵² to 2⁻⁴ radii off contact, everywhere."""
+    """Rows from 2⁻⁵² to 2⁻⁴ radii off contact, all over the surface."""
     size, height = _ordinary(draw, n)
     return beside(draw, size, height, anywhere(draw, n), _nearly(draw, n))
 
@@ -136,7 +136,7 @@ def one_number_changed(draw: Draw, n: int) -> Rows:
 
 
 def horizontal(draw: Draw, n: int) -> Rows:
-    """Near contact, the axis horizontal."""
+    """Rows near contact with a horizontal axis."""
     size, height = _ordinary(draw, n)
     cosine, sine = draw.circle(n)
     return beside(draw, size, height, (cosine, sine, np.zeros(n)), _nearly(draw, n))
@@ -150,7 +150,7 @@ def through_the_centre(draw: Draw, n: int) -> Rows:
 
 
 def in_meridian_plane(draw: Draw, n: int) -> Rows:
-    """Near contact, centre and axis in one plane with the hyperboloid's axis: y = 0 or x = 0 in both."""
+    """Rows near contact with centre and axis in one plane with the hyperboloid's axis: y = 0 or x = 0 in both."""
     size, height = _ordinary(draw, n)
     up, across = circle_at(draw.unit(n))
     axis = (across * draw.signs(n), np.zeros(n), up)
@@ -187,7 +187,7 @@ def upright(draw: Draw, n: int) -> Rows:
 
 
 def slight(draw: Draw, n: int) -> Rows:
-    """Near contact, with an axis that differs from the vertical or the horizontal by 2⁻¹⁰⁷⁴ to 2⁻¹."""
+    """Rows near contact with an axis that differs from the vertical or the horizontal by 2⁻¹⁰⁷⁴ to 2⁻¹."""
     size, height = _ordinary(draw, n)
     cosine, sine = draw.circle(n)
     little = np.where(turns(n, True, True, True, False), draw.log_uniform(n, -60, 0), draw.log_uniform(n, -1074, -60))
@@ -204,7 +204,7 @@ def stiff(draw: Draw, n: int) -> Rows:
 
 
 def any_length(draw: Draw, n: int) -> Rows:
-    """Near contact, the axis as short and as long as float64 allows."""
+    """Rows near contact with axes as short and as long as float64 allows."""
     rows = near_contact(draw, n)
     length = draw.integers(n, -1073, 1023)
     rows[:, 7:] = ldexp(rows[:, 7:], np.where(turns(n, True, True, False), length, turns(n, -1073, 1023))[:, None])

@@ -1,1 +1,1 @@
-"""Kernels written out in other languages from a scene's plan: small, readable, and nothing but what the plan has."""
+"""Kernels in other languages, written from a scene's plan: small, readable, without anything that the plan omits."""

@@ -238,7 +238,7 @@ class _Batch(_Statements):
         return self._dialect.literal(float(value), self._precision)
 
     def first(self) -> Iterator[str]:
-        """Everything that costs a few operations; what it leaves is OPEN."""
+        """All tests that cost a few operations; centres that they do not decide are OPEN."""
         stages, choices, rest = self._stages, self._unmodelled(), OPEN
         yield from self._centre_read()
         if isinstance(stages.last, Position):

@@ -39,7 +39,7 @@ return text;"""
 
 
 def description_in_language(value: dict[str, Any], language: str, prefix: str) -> str:
-    """The description in a language. In C it is what the function does that returns it; in Rust that function too."""
+    """The description in a language: in C the body of the function that returns it, in Rust the whole function."""
     if language == "python":
         return "\n    ".join(line.rstrip() for line in _lines(value, repr))
     lines = list(_lines(value, partial(json.dumps, separators=(",", ":"))))  # adapters look for "tilt":true
@@ -55,7 +55,7 @@ def description_in_language(value: dict[str, Any], language: str, prefix: str) -
 
 
 def in_rust(quoted: Sequence[str], prefix: str, predicate: str, width: int) -> str:
-    """The description, and what the adapter of `hypcheck init` takes from a module: this and a function of one row.
+    """The description in Rust, with the names that the adapter of `hypcheck init` takes from a module.
 
     `predicate` is that function, `width` the numbers of a row; another function is there and answers none.
     """

@@ -31,7 +31,7 @@ WIDTH = 120
 
 
 def routines_text(routines: Sequence[Routine], dialect: Dialect, precision: str) -> str:
-    """The records of the routines, all that they call, and themselves, each once and before what calls it.
+    """The code of the routines, of all routines that they call, each once and before its callers, and of their records.
 
     Raises ValueError for a name that the language reserves.
     """

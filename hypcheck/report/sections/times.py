@@ -37,7 +37,7 @@ def speed_sections(record: Record) -> Iterator[document.Section]:
 def _untimed(
     words: str, lines: Sequence[measurements.RefusedLine | measurements.UnmeasuredLine]
 ) -> list[document.Block]:
-    """A list of these lines after these words; nothing if there is no line."""
+    """A list of these lines after an introduction; nothing if there is no line."""
     items = [(document.Code(line.method), f" on {line.workload}, {line.mode}: {line.reason}") for line in lines]
     return [document.Paragraph(words), document.bullets(items)] if items else []
 
