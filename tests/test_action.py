@@ -150,7 +150,7 @@ def test_pre_commit_accepts_the_manifest_of_the_hook():
     assert tool(TOOLS / "pre-commit", "validate-manifest", HOOKS)[0] == 0
 
 
-def test_the_pre_commit_hook_asks_the_same_rows_at_each_commit_and_leaves_no_file_that_git_would_add(tmp_path):
+def test_the_pre_commit_hook_tests_the_same_rows_at_each_commit_and_leaves_no_file_that_git_would_add(tmp_path):
     """As pre-commit runs it: the words of the entry, and the arguments behind them. It is never the self-check."""
     (hook,) = loaded(HOOKS)
     assert hook["entry"].startswith("env CI=true ")

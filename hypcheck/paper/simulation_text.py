@@ -51,7 +51,7 @@ def forest_lines(result: dict[str, Any]) -> Iterator[str]:
         touching = "1 touches" if ways["touching"] == 1 else f"{ways['touching']:,} touch"
         yield f"{counted(ways['made'], 'made step')}: {touching} a tree on the way"
         for contact in ways["contacts"][:SHOWN]:
-            yield f"  {_way(contact)}: {contact['tree']} first at {contact['first_upper']:.3g} of the way"
+            yield f"  {_from_to(contact)}: {contact['tree']} first at {contact['first_upper']:.3g} of the way"
     if "ends" in result:
         yield from _ends_of_trees(result["ends"])
 
@@ -254,7 +254,7 @@ def _ways(ways: dict[str, Any]) -> Iterator[str]:
             f"{begun:,} from their beginning and {touching - begun:,} on the way"
         )
     for contact in ways["contacts"][:SHOWN_OF_FLIGHTS]:
-        yield f"    {_way(contact)}: rotor {contact['rotor']} first at {contact['first_upper']:.3g} of the way"
+        yield f"    {_from_to(contact)}: rotor {contact['rotor']} first at {contact['first_upper']:.3g} of the way"
     turns, touching = ways["turns"], ways["turns_touching"]
     sweep = f"{touching:,} {'sweeps' if touching == 1 else 'sweep'} a rotor through contact{_share(touching, turns)}"
     yield f"  {counted(turns, 'turn')} in place: {sweep}"
@@ -290,7 +290,7 @@ def pitch_lines(tilt: dict[str, Any]) -> Iterator[str]:
         yield f"    for {changed:,}{_share(changed, near['centres'])}, {what}; {dangerous:,} of these are dangerous"
 
 
-def _way(contact: dict[str, Any]) -> str:
+def _from_to(contact: dict[str, Any]) -> str:
     start, end = (", ".join(f"{coordinate:.3f}" for coordinate in contact[name]) for name in ("start", "end"))
     return f"({start}) to ({end})"
 

@@ -176,7 +176,7 @@ def test_an_interruption_of_the_speed_trial_does_not_make_a_spec_look_slow(tmp_p
     assert foreign.foreign_method(spec, Limits(), []).timed > 10_000
 
 
-def test_the_speed_trial_asks_a_slow_spec_about_a_batch_twice_at_most(tmp_path):
+def test_the_speed_trial_sends_a_batch_to_a_slow_spec_twice_at_most(tmp_path):
     """Once to warm up, and once to take the time."""
     found = foreign.foreign_method(waiting(tmp_path, "0.01 * len(rows)"), Limits(), [])
     assert found.timed == 1

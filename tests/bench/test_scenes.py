@@ -73,7 +73,7 @@ def test_bench_forest_records_the_time_of_a_step_in_each_forest():
         assert {line.method for line in lines} == set(contenders.WALKERS)
 
 
-def test_bench_measures_scenes_and_forests_unasked_only_if_no_other_choice_is_made():
+def test_bench_measures_scenes_and_forests_by_default_only_if_no_other_choice_is_made():
     whole = BenchPlan()
     assert whole.whole
     assert contenders.sizes(whole)[-1] == contenders.MOST < contenders.sizes(BenchPlan(forest=True))[-1]

@@ -83,7 +83,7 @@ def test_estimated_distance_of_a_tilted_row_is_within_twice_its_proved_interval(
         assert low / 2 <= judge.about_error_of(row, 0, "position") <= 2 * high
 
 
-def test_rows_with_one_axis_are_asked_by_scene_and_rows_with_several_by_rows():
+def test_rows_with_one_axis_are_sent_by_scene_and_rows_with_several_by_rows():
     asked = []
 
     def function(rows):
@@ -131,7 +131,7 @@ def test_the_report_of_bench_tilted_names_its_workload_and_reference(small):
 
 
 @pytest.mark.parametrize("axis", ["[0.3, 0.1, 1.0]", '"free"'])
-def test_bench_scene_with_a_tilted_mover_asks_rows_in_its_region_and_near_contact(tmp_path, axis):
+def test_bench_scene_with_a_tilted_mover_has_rows_in_its_region_and_near_contact(tmp_path, axis):
     name = scene(tmp_path, axis)
     for each in scene_workloads(name).values():
         rows = each.rows(1, 200)

@@ -51,7 +51,7 @@ def test_each_round_begins_with_another_method_and_times_all_of_them():
     assert "".join(order[3:]) == "bca" + "cab" + "abc" + "bca"
 
 
-def test_the_number_of_loops_makes_a_sample_as_long_as_asked_for():
+def test_the_number_of_loops_makes_a_sample_as_long_as_requested():
     found = measured([TimingEntry("a", 4, Clock("a", [], ns=1000))], shortest_s=1e-3)["a"]
     assert found.loops * found.takes == 1000
     assert found.samples_ns == [250.0] * 3

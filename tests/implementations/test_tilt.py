@@ -34,7 +34,7 @@ def library(tmp_path_factory):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("spec", [command("tilted"), command("tilted", "binary"), function("tilted")])
-def test_an_implementation_with_tilt_is_asked_rows_of_ten_numbers_about_upright_pairs_too(spec):
+def test_an_implementation_with_tilt_gets_rows_of_ten_numbers_for_upright_pairs_too(spec):
     leaning, upright = tilted_rows(12), rows(12, lucky=True)
     expected = tilted_truth(leaning)
     assert len(set(expected)) > 1

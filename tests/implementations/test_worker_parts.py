@@ -128,7 +128,7 @@ def test_a_function_for_sweeps_that_does_not_return_hits_and_times_raises_an_err
         loaded(f"def f(rows):\n    return {returned}").classify(ROWS, TIMED)
 
 
-def test_a_function_that_returns_times_unasked_hears_what_its_description_must_say(loaded):
+def test_a_function_that_returns_unrequested_times_gets_advice_about_its_description(loaded):
     with pytest.raises(ContractError, match=r"it must be \(3,\); to return times .* must say \"times\": True"):
         loaded("def f(rows):\n    return [1, 0, 1], [0.5, 0.5, 0.5]").classify(ROWS, POSITION)
 

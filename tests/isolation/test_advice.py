@@ -135,7 +135,7 @@ def reasons_of(tmp_path, lines, limits):
 
 
 @both
-def test_an_error_that_isolation_causes_says_so_and_what_to_do(ways, monkeypatch, tmp_path):
+def test_an_error_that_isolation_causes_has_advice(ways, monkeypatch, tmp_path):
     """The programs of a test lie in the folder for temporary files, of which an isolated program sees only its own."""
     outside, here = tmp_path / "outside", tmp_path / "here"
     for folder in (outside, here):
@@ -151,7 +151,7 @@ def test_an_error_that_isolation_causes_says_so_and_what_to_do(ways, monkeypatch
 
 
 @both
-def test_a_command_that_isolation_stops_says_so_in_any_language(ways):
+def test_a_command_that_isolation_stops_gets_the_advice_in_any_language(ways):
     code = "import sys; sys.exit('Error: EROFS: read-only file system, open \\'cache.bin\\'')"
     spec = "command:" + json.dumps([sys.executable, "-I", "-S", "-c", code])
     assert WRITES in reason_of(spec, isolated(ways))

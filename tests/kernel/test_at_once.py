@@ -301,7 +301,7 @@ def test_classify_scene_with_prepared_sizes_answers_as_with_the_sizes(axis, know
         assert step_by_step.classify_scene(prepared, x, y, z).tolist() == expected
 
 
-def test_what_is_prepared_depends_on_the_centres_that_will_be_asked(columns):
+def test_prepared_data_depend_on_the_sample_centres(columns):
     assert hypcheck.Prepared(SIZES, like=columns).kept != hypcheck.Prepared(SIZES).kept
 
 

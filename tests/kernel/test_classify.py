@@ -168,7 +168,7 @@ def test_classify_refuses_an_unknown_on_invalid():
         hypcheck.classify_scene((1, 2, 1, 1), 1, 2, 3, on_invalid="ignore")
 
 
-def test_invalid_rows_are_flagged_where_that_is_asked_for_and_else_refused():
+def test_invalid_rows_are_flagged_if_requested_and_else_refused():
     good, bad = [2.0, 3.0, 0.5, 0.5, 9.0, 0.0, 0.0, 0.0, 1.0, 1.0], [2.0, 3.0, -0.5, 0.5, 9.0, 0.0, 0.0, 0.0, 1.0, 1.0]
     rows = np.array([good, bad])
     for given in (rows, rows[:, :7], rows.tolist()):

@@ -113,7 +113,7 @@ def test_scene_classify_is_exact_for_centres_outside_the_region():
         assert asked.classify(5.0, 5.0, z) == whole(scene, (5.0, 5.0, z))
 
 
-def test_scene_classify_asks_the_parts_of_a_mover_that_is_in_contact():
+def test_scene_classify_tests_the_parts_of_a_mover_that_is_in_contact():
     tree = Hyperboloid("tower", 2.0, 17.8)
     rotors = tuple(MoverPart(0.1, 0.05, 0.135, angle) for angle in (0.0, 90.0, 180.0, 270.0))
     body = model.SceneModel("s", "position", (tree,), Mover(0.25, 0.15))
@@ -201,7 +201,7 @@ def test_scene_position_of_one_centre_takes_an_axis_for_each_answer():
     assert disk.position(2.5, 0.0, 0.0, axis=axes).tolist() == [1, 0]
 
 
-def test_scene_position_asks_the_parts_only_where_the_mover_has_contact():
+def test_scene_position_tests_the_parts_only_where_the_mover_has_contact():
     """Rotors on either side of a thin tree, of a mover that is far off, and on the tree."""
     tree, mover = Hyperboloid("tree", 0.125, 9.0), Mover(1.0, 0.5, (MoverPart(0.125, 0.125, 0.75),))
     scene = Scene(model.SceneModel("s", "position", (tree,), mover))

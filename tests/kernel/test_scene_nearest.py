@@ -149,7 +149,7 @@ def test_scene_nearest_is_0_beside_a_tilted_hyperboloid_exactly_where_position_i
     assert (found.distance_upper[apart] - found.distance_lower[apart] < 1e-9).all()
 
 
-def test_scene_nearest_refuses_an_axis_that_is_missing_or_not_asked_for_and_invalid_centres():
+def test_scene_nearest_refuses_a_missing_or_superfluous_axis_and_invalid_centres():
     free = scene(Hyperboloid("a", 1, 1), mover=Mover(1, 2, (), "free"))
     with pytest.raises(InputError, match="no axis is given, and the scene leaves the mover's free"):
         free.nearest(0, 0, 0)

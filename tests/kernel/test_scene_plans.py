@@ -35,7 +35,7 @@ def test_pairs_of_the_same_sizes_share_a_setting_of_the_plan():
     assert rotors.uses == tuple(f"part {number} and tower" for number in (1, 2, 3, 4))
 
 
-def test_a_scene_in_which_a_hyperboloid_leans_has_no_plan():
+def test_a_scene_with_a_tilted_hyperboloid_has_no_plan():
     upright = SceneModel("s", "position", (Hyperboloid("oak", 1.0, 2.0),), Mover(0.5, 0.25))
     assert len(settings_of(upright)) == 1
     with pytest.raises(InputError, match=r"the hyperboloid 'oak' has the axis \[1.0, 0.0, 0.0\], and a kernel"):
@@ -43,7 +43,7 @@ def test_a_scene_in_which_a_hyperboloid_leans_has_no_plan():
 
 
 @pytest.mark.parametrize("axis", [FREE, (1.0, 0.0, 2.0)])
-def test_a_scene_in_which_the_mover_leans_has_the_settings_of_an_upright_one_and_its_axis(axis):
+def test_a_scene_with_a_tilted_mover_has_the_settings_of_an_upright_one_and_its_axis(axis):
     upright = SceneModel("s", "position", (Hyperboloid("oak", 1.0, 2.0),), Mover(0.5, 0.25))
     tilted = replace(upright, mover=Mover(0.5, 0.25, axis=axis))
     (setting,) = settings_of(tilted)
@@ -51,7 +51,7 @@ def test_a_scene_in_which_the_mover_leans_has_the_settings_of_an_upright_one_and
     assert setting.axis == axis
 
 
-def test_a_ball_whose_axis_leans_has_the_plan_of_an_upright_one():
+def test_a_ball_with_a_tilted_axis_has_the_plan_of_an_upright_one():
     upright = SceneModel("s", "position", (Hyperboloid("oak", 1.0, 2.0),), Mover(0.5, 0.5))
     for axis in (FREE, (1.0, 0.0, 2.0)):
         tilted = replace(upright, mover=Mover(0.5, 0.5, axis=axis))

@@ -196,7 +196,7 @@ def test_scene_passage_beyond_an_end_is_clear_up_to_the_rim():
 ROTORS = tuple(MoverPart(0.2, 0.1, 0.75, angle) for angle in (0.0, 180.0))
 
 
-def test_scene_passage_asks_the_parts_of_a_mover_where_the_whole_has_contact():
+def test_scene_passage_tests_the_parts_of_a_mover_where_the_whole_has_contact():
     body, mover = replace(TREE, alpha=0.5, gamma=4.0, height=Span(-2.0, 2.0)), Mover(1.0, 0.5, ROTORS)
     scene = Scene(SceneModel("tree", "position", (body,), mover, Region()))
     random = np.random.default_rng(10)
@@ -278,7 +278,7 @@ def test_sweep_along_the_axis_of_a_tilted_trunk_meets_its_end_at_an_irrational_t
     assert scene.passage((0.75, 0.0, 0.75), ends).hit.tolist() == [1, 1, 1]
 
 
-def test_scene_passage_refuses_an_axis_that_is_missing_or_not_asked_for():
+def test_scene_passage_refuses_a_missing_or_superfluous_axis():
     scene = SceneModel("tree", "position", (TREE,), Mover(1.0, 1.0), Region())
     with pytest.raises(InputError, match="no axis is given, and the scene leaves the mover's free"):
         Scene(replace(scene, mover=Mover(1, 1, axis=FREE))).passage((0, 0, 0), (1, 0, 0))

@@ -165,7 +165,7 @@ def test_the_scene_index_finds_a_tilted_tower_at_its_top():
     assert scene.position(12.0 - wall, 0.0, 16.0) == CONTACT
 
 
-def test_an_upright_mover_with_parts_asks_them_near_a_tilted_hyperboloid():
+def test_parts_of_an_upright_mover_are_tested_near_a_tilted_hyperboloid():
     body = Hyperboloid("wall", 4.0, 4.0, (0.0, 0.0, 0.0), None, (0.0, 1.0, 0.0))
     part = MoverPart(0.125, 0.125, 0.5)
     mover = Mover(1.0, 0.25, (part,))
@@ -275,7 +275,7 @@ ROTORS = tuple(MoverPart(0.2, 0.1, 0.6, angle) for angle in (45.0, 135.0, 225.0,
 
 @pytest.mark.parametrize("seed", range(4))
 @pytest.mark.parametrize("axis", [FREE, (1.0, 0.0, 2.0), (0.0, -3.0, -1.0), (2.0, 1.0, 0.0)])
-def test_parts_of_a_mover_that_leans_are_turned_with_it(axis, seed):
+def test_parts_of_a_tilted_mover_are_turned_with_it(axis, seed):
     draw = random.Random(seed)  # noqa: S311 - nothing is secret
     model = replace(tilted_forest(3, seed), question="position", mover=Mover(1.0, 0.5, ROTORS, axis))
     scene, said = Scene(model), set()
@@ -290,7 +290,7 @@ def test_parts_of_a_mover_that_leans_are_turned_with_it(axis, seed):
     assert len(said) > 1
 
 
-def test_a_ring_of_parts_that_leans_lets_a_tree_through_where_the_upright_one_does_not():
+def test_a_tilted_ring_of_parts_lets_a_tree_through_where_the_upright_one_does_not():
     tree = Hyperboloid("tree", 0.25, 4.0, (0.5, 0.0, 0.0))
     upright, pitched = (
         Scene(SceneModel("s", "position", (tree,), Mover(1.0, 0.5, (MoverPart(0.3, 0.2, 0.6),), axis)))

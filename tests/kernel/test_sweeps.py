@@ -128,7 +128,7 @@ def test_sweeps_with_subnormal_and_huge_numbers_are_decided_exactly(row, hit):
     assert sweeps.certified(rows).tolist() == [hit]
 
 
-def test_hits_of_sweeps_do_not_depend_on_whether_times_are_asked_for():
+def test_hits_of_sweeps_do_not_depend_on_whether_times_are_requested():
     rows = np.concatenate([load(name).rows for name in UPRIGHT])
     without = np.empty(len(rows), np.int8)
     compiled.passage(rows, without)

@@ -78,6 +78,6 @@ def test_missing_columns_are_all_named():
         hypcheck.classify({"alpha": 1, "gamma": 1, "x": 1, "y": 1, "z": 1})
 
 
-def test_invalid_rows_of_a_table_are_flagged_where_that_is_asked_for():
+def test_invalid_rows_of_a_table_are_flagged_if_requested():
     table = dict.fromkeys(NAMES, 1.0) | {"z": [0.0, np.nan]}
     assert hypcheck.classify(table, on_invalid="flag").tolist()[1] == 127

@@ -56,7 +56,7 @@ def test_the_document_of_an_archive_fits_the_schema_of_cyclonedx(name, tmp_path)
     assert JsonStrictValidator(SchemaVersion.V1_6).validate_str(json.dumps(broken)) is not None
 
 
-def test_the_document_of_a_wheel_names_what_it_holds_of_others_and_what_it_asks_for(tmp_path):
+def test_the_document_of_a_wheel_names_its_bundled_and_its_required_packages(tmp_path):
     wheel = tmp_path / f"hypcheck-{VERSION}-py3-none-any.whl"
     wheel.write_bytes(b"a wheel")
     parts = {part["name"]: part for part in sbom.document(wheel)["components"]}

@@ -120,7 +120,7 @@ def test_compile_note_writes_the_pdf_beside_its_source(monkeypatch, tmp_path):
     assert {path.name for path in target.parent.iterdir()} == {"erratum.tex", "erratum.pdf"}
 
 
-def test_compile_note_says_so_and_writes_nothing_if_latex_fails_or_hangs(monkeypatch, tmp_path):
+def test_compile_note_reports_the_failure_and_writes_nothing_if_latex_fails_or_hangs(monkeypatch, tmp_path):
     target = latex(monkeypatch, tmp_path, "exit 3")
     assert erratum.compile_note(target) == (
         f"not compiled: {erratum.COMPILER} ended with 3; run it on {target} to see why"

@@ -120,7 +120,7 @@ def test_craft_with_pitch_0_is_judged_as_the_upright_craft():
     assert counts.body_wrong == 0
 
 
-def test_pitch_changes_more_answers_near_the_wall_if_the_craft_leans_outward():
+def test_pitch_changes_more_answers_near_the_wall_if_the_craft_is_tilted_outward():
     found = near_wall(CRAFT, 45.0, 3, count=150)
     assert found["centres"] == 150
     assert found["outward"]["changed"] > found["anywhere"]["changed"] > 0

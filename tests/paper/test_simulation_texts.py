@@ -116,7 +116,7 @@ def test_the_text_of_a_tower_that_ends_counts_the_moves_of_the_table_only_if_it_
         assert text[start : text.index("", start)] == wanted
 
 
-def test_the_text_of_a_tower_without_modelled_ends_says_so(flown):
+def test_the_text_of_a_tower_mentions_that_its_ends_are_not_modelled(flown):
     endless = {**flown, "assumptions": {**flown["assumptions"], "height": None}}
     begin = "  tower alpha = 2, gamma = 17.8; "
     assert f"{begin}no end of its height is modelled" in list(tower_lines(endless))

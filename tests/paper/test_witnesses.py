@@ -283,7 +283,7 @@ def test_the_erratum_has_a_counterexample_to_each_proposition_and_table_that_it_
     assert "$a=7$, $c=7$, centre $(10,0,0)$: exterior" in note
 
 
-def test_the_tilted_pair_of_the_erratum_is_interior_upright_and_in_contact_as_it_leans(note):
+def test_the_tilted_pair_of_the_erratum_is_in_contact_and_would_be_interior_if_upright(note):
     found = re.search(
         r"\$\\alpha=(\d+)\$, \$\\gamma=(\d+)\$, \$b=(\d+)\$, \$d=(\d+)\$ and the centre \$\(([\d,]+)\)\$, the upright "
         r"spheroid is interior and the one with its axis along \$\(([\d,]+)\)\$ is in contact",

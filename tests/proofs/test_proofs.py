@@ -93,7 +93,7 @@ def test_a_program_makes_weakened_statements_of_every_stage_and_explains_known_o
     ("allows", "holds"),
     [("throat: without two_negative", False), ("waist_clear: 2 +1, place 2", False), ("groove: 3 +1", True)],
 )
-def test_coq_refuses_a_statement_without_a_guard_and_accepts_one_that_asks_for_more(allows, holds):
+def test_coq_refuses_a_statement_without_a_guard_and_accepts_one_with_a_stronger_guard(allows, holds):
     (change,) = (each for each in weakenings.made(build.source) if each.file == "Stages" and each.allows == allows)
     assert accepted(change) is holds
 

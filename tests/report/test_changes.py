@@ -87,6 +87,6 @@ def test_different_times_with_equal_ratios_are_no_change():
     assert " ns" not in section
 
 
-def test_comparison_with_a_truncated_record_says_so():
+def test_comparison_with_a_truncated_record_mentions_the_truncation():
     assert "the other record is truncated" in compared(BEFORE, dataclasses.replace(BEFORE, footer=None))
     assert "this record is truncated" in compared(dataclasses.replace(BEFORE, footer=None), BEFORE)

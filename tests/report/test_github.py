@@ -105,7 +105,7 @@ def run(monkeypatch, tmp_path, capsys, *words, on=True):
     return code, capsys.readouterr().out.splitlines()
 
 
-def test_a_run_whose_step_summary_cannot_be_written_says_so_and_ends_as_without(monkeypatch, tmp_path, capsys):
+def test_a_run_reports_a_step_summary_that_cannot_be_written_and_keeps_its_exit_code(monkeypatch, tmp_path, capsys):
     (tmp_path / "summary.md").mkdir()
     monkeypatch.setenv("GITHUB_ACTIONS", "true")
     monkeypatch.setenv("GITHUB_STEP_SUMMARY", str(tmp_path / "summary.md"))

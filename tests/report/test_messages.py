@@ -74,7 +74,7 @@ UPRIGHT = (0.0, 0.0, 1.0)
 @pytest.mark.parametrize(
     "others", [(), AXIS, (*UPRIGHT, *HEIGHTS), (*AXIS, -math.inf, 2.9, 0.0), (*AXIS, -math.inf, math.inf, 1.0)]
 )
-def test_the_classify_command_of_a_row_asks_all_that_the_row_has(others, end, capsys):
+def test_the_classify_command_of_a_row_has_all_of_its_numbers(others, end, capsys):
     row = (*(SEVEN if not end else (*SEVEN[:4], 9.0, 0.5, 3.0)), *end, *others)
     command = shlex.split(classify_command(row, SWEEPS if end else PAIRS))
     assert main([*command[1:], "--json"]) in (0, 1)

@@ -28,7 +28,7 @@ def test_reference_run_is_complete_of_this_version_and_without_failures(record):
     assert record.footer.exit_code == 0
 
 
-def test_reference_run_asked_the_oracles_many_cases_of_every_family(record):
+def test_reference_run_tested_many_cases_of_every_family_with_the_oracles(record):
     asked = {}
     for line in record.of(OracleLine):
         asked.setdefault(line.oracle, {})[line.family] = line.asked

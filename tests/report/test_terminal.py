@@ -108,7 +108,7 @@ def test_the_terminal_shows_six_causes_and_counts_the_answers_of_the_others():
     assert not any("other cause" in line for line in few)
 
 
-def test_a_bounding_volume_has_a_share_of_false_contacts_only_if_a_clear_row_was_asked():
+def test_a_bounding_volume_has_a_share_of_false_contacts_only_if_a_clear_row_was_tested():
     bounding = bench_lines.line("bounding")
     said = f"a bounding {bounding['shape']} in the spheroid's place, "
     assert any(line.startswith(said) for line in shown(bounding))

@@ -34,7 +34,7 @@ def batches():
 
 
 @pytest.mark.slow
-def test_tilted_oracles_are_asked_the_frozen_vectors_of_every_family_except_the_extreme_one(batches):
+def test_tilted_oracles_decide_the_frozen_vectors_of_every_family_except_the_extreme_one(batches):
     assert [batch.family.name for batch in batches] == [n for n in frozen.TILTED_NAMES if not n.startswith("extreme")]
     assert all(batch.rows.shape == (6, 10) for batch in batches)
     assert batches[0].name(3) == "tilted-uniform-0003"
@@ -48,7 +48,7 @@ def ended():
 
 
 @pytest.mark.skipif(ORACLES["mesh"].available() is not None, reason="python-fcl is not installed")
-def test_four_oracles_are_asked_frozen_vectors_and_agree_with_the_labels(batches, ended):
+def test_four_oracles_decide_frozen_vectors_and_agree_with_the_labels(batches, ended):
     """Of three families each; tests/test_corpus.py asks all oracles about all."""
     assert {batch.family.name for batch in ended} == set(frozen.ENDED_NAMES)
     for names, some in ((ASKED, batches[:3]), (ENDED, ended[:3])):
@@ -69,7 +69,7 @@ def test_wrong_oracle_for_hyperboloids_that_end_is_reported_with_their_heights(m
     assert len(found.disagreements[0].heights) == 3
 
 
-def test_roots_oracle_is_asked_all_upright_rows_by_default_a_tenth_as_many_tilted_ones_and_none_of_ends():
+def test_roots_oracle_gets_all_upright_rows_by_default_a_tenth_as_many_tilted_ones_and_none_of_ends():
     families = [*select(PLAN.families), *oracles.frozen_families(PLAN)]
 
     def share(name):
@@ -103,7 +103,7 @@ def test_a_tangency_that_an_oracle_calls_a_crossing_is_a_disagreement(monkeypatc
     assert found.disagreeing == found.asked == 4
 
 
-def test_oracle_is_asked_only_those_cases_of_a_later_batch_that_are_among_the_first_of_the_family():
+def test_oracle_decides_only_cases_of_a_later_batch_that_are_among_the_first_of_the_family():
     uniform = FAMILIES["uniform"]
     later, none = batch_of(uniform, 1, 400, 410), batch_of(uniform, 1, 403, 410)
     assert [line.asked for line in oracles.oracle_lines(later, {"exact": 405, "roots": 403})] == [5, 3]

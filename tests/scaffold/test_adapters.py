@@ -405,7 +405,7 @@ def test_every_kernel_that_emit_writes_fits_the_adapter(built, kernel, tmp_path,
 
 @pytest.mark.skipif(platform.system() != "Linux", reason="other linkers ask for both functions")
 @pytest.mark.parametrize("built", ["c", "cpp"], indirect=True)
-def test_adapter_says_that_the_predicate_lacks_the_function_that_its_description_asks_for(built, tmp_path):
+def test_adapter_reports_that_the_predicate_lacks_the_function_that_its_description_requires(built, tmp_path):
     other = replace(built, folder=tmp_path / "other")
     shutil.copytree(built.folder, other.folder)
     path = other.folder / built.language.folder / built.language.predicate

@@ -252,7 +252,7 @@ def test_bounds_tell_nothing_of_lengths_beyond_their_range():
         (5e16, 2.0**-60, 2.0**-60, 9e9, 0, 0, 0, 0, 0, 1, 1, INF, 0),
     ],
 )
-def test_a_bound_that_overflows_tells_nothing(row):
+def test_a_bound_that_overflows_decides_nothing(row):
     pair = Pair.from_row(row)
     assert least.position(pair) in (None, position(pair.lengths))
 

@@ -143,7 +143,7 @@ def test_search_uses_the_seed_of_the_fresh_rows_and_reports_it(run, capsys):
 
 
 @pytest.mark.usefixtures("few_families")
-def test_search_asks_a_slow_implementation_as_many_rows_as_it_takes_and_counts_the_others(run, built_in, monkeypatch):
+def test_search_sends_a_slow_implementation_as_many_rows_as_it_takes_and_counts_the_others(run, built_in, monkeypatch):
     spec = built_in(narrow)
     method = methods_without_meshes()["narrow"]
     monkeypatch.setitem(methods_without_meshes(), "narrow", replace(method, max_rows=30))

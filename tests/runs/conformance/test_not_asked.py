@@ -147,7 +147,7 @@ def test_subnormal_numbers_are_representable_only_if_the_precision_holds_them_ex
         ('{"settings": [{"sizes": [2, 17.8, 0.25, 0.15]}]}', "sizes"),
     ],
 )
-def test_every_row_that_is_not_asked_has_one_reason(domain, reason):
+def test_every_row_that_is_not_tested_has_one_reason(domain, reason):
     rows, claims = load("uniform").rows, parse_domain(domain)
     outside = rows[~claims.holds(rows)]
     assert 0 < len(outside)

@@ -43,7 +43,7 @@ def test_retest_finds_answers_that_depend_on_the_previous_moment_of_a_flight(gat
     ("name", "code"),
     [("python:tests.runs.faulty:loses_the_second_thread", 1), ("slowly_loses_the_second_thread", 0)],
 )
-def test_retest_asks_the_largest_proven_batch(gate, name, code):
+def test_retest_sends_the_largest_proven_batch(gate, name, code):
     busy = ("--count", "4000", "--timeout", "60")  # enough to grow, though the machine be busy
     ended, record = gate(name, *(busy if code else ("--count", "1")))
     assert ended == code

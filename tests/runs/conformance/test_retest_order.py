@@ -22,7 +22,7 @@ def asked(stands, truth=TRUTH, moments=STILL, number=0, part=0, pace=PACE):
 
 
 @pytest.mark.parametrize("stands", [1, 64, LARGE_QUESTION, FULL_QUESTION, LONGEST])
-def test_retest_asks_every_pending_case(stands):
+def test_retest_repeats_every_pending_case(stands):
     for n, part in product((0, 1, 15, 31, 33, 40, 700), (0, 1)):
         again = asked(stands, TRUTH[:n], STILL[:n], part=part)
         assert set(np.concatenate([places for places, _ in again])) == set(range(n)), (n, part)
@@ -67,7 +67,7 @@ def test_small_retest_batches_have_every_remainder_of_a_vector_length():
 
 
 @pytest.mark.parametrize(("seconds", "count"), [(60.0, ALONE + PACE.single_rows), (0.0, ALONE)])
-def test_retest_asks_many_single_rows_until_their_time_is_over(seconds, count):
+def test_retest_sends_many_single_rows_until_their_time_is_over(seconds, count):
     assert sum(len(places) for places, batch in asked(LONGEST, pace=Pace(single_s=seconds)) if batch == 1) == count
 
 

@@ -89,7 +89,7 @@ def test_an_implementation_that_answers_an_axis_without_a_direction_is_wrong_on_
         assert fault.reason == "answered 0; a row with an invalid axis_x and axis_y and axis_z must be refused: 127"
 
 
-def test_tilted_invalid_rows_are_asked_only_if_refuses_and_tilt_are_declared():
+def test_tilted_invalid_rows_are_tested_only_if_refuses_and_tilt_are_declared():
     found = [each.family for each in invalid_rows(Description("any", refuses=True, tilt=True))]
     assert found == ["invalid", "tilted-invalid"]
     assert [each.family for each in invalid_rows(Description("any", refuses=True))] == ["invalid"]
@@ -145,7 +145,7 @@ def test_the_frozen_vectors_of_tilted_spheroids_are_counted_by_their_distance(ga
     assert len(near) <= sum(number for exponent, number in counted.items() if exponent < -40)
 
 
-def test_an_implementation_without_tilt_is_asked_no_family_of_tilted_spheroids():
+def test_an_implementation_without_tilt_gets_no_family_of_tilted_spheroids():
     plan = ConformancePlan(("builtin:fast",), families=("*",), count=5)
     upright, tilted = (planned_cases(plan, Description("any", tilt=tilt)).keys() for tilt in (False, True))
     assert not upright & TILTED_FAMILIES.keys()
@@ -156,7 +156,7 @@ def test_an_implementation_without_tilt_is_asked_no_family_of_tilted_spheroids()
         steps_of(alone, Description("plain"))
 
 
-def test_families_of_tilted_spheroids_asked_of_an_implementation_without_tilt_are_a_usage_error(tmp_path, capsys):
+def test_naming_families_of_tilted_spheroids_for_an_implementation_without_tilt_is_a_usage_error(tmp_path, capsys):
     for families, sentence in (
         (LEANING, f"--families names {LEANING}, a family of tilted spheroids, and fast takes none; leave it out"),
         ("tilted-u*", "tilted-u*: these are families of tilted spheroids, and fast takes none"),

@@ -122,7 +122,7 @@ def test_verify_refuses_families_that_do_not_match_the_question(words, sentence,
 
 
 @pytest.mark.slow
-def test_invalid_sweeps_are_asked_of_implementations_that_declare_refuses(built_in, tmp_path):
+def test_invalid_sweeps_are_sent_to_implementations_that_declare_refuses(built_in, tmp_path):
     assert verified(tmp_path, built_in(moving.clear_from_infinity, **moving.hypcheck), *FEW) == 1
     found = {line.family: line for line in read(tmp_path).of(GroupLine)}
     assert found["way-tunnelling"].counts == {"right": ASKED}

@@ -59,7 +59,9 @@ def program(folder, text):
 
 
 @pytest.mark.parametrize(("text", "width", "most"), [(CENTRE_ALONE, 13, 60), (NEVER, 16, 20)])
-def test_a_hunt_asks_about_ends_where_heights_are_taken_and_keeps_what_it_finds(text, width, most, capsys, tmp_path):
+def test_a_hunt_tests_ends_if_the_implementation_takes_heights_and_keeps_its_findings(
+    text, width, most, capsys, tmp_path
+):
     spec, out = program(tmp_path, text), tmp_path / "kept.json"
     assert main(["hunt", spec, "--queries", str(most), "--show", "1", "--out", str(out)]) == 1
     said = capsys.readouterr().out
@@ -140,7 +142,7 @@ def test_place_of_a_row_with_ends_says_what_they_change(row, kind):
     assert place.words.startswith(ENDED)
 
 
-def test_place_of_a_sweep_beside_ends_says_so_and_whether_the_spheroid_is_tilted():
+def test_place_of_a_sweep_mentions_ends_and_a_tilted_spheroid():
     assert ENDED in place_of_row(LANDING, SWEEPS).words
     assert "tilted" not in place_of_row(LANDING, SWEEPS).words
     assert "tilted" in place_of_row((*LANDING[:10], 1.0, 0.0, 1.0, *LANDING[13:]), SWEEPS).words

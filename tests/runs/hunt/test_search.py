@@ -187,7 +187,7 @@ def test_a_budget_of_seconds_ends_the_hunt():
     assert run.asked > 100
 
 
-def test_hunt_asks_only_rows_in_the_declared_regimes_and_precision():
+def test_hunt_tests_only_rows_in_the_declared_regimes_and_precision():
     double = Double(inside.positions, precision="float32")
     target = target_of("double", double, regimes=("a>=1", "c2>=a"))
     run_hunt(Hunt(target, HuntPlan(None, 3000)))
@@ -235,7 +235,7 @@ def test_hunt_keeps_the_first_row_of_a_fault_and_ends_if_the_implementation_is_l
 ONE_SCENE = Domain(settings=(FixedSizes((2.5, 9.0, 0.5, 0.25), z=(-4.0, 4.0)),))
 
 
-def test_hunt_asks_a_kernel_for_one_scene_only_about_its_sizes():
+def test_hunt_tests_a_kernel_for_one_scene_only_on_its_sizes():
     double = Double(lambda rows: np.zeros(len(rows)), domain=ONE_SCENE)
     run = Hunt(target_of("double", double), HuntPlan(None, 4000))
     run_hunt(run)

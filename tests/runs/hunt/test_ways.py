@@ -53,7 +53,7 @@ def test_hunt_finds_nothing_in_the_exact_passage(capsys):
 
 
 @pytest.mark.thorough  # test_ends.py hunts for tilted sweeps, and beside ends
-def test_sweeps_of_tilted_spheroids_are_asked_where_the_implementation_takes_tilt(capsys, tmp_path):
+def test_sweeps_of_tilted_spheroids_are_tested_if_the_implementation_takes_tilt(capsys, tmp_path):
     out = tmp_path / "kept.json"
     words = ("hunt", "python:tests.runs.moving:upright", "--queries", "600", "--show", "1", "--out", str(out))
     assert main([*words, "--isolate", "off"]) == 1  # the implementation answers by hypcheck

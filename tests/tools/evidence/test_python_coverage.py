@@ -68,7 +68,7 @@ def test_missed_lines_are_reported_by_function_as_ranges(left):
         ([], [[6, 7]], []),
     ],
 )
-def test_reasons_that_the_code_tells_are_found_and_others_are_not(left, lines, branches, kinds):
+def test_reasons_that_follow_from_the_code_are_found_and_others_are_not(left, lines, branches, kinds):
     assert [each["kinds"] for each in left(lines, branches).values()] == [kinds]
 
 
