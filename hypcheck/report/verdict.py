@@ -43,16 +43,17 @@ def _method_clauses(record: Record) -> Iterator[str]:
     best = (
         next(iter(by_ratio([method for method in methods if method.never_wrong], scenes[0])), None) if scenes else None
     )
-    ratio = None if best is None else best.ratio(scenes[0])
+    ratio, right = None if best is None else best.ratio(scenes[0]), list[str]()
     if best is not None and ratio and against and best.name != against:
+        right = [best.name]
         yield f"right on every row and {messages.pace(ratio, reference_in_words(against))}: {best.name}"
     timed = sum(bool(method.speed) for method in methods)
     workloads = {name for method in methods for name in (*method.accuracy, *(name for name, _ in method.speed))}
     compared = f"{counted(len(methods), 'method')} compared on {counted(len(workloads), 'workload')}"
     yield f"{compared}, {timed:,} of them timed"
-    exact = [method for method in methods if method.exact and method.asked]
-    if exact:
-        which = exact[0].name if len(exact) == 1 else f"each of the {len(exact):,} that promise to be exact"
+    exact = [method.name for method in methods if method.exact and method.asked]
+    if exact and exact != right:
+        which = exact[0] if len(exact) == 1 else f"each of the {len(exact):,} that promise to be exact"
         yield f"{which} was right on every row"
     yield from clauses_of(record, ComparisonLine)
 

@@ -2,8 +2,14 @@
 
 from __future__ import annotations
 
-import pytest
+from dataclasses import replace
+from pathlib import Path
 
+import pytest
+from msgspec import structs
+
+from hypcheck.record import read
+from hypcheck.record.measurements import MethodLine
 from hypcheck.report.model import timing_totals
 from hypcheck.report.verdict import failures, verdict
 from tests.report import bench_lines, record_samples
@@ -115,6 +121,17 @@ def test_a_benchmark_that_is_slower_or_too_noisy_has_not_passed(body, code, sent
     found = verdict(bench_record(body, code, {"baseline": "before/record.jsonl"}))
     assert not found.passed
     assert found.sentence.startswith(sentence)
+
+
+def test_a_benchmark_says_once_that_its_only_exact_method_was_right():
+    golden = read(Path(__file__).parent / "goldens" / "bench-ways" / "record.jsonl")
+    alone = [
+        structs.replace(line, exact=line.method == "passage-certified") if isinstance(line, MethodLine) else line
+        for line in golden.lines
+    ]
+    sentence = verdict(replace(golden, lines=alone)).sentence
+    assert sentence.startswith("HELD: right on every row and 4,800 times as fast as exact arithmetic (passage-exact): ")
+    assert sentence.endswith(": passage-certified; 3 methods compared on 2 workloads, 3 of them timed.")
 
 
 @pytest.mark.parametrize("body", [[], [group("fast", "float64", "ring", {"skipped": 9}, exact=True)]])
