@@ -39,7 +39,7 @@ GATES_NOTHING: Mapping[str, str] = MappingProxyType(
     {
         "help": "prints help",
         "update": "rewrites the list of known failures",
-        "resume": "reports what another run asked",
+        "resume": "reports the results of another run",
     }
 )
 """Options of `hypcheck verify` with which a test would pass although nothing was tested."""
