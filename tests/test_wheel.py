@@ -23,8 +23,9 @@ from hypcheck.cli.commands import COMMANDS
 from hypcheck.cli.scene import LANGUAGES
 from tests.support.installed import ALL, ROOT, VARIANTS, installation, make_environment, quietly, tracked
 
-SOURCES = "hypcheck/(kernel/core/(parts/|binding.c|at_once.h|columns.h)|isolation/.*[.][ch]$|implementations/.*[.]c$)"
-"""What compilers read, and those who change it; a wheel has none of it."""
+_FOR_COMPILERS = "kernel/core/(parts/|binding.c|at_once.h|columns.h)|isolation/.*[.][ch]$|implementations/.*[.]c$"
+SOURCES = f"hypcheck/({_FOR_COMPILERS}|proofs/header/)"
+"""What compilers and Coq read, and those who change it; a wheel has none of it."""
 
 LARGEST = 5_000_000
 """Bytes of a wheel."""

@@ -26,6 +26,9 @@ from hypcheck.proofs import printed_c
 from hypcheck.proofs.weakenings import Made
 
 SOURCES = Path(__file__).parent
+OF_HEADER = SOURCES / "header"
+"""The proofs about the text of hypcheck.h, PRINTED and COMPOSED: a wheel has none of them."""
+
 BUILT = SOURCES.parents[1] / "build" / "proofs"
 CHECKER = "check_cases"
 """The name of the proved checker in the build folder."""
@@ -147,11 +150,19 @@ def demand_tools() -> None:
         raise InputError(f"the proofs need programs that are not here; on Debian: apt-get install {' '.join(absent)}")
 
 
+def path_of(name: str) -> Path:
+    """The Coq file of this name. Raises InputError where this installation does not have it."""
+    path = (OF_HEADER if name in (*PRINTED, *COMPOSED) else SOURCES) / f"{name}.v"
+    if not path.is_file():
+        raise InputError(f"{name}.v is not here: a wheel has no proofs about the C header; check them in a clone")
+    return path
+
+
 def source(name: str) -> str:
     """The text of a Coq file."""
     if name == HEADER_TEXT:
         return printed_c.header_text()
-    return (SOURCES / f"{name}.v").read_text(encoding="utf-8")
+    return path_of(name).read_text(encoding="utf-8")
 
 
 def statements(name: str) -> tuple[str, ...]:

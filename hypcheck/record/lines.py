@@ -37,7 +37,7 @@ class Machine(fields.LinePart, frozen=True, kw_only=True):
 
 
 class WeakenedPart(fields.LinePart, frozen=True, kw_only=True):
-    """An option that makes a run less strict or smaller than by default; `source`: settings file or command line."""
+    """An option with which a run fails less or asks less than by default; `source`: settings file or command line."""
 
     option: str
     value: str
@@ -53,7 +53,7 @@ class SettingsPart(fields.LinePart, frozen=True, kw_only=True):
 
 
 class IsolationPart(fields.LinePart, frozen=True, kw_only=True):
-    """The isolation of implementations: the mode (auto, on or off), the means, and why others are missing."""
+    """How implementations were isolated: the mode (auto, on or off), the means, and why others are missing."""
 
     mode: str
     means: list[str]
@@ -91,7 +91,7 @@ class FooterLine(fields.RecordLine, frozen=True, kw_only=True):
 
 
 class UnavailableLine(fields.RecordLine, frozen=True, kw_only=True):
-    """An oracle that is not available, and the reason."""
+    """An oracle that could not be asked, and why."""
 
     oracle: str
     reason: str
@@ -131,7 +131,7 @@ class DisagreementPart(fields.LinePart, frozen=True, kw_only=True):
 
 
 class OracleLine(fields.RecordLine, frozen=True, kw_only=True):
-    """The answers of one oracle about one family."""
+    """What one oracle answered about one family."""
 
     oracle: str
     family: str
@@ -261,7 +261,7 @@ class FixedSizesPart(fields.LinePart, frozen=True, kw_only=True):
 
 
 class DomainPart(fields.LinePart, frozen=True, kw_only=True):
-    """The domain in which an implementation claims to be right."""
+    """Where an implementation claims to be right."""
 
     regimes: list[Annotated[str, fields.one_of("a>=1", "c2>=a")]]
     ratio: fields.Limits
@@ -270,7 +270,7 @@ class DomainPart(fields.LinePart, frozen=True, kw_only=True):
 
 
 class DescriptionPart(fields.LinePart, frozen=True, kw_only=True):
-    """The description of an implementation: declared by itself, or assumed.
+    """What an implementation says of itself, or is taken for.
 
     `tilt`, since 1.5.0, where rows have an axis; `times`, since 1.6.0, where it gives times of first contact;
     `heights`, since 1.9.0, where rows have the heights at which the hyperboloid ends.
@@ -291,7 +291,7 @@ class DescriptionPart(fields.LinePart, frozen=True, kw_only=True):
 
 
 class Retest(fields.LinePart, frozen=True, kw_only=True):
-    """The number of repeated cases, and the numbers of answers that changed within the tolerance and beyond it."""
+    """How many cases were asked again, and how many answers changed within the tolerance and beyond it."""
 
     asked: fields.Count
     within: fields.Count
@@ -299,7 +299,7 @@ class Retest(fields.LinePart, frozen=True, kw_only=True):
 
 
 class SlicesPart(fields.LinePart, frozen=True, kw_only=True):
-    """The evenness of the rows near contact, since 1.9.0, as shares of the range of each coordinate.
+    """How evenly rows near contact were asked, since 1.9.0, as shares of the range of each coordinate.
 
     In each slice of one coordinate that is `one` wide, three rows or more were asked; in each slice of any two of them
     that is `two` wide in both, a row or more.

@@ -54,7 +54,7 @@ class MethodLine(fields.RecordLine, frozen=True, kw_only=True):
 
 
 class WorkloadLine(fields.RecordLine, frozen=True, kw_only=True):
-    """Rows on which methods are tested; `scene`: α, γ, b, d if all rows share them."""
+    """Rows that methods are asked; `scene`: α, γ, b, d if all rows share them."""
 
     workload: str
     title: str
@@ -205,7 +205,7 @@ class Scenery(fields.LinePart, frozen=True, kw_only=True):
 
 
 class PlacesLine(fields.RecordLine, frozen=True, kw_only=True):
-    """A method's errors in a half plane: a text for each z; "." right, c false clear, w false contact, s wrong side."""
+    """Where a method is wrong in a half plane: a text for each z; "." right, c false clear, w false contact, s side."""
 
     method: str
     scene: Scenery
@@ -314,7 +314,7 @@ class SceneTimes(fields.LinePart, frozen=True, kw_only=True):
 
 
 class SceneLine(fields.RecordLine, frozen=True, kw_only=True):
-    """The kernel of a scene: the share that each stage decides, and the time that the kernel saves; since 1.3.0."""
+    """The kernel of a scene: what each stage decides, and what it saves; since 1.3.0."""
 
     scene: str
     question: str

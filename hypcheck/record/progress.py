@@ -19,7 +19,7 @@ Place = tuple[Annotated[int, Meta(ge=0, le=2)], Total]
 
 
 class SavedAllowance(fields.LinePart, frozen=True, kw_only=True):
-    """Restarts, faults and hangs that an implementation may still have; `over`: why it gets no more questions."""
+    """Restarts, faults and hangs that an implementation may still have; `over`: why it is not asked any more."""
 
     restarts: Total
     faults: Total = 0

@@ -66,7 +66,7 @@ class Equations(fields.LinePart, frozen=True, kw_only=True):
 
 
 class Proofs(fields.LinePart, frozen=True, kw_only=True):
-    """The number of quantities of formulas to prove, and the number of proved ones."""
+    """How many quantities of formulas must be proved, and how many are."""
 
     asked: fields.Count
     hold: fields.Count
@@ -108,7 +108,7 @@ class FamilySummary(fields.LinePart, frozen=True, kw_only=True):
 
 
 class Claims(fields.LinePart, frozen=True, kw_only=True):
-    """The declarations of an implementation under test, or the values that replaced them."""
+    """What an implementation under test declares, or what it was judged as."""
 
     question: fields.Question
     precision: fields.Precision
@@ -207,7 +207,7 @@ class MethodSummary(fields.LinePart, frozen=True, kw_only=True):
 
 
 class FailureSummary(fields.LinePart, frozen=True, kw_only=True):
-    """A failure of the run, and the number of failures of its kind that it represents."""
+    """A failure of the run, and how many of its kind it stands for."""
 
     subject: Annotated[str, fields.one_of("proof", "oracle", "implementation", "findings", "measurement")]
     name: str

@@ -53,7 +53,7 @@ def test_has_sign_is_false_for_a_factor_that_is_not_a_power_of_a_symbol():
 
 
 def test_has_sign_raises_an_error_for_an_unknown_relation():
-    with pytest.raises(ValueError, match="none of"):
+    with pytest.raises(ValueError, match="is not one of"):
         has_sign(A, "=", (A,), ())
 
 

@@ -42,7 +42,9 @@ Emitted.v) ls "$3"/*.vo ;;
     case "$last" in
     Changes.v) cat FOLDER/verdicts ;;
     HeaderText.v) ;;
-    *) [ -f FOLDER/careless -o -f "FOLDER/careless-$last" ] || cmp "$last" "SOURCES/$last" >&2 || exit 1 ;;
+    *)
+        [ -f FOLDER/careless -o -f "FOLDER/careless-$last" ] ||
+            cmp "$last" "SOURCES/$last" >&2 || cmp "$last" "SOURCES/header/$last" >&2 || exit 1 ;;
     esac
     : > "${last}o" ;;
 esac

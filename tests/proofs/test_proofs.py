@@ -45,7 +45,7 @@ compiled = pytest.mark.skipif(not up_to_date(), reason="`make prove` has not bee
 
 
 def test_every_coq_file_is_compiled_and_leaves_nothing_unproved():
-    assert {path.stem for path in build.SOURCES.glob("*.v")} == set(build.FILES) - {build.HEADER_TEXT}
+    assert {path.stem for path in build.SOURCES.rglob("*.v")} == set(build.FILES) - {build.HEADER_TEXT}
     for name in build.FILES:
         assert all(build.proves(name, each) for each in build.statements(name)), name
 
@@ -133,11 +133,11 @@ def test_prove_without_coq_names_the_packages_and_ends_2():
 
 
 def test_stage_two_in_coq_is_printed_from_the_program_of_the_kernel():
-    assert (build.SOURCES / "StageTwo.v").read_text(encoding="utf-8") == coq.stage_two()
+    assert build.source("StageTwo") == coq.stage_two()
 
 
 def test_listings_in_coq_are_printed_from_the_programs_that_print_the_header():
-    assert (build.SOURCES / "Programs.v").read_text(encoding="utf-8") == coq.programs()
+    assert build.source("Programs") == coq.programs()
 
 
 @compiled

@@ -99,7 +99,7 @@ weakenings.made(build.source), weakenings.reasons(), build.weakened()
 opened |= set(build.frozen_files())
 """
     read = read_by(program)
-    assert {"hypcheck/proofs/weakened.toml", "hypcheck/proofs/Stages.v", "cases/ring.json"} <= read
+    assert {"hypcheck/proofs/weakened.toml", "hypcheck/proofs/header/Stages.v", "cases/ring.json"} <= read
     known = set(files(CHECKS["proofs"].sources))
     assert {name for name in read - known if name not in SAYS_NOTHING_OF_PROOFS} == set()
     assert {f"hypcheck/proofs/{path.name}" for path in build.SOURCES.glob("*.ml")} <= known

@@ -24,7 +24,7 @@ BAD = {
     "nothing to ask": (
         "[mover]",
         "height = [-1, 3]\n[region]\nz = [4, 5]\n[mover]",
-        "no hyperboloid's height meets the region",
+        "the region contains no height of a hyperboloid",
     ),
     "a flat end": ("[mover]", "height = [-1, 3]\nsolid = true\n[mover]", "the hyperboloid 'hyperboloid 1' is solid"),
     "too many sizes": (SCENE, MANY + "[mover]\nb = 0.3\nd = 0.9\n", "the scene has 65 different pairs of sizes"),
