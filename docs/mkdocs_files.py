@@ -30,6 +30,8 @@ BESIDE = (
     "cases/**/*.json",
     "hypcheck/report/schemas/*.json",
     "reports/engines/*.json",
+    "reports/engines/*.csv",
+    "tests/tools/mutants/*.csv",
     "reports/engines/**/*.svg",
     "reports/engines/findings/*",
     "reports/reference/**/*.*",
