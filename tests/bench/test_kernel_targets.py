@@ -184,11 +184,11 @@ def test_large_pages_reports_the_setting_of_the_operating_system(tmp_path):
     for said, words in (
         ("always [madvise] never\n", "where asked for"),
         ("[always] never", "always"),
-        ("?", "not told"),
+        ("?", "not reported"),
     ):
         (tmp_path / "enabled").write_text(said, encoding="ascii")
         assert words in targets.large_pages(tmp_path / "enabled")
-    assert "not told" in targets.large_pages(tmp_path / "none")
+    assert "not reported" in targets.large_pages(tmp_path / "none")
 
 
 def test_the_plain_python_baseline_answers_as_table_2_in_numpy():
