@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import json
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -42,7 +43,7 @@ def _at_fault(error: ValueError, value: object) -> tuple[Path, object]:
     return (error.path, error.value) if isinstance(error, PartError) else ((), value)
 
 
-class Origin:
+class Origin(ABC):
     """The source of tables; it names them and their values in messages. `title` names the outermost table."""
 
     title: str
@@ -66,9 +67,9 @@ class Origin:
         """The value at a path, as the beginning of a sentence about it."""
         return self.named(path)
 
+    @abstractmethod
     def shown(self, value: object) -> str:
         """A value on one line, short."""
-        raise NotImplementedError
 
     def checked(self, path: Path, value: object, check: Check[Value]) -> Value:
         """The result of the check of the value at the path. Raises InputError."""

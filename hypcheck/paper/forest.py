@@ -353,6 +353,7 @@ def simulate_forest(plan: ForestPlan, advance: Callable[[int], object] = lambda 
     phantom[tested] = free & steps.refused[tested]
     stops = _stops(trees, steps, phantom)
     blocking = {name for stop in stops if stop["kind"] == "phantom" for name in stop["trees"]}
+    ends = beside_trees(plan.scene, steps.end[tested], verdicts.asked, verdicts.exterior) if plan.ends else None
     return {
         "hypcheck": HYPCHECK,
         "schema": SCHEMA,
@@ -377,11 +378,7 @@ def simulate_forest(plan: ForestPlan, advance: Callable[[int], object] = lambda 
         "path": [list(plan.rules.start), *steps.end[steps.made].tolist()],
         "stops": stops,
         "wall": _wall(trees, stops),
-        **(
-            {"ends": beside_trees(plan.scene, steps.end[tested], verdicts.asked, verdicts.exterior)}
-            if plan.ends
-            else {}
-        ),
+        **({"ends": ends} if plan.ends else {}),
     }
 
 
