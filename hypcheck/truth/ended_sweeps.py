@@ -36,13 +36,15 @@ from functools import cached_property
 
 from hypcheck.geometry.pair import Lengths, Position
 from hypcheck.truth import exact
-from hypcheck.truth.polynomial_roots import Interval, enclosures, roots_from_0_to_1
 from hypcheck.truth.polynomials import (
+    Interval,
     Polynomial,
     common_divisor,
+    enclosures,
     polynomial_product,
     primitive,
     quotient,
+    roots_from_0_to_1,
     squarefree,
 )
 from hypcheck.truth.sections import Sections

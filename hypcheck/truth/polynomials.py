@@ -1,19 +1,22 @@
-"""Arithmetic of polynomials with integer coefficients.
+"""Polynomials with integer coefficients: their arithmetic, and their real roots from 0 to 1.
 
-A polynomial is a tuple of integers, the highest power first; () is 0.
+A polynomial is a tuple of integers, the highest power first; () is 0. Nothing here is approximated: signs are signs of
+integers, and intervals shrink by bisection. Descartes' rule of signs separates the roots from 0 to 1, because halving a
+polynomial's interval costs only additions; Sturm's theorem multiplies long integers.
 """
 
 from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from functools import lru_cache
 
 from hypcheck.geometry.arithmetic import changes_of_sign, sign_of
 
 Polynomial = tuple[int, ...]
+Interval = tuple[Fraction, Fraction]
 
 
 def value(f: Sequence[int], x: Fraction) -> int:
@@ -95,6 +98,12 @@ def signed_chain(f: Polynomial, g: Polynomial) -> list[Polynomial]:
     return chain
 
 
+@lru_cache(maxsize=16)  # the roots of one polynomial are needed in several intervals
+def sturm_chain(f: Polynomial) -> tuple[Polynomial, ...]:
+    """f, f′ and the negated remainders of Euclid's algorithm, each up to a positive factor; the last is gcd(f, f′)."""
+    return tuple(signed_chain(primitive(f), derivative(f)))
+
+
 def common_divisor(f: Polynomial, g: Polynomial) -> Polynomial:
     """The greatest common divisor of two polynomials, up to a constant factor; () of twice 0."""
     while g:
@@ -155,11 +164,6 @@ def linear_factor(root: Fraction) -> Polynomial:
     return (root.denominator, -root.numerator)
 
 
-def divided_by_root(f: Polynomial, root: Fraction) -> Polynomial:
-    """The quotient of a primitive f by the linear factor of one of its roots."""
-    return quotient(f, linear_factor(root))
-
-
 def shifted_by_one(f: Sequence[int]) -> list[int]:
     """The coefficients of f(s + 1), by Horner's scheme."""
     shifted = list(f)
@@ -182,3 +186,77 @@ def halves(g: Sequence[int]) -> tuple[list[int], list[int]]:
     """g between 0 and 1/2, and between 1/2 and 1, each as a polynomial on (0, 1)."""
     left = [number << power for power, number in enumerate(g)]
     return left, shifted_by_one(left)
+
+
+def separated(f: Sequence[int], most: int | None = None) -> Iterator[tuple[Fraction, Fraction, int]]:
+    """Intervals (low, high, count) that hold all roots of f in [0, 1], in any order, by halving (Collins and Akritas).
+
+    An open interval with one root, and without a root at its ends, has the count 1. A root x that is met is (x, x, 0).
+    Intervals are halved `most` times at most: such a small one has the roots that the rule of signs counts, or an even
+    number fewer, and an end may be a root. Without `most` the halving ends only where f has simple roots alone.
+    """
+    yield from ((end, end, 0) for end in (Fraction(0), Fraction(1)) if not value(f, end))
+    pending = [(0, 0, list(f))]  # the interval (place, place + 1)/2^depth, and f on it as a polynomial on (0, 1)
+    while pending:
+        place, depth, g = pending.pop()
+        changes = changes_between(g)
+        if not changes:
+            continue
+        if depth == most or (changes == 1 and g[-1] and sum(g)):
+            yield Fraction(place, 1 << depth), Fraction(place + 1, 1 << depth), changes
+            continue
+        left, right = halves(g)
+        if not right[-1]:
+            middle = Fraction(2 * place + 1, 2 << depth)
+            yield middle, middle, 0
+        pending += [(2 * place, depth + 1, left), (2 * place + 1, depth + 1, right)]
+
+
+def roots_from_0_to_1(f: Polynomial) -> list[Interval]:
+    """Disjoint enclosures of the roots of a primitive f in [0, 1], in order: open intervals, or (x, x) where x is met.
+
+    Neither end of an open interval is a root. Raises AssertionError for f = 0.
+    """
+    if not f:
+        raise AssertionError("a polynomial is 0 that cannot be: every number is a root of it")
+    if _none_by_descartes(f):
+        return []
+    return sorted((low, high) for low, high, _ in separated(squarefree(f)))
+
+
+def _none_by_descartes(f: Polynomial) -> bool:
+    """Whether the rule of signs excludes a root in [0, 1]; False is undecided."""
+    return bool(f[-1]) and bool(sum(f)) and not changes_between(f)
+
+
+def enclosures(f: Polynomial, bits: int) -> Iterator[Interval]:
+    """Closed intervals, 2^−bits wide at most and in any order, that hold all roots of f in [0, 1]; f is not 0.
+
+    f need not be squarefree. A multiple root is not distinguished from several near roots, or from no root.
+    """
+    for *ends, _ in separated(f, bits):
+        low, high = ends
+        while (high - low) * 2**bits > 1:
+            low, high = _halved(f, low, high)
+        yield low, high
+
+
+UNIT_INTERVAL_WIDTH_BITS = 60
+"""`narrowed` goes on until an enclosure is at most 2^−60 of its root: one float64, or two neighbours, hold it."""
+
+
+def narrowed(f: Polynomial, low: Fraction, high: Fraction) -> Interval:
+    """An enclosure that roots_from_0_to_1 gave of a root of f, narrowed; (x, x) where the root x is met."""
+    f = squarefree(f)
+    while (high - low) * 2**UNIT_INTERVAL_WIDTH_BITS > low:
+        low, high = _halved(f, low, high)
+    return low, high
+
+
+def _halved(f: Polynomial, low: Fraction, high: Fraction) -> Interval:
+    """The half that holds the one root, a simple one, of an open interval; (x, x) where it is the middle x."""
+    middle = (low + high) / 2
+    sign = value(f, middle)
+    if sign == 0:
+        return middle, middle
+    return (low, middle) if (sign > 0) == (value(f, high) > 0) else (middle, high)

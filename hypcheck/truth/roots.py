@@ -24,7 +24,6 @@ from itertools import combinations, pairwise
 from hypcheck.geometry.arithmetic import changes_of_sign, sign_of, sign_with_root
 from hypcheck.geometry.pair import Lengths, Pair, Position
 from hypcheck.truth.kinds import Kind
-from hypcheck.truth.polynomial_roots import sturm_chain
 from hypcheck.truth.polynomials import (
     Polynomial,
     linear_factor,
@@ -34,6 +33,7 @@ from hypcheck.truth.polynomials import (
     remainder,
     scaled,
     squarefree,
+    sturm_chain,
 )
 from hypcheck.truth.root_patterns import (
     BEYOND,

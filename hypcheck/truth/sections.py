@@ -36,17 +36,16 @@ from fractions import Fraction
 
 from hypcheck.geometry.arithmetic import changes_of_sign, cross, dot, sign_with_root
 from hypcheck.geometry.pair import Lengths
-from hypcheck.truth.polynomial_roots import roots_from_0_to_1
 from hypcheck.truth.polynomials import (
     Polynomial,
-    changes_between,
     common_divisor,
     derivative,
-    halves,
     polynomial_product,
     polynomial_sum,
     primitive,
+    roots_from_0_to_1,
     scaled,
+    separated,
     signed_chain,
     squarefree,
     trimmed,
@@ -290,25 +289,11 @@ MOST_HALVINGS = 8
 
 
 def has_root(f: Polynomial, low: int, high: int) -> bool | None:
-    """Whether f has a root between two numbers low < high that are no roots; None if Descartes' rule cannot decide.
-
-    With x = (low + high t)/(1 + t) the numbers between are those with t > 0: no change of sign among the coefficients
-    in t means no root, one change means one.
-    """
-    pending = [(0, _coefficients_between(f, low, high))]
-    while pending:
-        halvings, g = pending.pop()
-        changes = changes_between(g)
-        if changes == 1:
-            return True
-        if changes:
-            if halvings == MOST_HALVINGS:
-                return None
-            first, second = halves(g)
-            if not second[-1]:
-                return True  # the middle
-            pending += [(halvings + 1, first), (halvings + 1, second)]
-    return False
+    """Whether f has a root between two numbers low < high that are no roots; None if Descartes' rule cannot decide."""
+    first = next(separated(_coefficients_between(f, low, high), MOST_HALVINGS), None)
+    if first is None:
+        return False
+    return True if first[2] <= 1 else None
 
 
 def _coefficients_between(f: Polynomial, low: int, high: int) -> list[int]:

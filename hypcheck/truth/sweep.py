@@ -37,8 +37,15 @@ from hypcheck.truth.pencil import (
     second_factor,
     slope_of_quotient,
 )
-from hypcheck.truth.polynomial_roots import Interval
-from hypcheck.truth.polynomials import Polynomial, polynomial_product, polynomial_sum, primitive, sign_at, value
+from hypcheck.truth.polynomials import (
+    Interval,
+    Polynomial,
+    polynomial_product,
+    polynomial_sum,
+    primitive,
+    sign_at,
+    value,
+)
 from hypcheck.truth.rationals import shortened
 
 

@@ -44,8 +44,7 @@ from hypcheck.geometry.pair import (
 from hypcheck.messages import counted, escaped
 from hypcheck.truth import ended_sweeps
 from hypcheck.truth.ended_sweeps import EndedSweep, first_contact, grazes
-from hypcheck.truth.polynomial_roots import Interval, narrowed, roots_from_0_to_1
-from hypcheck.truth.polynomials import Polynomial, value
+from hypcheck.truth.polynomials import Interval, Polynomial, narrowed, roots_from_0_to_1, value
 from hypcheck.truth.rationals import shortened
 from hypcheck.truth.sweep import StraightSweep, piece
 

@@ -87,7 +87,6 @@ from hypcheck.truth import (
     least,
     nearest_rows,
     passage_error,
-    polynomial_roots,
     swept,
 )
 from hypcheck.truth import nearest as truth_nearest
@@ -140,8 +139,7 @@ from hypcheck.truth.passage_error import (
     tolerance,
 )
 from hypcheck.truth.pencil import cubic, quartic
-from hypcheck.truth.polynomial_roots import _none_by_descartes, isolate
-from hypcheck.truth.polynomials import linear_factor, polynomial_product, sign_at, value
+from hypcheck.truth.polynomials import _none_by_descartes, linear_factor, polynomial_product, sign_at, value
 from hypcheck.truth.prove import prove
 from hypcheck.truth.rationals import octave, shortened
 from hypcheck.truth.root_patterns import COMPLEX, KIND_OF, PATTERNS, RootPlace, admissible
@@ -261,7 +259,6 @@ __all__ = [
     "integers_position",
     "integers_whole_position",
     "is_tolerated",
-    "isolate",
     "kernel",
     "kernel_choice",
     "kernel_classify",
@@ -292,7 +289,6 @@ __all__ = [
     "plan_lines",
     "plan_of",
     "polynomial_product",
-    "polynomial_roots",
     "position",
     "position_of_box",
     "positions",

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from hypcheck.geometry.pair import Pair, Position
-from hypcheck.truth import quadrics
 from hypcheck.vectors import frozen
+from tests.support import quadrics
 from tests.support.inside import Certificate, proves, surfaces
 from tests.support.inside import position as exact_position
 

@@ -23,9 +23,9 @@ from tests.support.inside import (
     decide,
     linear_factor,
     polynomial_product,
-    polynomial_roots,
     real_roots,
 )
+from tests.support.quadrics import isolate
 from tests.truth.test_steps import discriminant
 
 # Rows alpha, gamma, b, d, x, y, z. With z = 0 the cubic is (λ − B)(λ² − (P − 1 − A) λ + A); with r = 0 it is
@@ -130,7 +130,7 @@ nonzero = integers.filter(bool)
 def test_enclosures_of_roots_of_random_polynomials_hold_one_root_each_of_another_algebra(f):
     polynomial = sympy.Poly(f, sympy.Symbol("x"))
     assume(polynomial.discriminant() != 0)
-    enclosures = polynomial_roots.isolate(f)
+    enclosures = isolate(f)
     assert len(enclosures) == polynomial.count_roots()
     assert all(polynomial.count_roots(low, high) == 1 for low, high in enclosures)
 

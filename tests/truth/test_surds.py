@@ -9,7 +9,8 @@ import sympy
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.support.inside import Surd, isolate, polynomial_product, sign_at, sign_at_root
+from tests.support.inside import Surd, polynomial_product, sign_at, sign_at_root
+from tests.support.quadrics import isolate
 
 X = sympy.Symbol("x")
 SMALL = st.integers(-6, 6)

@@ -16,12 +16,22 @@ exact.py decides about a spheroid and a circular hyperboloid much faster, becaus
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
+from hypcheck.geometry.arithmetic import changes_of_sign
 from hypcheck.geometry.pair import Position
-from hypcheck.truth.polynomial_roots import isolate
-from hypcheck.truth.polynomials import Polynomial, polynomial_product, polynomial_sum, primitive, squarefree
+from hypcheck.truth.polynomials import (
+    Interval,
+    Polynomial,
+    polynomial_product,
+    polynomial_sum,
+    primitive,
+    squarefree,
+    sturm_chain,
+    value,
+)
+from hypcheck.truth.rationals import power_near, power_of_two
 
 Matrix = Sequence[Sequence[Fraction | int]]
 
@@ -78,3 +88,56 @@ def _is_positive_definite(matrix: list[list[int]]) -> bool:
             other[:] = [(pivot * a - first * b) // before for a, b in zip(other, row, strict=True)]
         before = pivot
     return True
+
+
+def isolate(f: Polynomial) -> list[Interval]:
+    """Open intervals with one root of f each, in order, all real roots covered; no 0 inside any.
+
+    f is squarefree and is not 0 at 0.
+    """
+    near, far = (power_of_two(exponent) for exponent in root_exponents(f))
+    mirrored = tuple(-number if place % 2 else number for place, number in enumerate(f))
+    below = ((-high, -low) for low, high in _isolated(mirrored, near, far))
+    return sorted([*below, *_isolated(f, near, far)])
+
+
+def root_exponents(f: Polynomial) -> tuple[int, int]:
+    """Exponents near, far with 2^near < |root| < 2^far for all roots of f, f(0) ≠ 0.
+
+    Cauchy: |root| < 1 + max |f_i / f_0| < 2 max(1, max |f_i / f_0|), and the same for 1/root with the order reversed.
+    With n bits for the largest coefficient, m for the end one, the quotient is below 2^(n − m + 1).
+    """
+    largest = max(coefficient.bit_length() for coefficient in f)
+    return f[-1].bit_length() - largest - 2, largest - f[0].bit_length() + 2
+
+
+def _isolated(f: Polynomial, low: Fraction, high: Fraction) -> Iterator[Interval]:
+    """Open intervals with one root each of a squarefree f, for all roots from low to high; 0 ≤ low < high are no roots.
+
+    Sturm's theorem counts them.
+    """
+    chain = sturm_chain(f)
+    pending = [(low, variations(chain, low), high, variations(chain, high))]
+    while pending:
+        low, left, high, right = pending.pop()
+        if left - right == 1:
+            yield low, high
+        elif left > right:
+            middle = _no_root_between(f, low, high)
+            count = variations(chain, middle)
+            pending += [(low, left, middle, count), (middle, count, high, right)]
+
+
+def variations(chain: Sequence[Polynomial], x: Fraction) -> int:
+    """The changes of sign in the values of a Sturm chain at x, which is not a root of its first polynomial."""
+    return changes_of_sign(value(f, x) for f in chain)
+
+
+def _no_root_between(f: Polynomial, low: Fraction, high: Fraction) -> Fraction:
+    """A number near the middle, or near the middle of their exponents, that is not a root.
+
+    Among more numbers than f has roots, one is not a root.
+    """
+    middle = power_near(low, high) if 0 < 4 * low < high else (low + high) / 2
+    step = min(middle - low, high - middle) / 16
+    return next(x for x in (middle + k * step for k in range(len(f))) if value(f, x))
