@@ -66,6 +66,19 @@ def test_the_site_navigation_has_every_page_once_in_the_order_of_the_index():
     assert len(listed) == len(set(listed))
 
 
+def test_no_page_of_prose_has_more_than_2500_words():
+    long = {"docs/mathematics.md", "docs/paper.md"}  # the mathematics, and the ledger
+    pages = [page for page in PAGES if page.parent in {ROOT, ROOT / "docs"} and page.name != "CHANGELOG.md"]
+    assert {named(page) for page in pages if len(page.read_text("utf-8").split()) > 2500} == long
+
+
+@pytest.mark.parametrize("page", sorted((ROOT / "docs").glob("*.md")), ids=named)
+def test_a_page_says_first_for_whom_it_is_and_what_they_can_do_afterwards(page):
+    _, first, *_ = page.read_text(encoding="utf-8").split("\n\n")
+    assert re.match(r"For (all|every|those|readers|users|programmers|researchers|beginners)", first)
+    assert re.search(r"\. Afterwards\s", first)
+
+
 def links(page):
     text = re.sub(r"```.*?```|`[^`\n]*`", "", page.read_text(encoding="utf-8"), flags=re.DOTALL)
     return [link for link in re.findall(r"\]\(([^)\s]+)\)", text) if "://" not in link]
