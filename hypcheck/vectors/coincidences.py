@@ -105,7 +105,7 @@ def near_tangent(*, outer: bool) -> Maker:
 
 
 def _small(draw: Draw, n: int) -> Floats:
-    return draw.signs(n) * draw.log_uniform(n, -50, -9)
+    return draw.signed(n, -50, -9)
 
 
 def _along_the_normal(rows: Rows, sine: Floats, step: Floats, *, outer: bool) -> Rows:
@@ -127,7 +127,8 @@ def degenerate_neighbourhood(draw: Draw, n: int) -> Rows:
     return ulps_away(draw, degenerate_crossing(draw, n))
 
 
-def centres_on_surface(draw: Draw, n: int) -> tuple[Rows, Mask]:
+@exact_maker
+def on_surface(draw: Draw, n: int) -> tuple[Rows, Mask]:
     """Centres on the surface: r/α and z/γ are hypotenuse/leg and other leg/leg of one Pythagorean triple."""
     leg, other, hypotenuse = triples(draw, n, 12)
     x, y, turn = turned(draw, n)
@@ -137,9 +138,6 @@ def centres_on_surface(draw: Draw, n: int) -> tuple[Rows, Mask]:
         radial=(leg * unit * turn, b, hypotenuse * unit * x, hypotenuse * unit * y),
         axial=(leg * tall, d, other * tall),
     )
-
-
-on_surface = exact_maker(centres_on_surface)
 
 
 RUNGS = 2 * (ULPS + 1)
@@ -185,7 +183,7 @@ def ring_neighbourhood(draw: Draw, n: int) -> Rows:
     a = np.where(tower, 8.0, draw.log_uniform(n, -3, 10))
     c = np.where(tower, 17.8 / 0.15, np.sqrt(a) * draw.log_uniform(n, 1, 8))
     radius = np.sqrt((c * c + 1) * (a * a / (c * c) + 1))
-    step = draw.signs(n) * draw.log_uniform(n, -40, -6)
+    step = draw.signed(n, -40, -6)
     height = np.where(turns(n, True, True, False), 0.0, draw.log_uniform(n, -40, -6))
     return random_pairs.centred(
         draw, random_pairs.sizes(draw, a, c), radius + np.where(turns(n, True, False, True), step, 0), height
@@ -199,9 +197,9 @@ def osculation(draw: Draw, n: int) -> Rows:
     bottom.
     """
     a = draw.log_uniform(n, -3, 12)
-    c = np.sqrt(a * (1 + draw.signs(n) * draw.log_uniform(n, -50, -3)))
+    c = np.sqrt(a * (1 + draw.signed(n, -50, -3)))
     height = np.where(turns(n, True, True, False, False, False), 0.0, draw.log_uniform(n, -24, -1))
-    hair = draw.signs(n) * draw.log_uniform(n, -50, -3)
+    hair = draw.signed(n, -50, -3)
     free = a + 1 + hair, height
     bound = random_pairs.beside_surface(a, c, height, 1 + hair)
     here = turns(n, True, False)
@@ -224,7 +222,7 @@ def axis(draw: Draw, n: int) -> Rows:
     """Rows with x = y = 0: at the origin, at heights near the height from which the ball fits, and at any height."""
     a, c = random_pairs.all_regimes(draw, n)
     fits = np.sqrt(np.maximum((a * a + c * c) * (1 - a * a), 0)) / a
-    hair = 1 + draw.signs(n) * draw.log_uniform(n, -50, -1)
+    hair = 1 + draw.signed(n, -50, -1)
     kind = turns(n, 0, 1, 1, 2, 2)
     height = np.where(kind == 0, 0.0, np.where(kind == 1, fits * hair, random_pairs.heights(draw, c)))
     return random_pairs.centred(draw, random_pairs.sizes(draw, a, c), np.zeros(n), height)
@@ -234,7 +232,7 @@ def waist(draw: Draw, n: int) -> Rows:
     """z = 0: near r = a − 1, a + 1 and the radius where a sphere too round for the groove leaves it, or anywhere."""
     a, c = random_pairs.all_regimes(draw, n)
     both_flanks = np.sqrt((a * a + c * c) * (1 + 1 / (c * c)))
-    hair = draw.signs(n) * draw.log_uniform(n, -50, -1)
+    hair = draw.signed(n, -50, -1)
     anywhere = 3 * a * draw.unit(n)
     places = [np.abs(a - 1) + hair, a + 1 + hair, both_flanks * (1 + hair), a + random_pairs.offsets(draw, n), anywhere]
     radius = np.choose(turns(n, *range(len(places))), places)
@@ -291,6 +289,7 @@ def _neither_condition(draw: Draw, n: int) -> Rows:
     return random_pairs.around(draw, random_pairs.sizes(draw, a, np.sqrt(a * draw.log_uniform(n, -6, 0) * 0.99)))
 
 
+@exact_maker
 def second_coefficient_zero(draw: Draw, n: int) -> tuple[Rows, Mask]:
     """c2 = 0: (a − x)(a + x) = c² + y² + z² − 1; the two factors are a random τ and the right side over τ."""
     unit, t = big_integers(draw, n, 1, 40), big_integers(draw, n, 1, 40)
@@ -303,6 +302,7 @@ def second_coefficient_zero(draw: Draw, n: int) -> tuple[Rows, Mask]:
     )
 
 
+@exact_maker
 def first_coefficient_zero(draw: Draw, n: int) -> tuple[Rows, Mask]:
     """c1 = 0: x² + y² = a² e² + 1 with c² e² = c² + z² − 1; both are split into two factors as for c2 = 0."""
     c, unit, t = big_integers(draw, n, 1, 60), big_integers(draw, n, 1, 60), big_integers(draw, n, 1, 60)
@@ -320,6 +320,7 @@ def first_coefficient_zero(draw: Draw, n: int) -> tuple[Rows, Mask]:
     )
 
 
+@exact_maker
 def first_coefficient_zero_for_any_waist(draw: Draw, n: int) -> tuple[Rows, Mask]:
     """c1 = 0 for every a: x² + y² = 1 and c² + z² = 1, the case e = 0 of first_coefficient_zero."""
     alpha, b = big_integers_of_any_length(draw, n, 20), big_integers_of_any_length(draw, n, 10)
@@ -333,6 +334,7 @@ def first_coefficient_zero_for_any_waist(draw: Draw, n: int) -> tuple[Rows, Mask
     )
 
 
+@exact_maker
 def both_coefficients_zero(draw: Draw, n: int) -> tuple[Rows, Mask]:
     """c1 = c2 = 0, g = λ³ − a²c²: c² = a, z = 0 and x² + y² = (c² − 1)² + c²; always contact."""
     c, unit = big_integers_of_any_length(draw, n, 12), big_integers_of_any_length(draw, n, 12)
@@ -341,8 +343,31 @@ def both_coefficients_zero(draw: Draw, n: int) -> tuple[Rows, Mask]:
 
 
 coefficient_zero = in_turn(
-    exact_maker(second_coefficient_zero),
-    exact_maker(first_coefficient_zero),
-    exact_maker(first_coefficient_zero_for_any_waist),
-    exact_maker(both_coefficients_zero),
+    second_coefficient_zero, first_coefficient_zero, first_coefficient_zero_for_any_waist, both_coefficients_zero
 )
+
+
+def _little(draw: Draw, n: int) -> Floats:
+    """Shares from 2⁻¹⁰⁰⁰ to 2⁻²⁰ of either sign, half of them above 2⁻⁶⁰, as rounding errors of an angle are."""
+    deep = draw.signs(n) > 0
+    return draw.signs(n) * np.where(deep, draw.log_uniform(n, -1000, -60), draw.log_uniform(n, -60, -20))
+
+
+NEARLY_ZERO = ("x", "y", "z", "xz", "yz", "xy")
+
+
+def nearly_zero(draw: Draw, n: int) -> Rows:
+    """Pairs of which one or two coordinates, those of NEARLY_ZERO in turn, are nearly zero beside the sizes."""
+    x_is, y_is, z_is = (turns(n, *(axis in axes for axes in NEARLY_ZERO)) for axis in "xyz")
+    a, c = random_pairs.all_regimes(draw, n)
+    a = np.where(x_is & y_is, 1 + draw.signed(n, -20, -1), a)
+    size = random_pairs.sizes(draw, a, c)
+    hair = random_pairs.nearly_touching(draw, n, -40, -3)
+    offset = np.where(draw.signs(n) > 0, random_pairs.offsets(draw, n), hair)
+    height = np.where(z_is, 0.0, random_pairs.heights(draw, size.c))
+    radius, height = random_pairs.beside_surface(size.a, size.c, height, offset)
+    cosine, sine = draw.circle(n)
+    x = np.where(x_is, _little(draw, n), radius * np.where(y_is, draw.signs(n), cosine))
+    y = np.where(y_is, _little(draw, n), radius * np.where(x_is, draw.signs(n), sine))
+    z = np.where(z_is, _little(draw, n), height * draw.signs(n))
+    return random_pairs.stack(size, size.b * x, size.b * y, size.d * z)

@@ -98,6 +98,10 @@ class Draw:
         """Each 1 or −1."""
         return 1.0 - 2.0 * (self.words(n) >> np.uint64(63)).astype(np.float64)
 
+    def signed(self, n: int, low: int, high: int) -> Floats:
+        """As log_uniform, of either sign; takes 3n words."""
+        return self.signs(n) * self.log_uniform(n, low, high)
+
     def circle(self, n: int) -> tuple[Floats, Floats]:
         """Points (cosine, sine) of the unit circle in all quadrants, a quarter of them on the axes; takes 2n words."""
         words, half = self.words(n), self.unit(n)

@@ -1,23 +1,25 @@
-"""Hyperboloids that end: rows of thirteen numbers, with the traps of rims, openings, discs and thin slabs.
+"""Hyperboloids that end: pairs of thirteen numbers and sweeps of sixteen, with the traps of rims and openings.
 
 Every other row has a solid body. Most rows are made for the upper end, and half of these are mirrored at z = 0. A rim
 at height w has the radius r = α √(1 + w²/γ²); a spheroid whose centre is X + Σ N/√(NᵀΣN), Σ its matrix of squared
 semi-axes, touches the plane through X across N, and so the rim if X lies on it and N points away from the wall there.
-Exact touches have w/γ, the direction of N and the azimuth from Pythagorean triples.
+Exact touches have w/γ, the direction of N and the azimuth from Pythagorean triples. A sweep goes through the centre of
+such a pair, ends at it, or begins there; beside exact touches its ends are whole numbers times one power of two, too.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
-from hypcheck.geometry.pair import COLUMNS, TILTED_COLUMNS
-from hypcheck.geometry.rows import Floats, Rows, with_axis
+from hypcheck.geometry.pair import COLUMNS
+from hypcheck.geometry.rows import SWEEPS, Floats, Rows, with_axis
 from hypcheck.vectors import random_pairs, tilted
-from hypcheck.vectors.draw import Draw, Integers, Maker, ldexp, stepped, turns
-from hypcheck.vectors.random_pairs import Sizes, all_regimes, by_sixteenths, changed_in_turn, repeated, sizes
-from hypcheck.vectors.tilted import Vectors, anywhere
+from hypcheck.vectors.draw import Draw, Integers, Maker, in_turn, ldexp, stepped, turns
+from hypcheck.vectors.random_pairs import Sizes, by_sixteenths, changed_in_turn, repeated, sizes, sizes_of_all_regimes
+from hypcheck.vectors.sweeps import CENTRE, between
+from hypcheck.vectors.tilted import Axes, Vectors, vertical
 
 TRIPLES = np.array([(3, 4, 5), (4, 3, 5), (5, 12, 13), (12, 5, 13), (8, 15, 17), (15, 8, 17), (0, 1, 1)])
 _ALONG = np.array([(3, 4, 5), (4, 3, 5), (5, 12, 13), (12, 5, 13), (0, 1, 1), (-3, 4, 5), (-4, 3, 5), (-5, 12, 13)])
@@ -44,12 +46,12 @@ def _lower(draw: Draw, high: Floats, unit: Floats) -> Floats:
 
 def _ordinary(draw: Draw, n: int) -> tuple[Sizes, Floats]:
     """Sizes of every regime, and heights of a rim in γ."""
-    return sizes(draw, *all_regimes(draw, n)), draw.signs(n) * draw.log_uniform(n, -6, 1)
+    return sizes_of_all_regimes(draw, n), draw.signed(n, -6, 1)
 
 
 def _hair(draw: Draw, n: int) -> Floats:
     """Factors of 1, or a little more or less."""
-    return np.asarray(1 + draw.signs(n) * draw.log_uniform(n, -50, -3))
+    return np.asarray(1 + draw.signed(n, -50, -3))
 
 
 def uniform(beside: Maker = random_pairs.uniform, sizes: Sequence[int] = (3,)) -> Maker:
@@ -79,14 +81,7 @@ def _at_rim(draw: Draw, size: Sizes, height: Floats, axis: Vectors) -> Rows:
     return _rows(draw, rows, _lower(draw, high, size.d), high)
 
 
-Axes = Callable[[Draw, int], Vectors]
-
-
-def _upward(_: Draw, n: int) -> Vectors:
-    return np.zeros(n), np.zeros(n), np.ones(n)
-
-
-def rim(axes: Axes = _upward) -> Maker:
+def rim(axes: Axes = vertical) -> Maker:
     """Rows 2⁻⁵⁰ to 2⁻³ radii from contact with a rim: above, beside and within it."""
 
     def make(draw: Draw, n: int) -> Rows:
@@ -104,7 +99,7 @@ def one_number_changed(draw: Draw, n: int) -> Rows:
     """As in random_pairs, near contact with a rim; the two heights and `solid` change too."""
     pairs = -(-n // (2 * len(CHANGED)))
     size, height = _ordinary(draw, pairs)
-    return with_one_number_changed(draw, _at_rim(draw, size, height, _upward(draw, pairs)), CHANGED, n)
+    return with_one_number_changed(draw, _at_rim(draw, size, height, vertical(draw, pairs)), CHANGED, n)
 
 
 def with_one_number_changed(draw: Draw, pairs: Rows, columns: Sequence[int], n: int) -> Rows:
@@ -114,7 +109,7 @@ def with_one_number_changed(draw: Draw, pairs: Rows, columns: Sequence[int], n: 
     low = np.where(low == -np.inf, high - 4 * rows[:, 3], low)
     high = np.where(high == np.inf, low + 4 * rows[:, 3], high)
     rows[:, -3:-1] = np.stack([low, high], axis=1)
-    others, part = by_sixteenths(draw, rows), (high - low) * draw.signs(n) * draw.log_uniform(n, -4, -1)
+    others, part = by_sixteenths(draw, rows), (high - low) * draw.signed(n, -4, -1)
     others[:, -3:] = np.stack([low + part, high - part, 1 - solid], axis=1)
     return changed_in_turn(rows, others, columns)
 
@@ -122,7 +117,7 @@ def with_one_number_changed(draw: Draw, pairs: Rows, columns: Sequence[int], n: 
 def stiff(draw: Draw, n: int) -> Rows:
     """Rows near contact with a rim, with ratios of sizes up to 2²⁷."""
     size = sizes(draw, draw.log_uniform(n, -13, 13), draw.log_uniform(n, -13, 13), units=(-12, 12))
-    return _at_rim(draw, size, draw.signs(n) * draw.log_uniform(n, -18, 3), _upward(draw, n))
+    return _at_rim(draw, size, draw.signed(n, -18, 3), vertical(draw, n))
 
 
 def rim_tangent(draw: Draw, n: int) -> Rows:
@@ -186,7 +181,7 @@ def swallowed(draw: Draw, n: int) -> Rows:
     return _rows(draw, rows, low, low + size.d * draw.log_uniform(n, -8, 0))
 
 
-def disc(axes: Axes = _upward) -> Maker:
+def disc(axes: Axes = vertical) -> Maker:
     """Spheroids above an end, with the lowest point nearly or exactly at it, over the opening or the flat end."""
 
     def make(draw: Draw, n: int) -> Rows:
@@ -223,8 +218,8 @@ def groove(draw: Draw, n: int) -> Rows:
 def waist(draw: Draw, n: int) -> Rows:
     """An end exactly at the waist, or very near to it."""
     size, _ = _ordinary(draw, n)
-    height = np.where(turns(n, True, False), 0.0, draw.signs(n) * draw.log_uniform(n, -40, -8))
-    return _at_rim(draw, size, height, _upward(draw, n))
+    height = np.where(turns(n, True, False), 0.0, draw.signed(n, -40, -8))
+    return _at_rim(draw, size, height, vertical(draw, n))
 
 
 def far(draw: Draw, n: int) -> Rows:
@@ -238,11 +233,11 @@ def far(draw: Draw, n: int) -> Rows:
     return _rows(draw, rows, low, high)
 
 
-def integers(columns: Sequence[str] = COLUMNS) -> Maker:
-    """Whole numbers as a person types them, the axis too where there are columns of it."""
+def integers(width: int = len(COLUMNS)) -> Maker:
+    """Whole numbers as a person types them, the axis too if the rows, `width` numbers before the ends, have one."""
 
     def make(draw: Draw, n: int) -> Rows:
-        rows = tilted.small_integers(draw, n)[:, : len(columns)]
+        rows = tilted.small_integers(draw, n)[:, :width]
         high = (rows[:, 6] + draw.integers(n, -6, 6)).astype(np.float64)
         low = np.where(turns(n, True, False, False), -np.inf, high - draw.integers(n, 1, 12))
         return _rows(draw, rows, low, high)
@@ -250,27 +245,133 @@ def integers(columns: Sequence[str] = COLUMNS) -> Maker:
     return make
 
 
-FAMILIES: dict[str, tuple[Maker, int]] = {
-    "ended-uniform": (uniform(), 48),
-    "ended-rim": (rim(), 60),
-    "ended-rim-tangent": (rim_tangent, 60),
-    "ended-rim-neighbourhood": (rim_neighbourhood, 60),
-    "ended-opening": (opening, 48),
-    "ended-thin": (thin(), 48),
-    "ended-swallowed": (swallowed, 48),
-    "ended-disc": (disc(), 48),
-    "ended-groove": (groove, 60),
-    "ended-waist": (waist, 40),
-    "ended-far": (far, 40),
-    "ended-stiff": (stiff, 40),
-    "ended-small-integers": (integers(), 48),
-    "ended-one-number-changed": (one_number_changed, 0),
-}
-TILTED: dict[str, tuple[Maker, int]] = {
-    "tilted-ended-uniform": (uniform(tilted.uniform, (2, 3)), 48),
-    "tilted-ended-rim": (rim(anywhere), 48),
-    "tilted-ended-thin": (thin(tilted.near_contact), 40),
-    "tilted-ended-disc": (disc(anywhere), 48),
-    "tilted-ended-small-integers": (integers(TILTED_COLUMNS), 60),
-}
-"""The generators by the names of their families, upright and tilted, each with how many rows are frozen."""
+def _through(draw: Draw, rows: Rows, step: Rows) -> Rows:
+    """Sweeps through the centres of rows; a centre can be anywhere on its sweep."""
+    share, centre = draw.between(len(rows), 0, 1)[:, None], rows[:, CENTRE]
+    return between(rows, centre + (1 - share) * step, centre - share * step)
+
+
+def _any_step(draw: Draw, rows: Rows) -> Rows:
+    """Steps in every direction, 2⁻³ to 2⁴ times as long as the spheroid's size."""
+    n, length = len(rows), draw.log_uniform(len(rows), -3, 4)
+    parts = [rows[:, column] * length * draw.between(n, -1, 1) for column in (2, 2, 3)]
+    return np.stack(parts, axis=1)
+
+
+def _around(rows: Rows) -> Rows:
+    """Horizontal directions at right angles to that of the axis: along the rim."""
+    return np.stack([-rows[:, 5], rows[:, 4], np.zeros(len(rows))], axis=1)
+
+
+def sweeps_about(rows_of: Maker) -> Maker:
+    """Both ends anywhere about the end of a hyperboloid of any regime."""
+
+    def make(draw: Draw, n: int) -> Rows:
+        rows = rows_of(draw, n)
+        return between(rows, rows[:, CENTRE] + _any_step(draw, rows))
+
+    return make
+
+
+def sweeps_over(rows_of: Maker) -> Maker:
+    """Sweeps through a place near a rim, 2⁻⁵⁰ to 2⁻³ radii off contact: along the rim, across it, or anywhere."""
+
+    def make(draw: Draw, n: int) -> Rows:
+        rows = rows_of(draw, n)
+        length = draw.signed(n, -3, 3)
+        radial = np.stack([rows[:, 4], rows[:, 5], np.zeros(n)], axis=1)
+        reach = np.sqrt(rows[:, 4] * rows[:, 4] + rows[:, 5] * rows[:, 5])
+        distance = np.maximum(reach, rows[:, 2] * 2.0**-40)
+        direction = np.where(turns(n, True, False)[:, None], _around(rows), radial)
+        level = direction * (rows[:, 2] * length / distance)[:, None]
+        return _through(draw, rows, np.where(turns(n, True, True, False)[:, None], level, _any_step(draw, rows)))
+
+    return make
+
+
+def sweeps_landing(rows_of: Maker) -> Maker:
+    """Straight down, or up from below, to a place that is nearly in contact with a rim, a flat end or an opening.
+
+    A sweep begins outside the end that is nearer to the spheroid; every third sweep goes on beyond the row's centre.
+    """
+
+    def make(draw: Draw, n: int) -> Rows:
+        rows = rows_of(draw, n)
+        nearer = np.abs(rows[:, 6] - rows[:, 10]) < np.abs(rows[:, 6] - rows[:, 11])
+        away = np.where(nearer, -1.0, 1.0) * rows[:, 3] * draw.log_uniform(n, -4, 5)
+        start, end = rows[:, CENTRE].copy(), rows[:, CENTRE].copy()
+        start[:, 2] += away
+        end[:, 2] -= np.where(turns(n, True, False, False), away, 0.0)
+        return between(rows, end, start)
+
+    return make
+
+
+SWEEP_CHANGED = (*range(10), 13, 14, 15)
+"""The columns that sweeps_with_one_number_changed changes: an upright axis does not."""
+
+
+def sweeps_with_one_number_changed(draw: Draw, n: int) -> Rows:
+    """As in random_pairs, of sweeps to a place nearly in contact with a rim, or with a flat end or an opening."""
+    pairs = in_turn(sweeps_landing(rim()), sweeps_landing(disc()))(draw, -(-n // (2 * len(SWEEP_CHANGED))))
+    return with_one_number_changed(draw, pairs, SWEEP_CHANGED, n)
+
+
+def sweeps_through_opening(draw: Draw, n: int) -> Rows:
+    """Sweeps out through an opening or in, without contact if the body is open."""
+    rows = opening(draw, n)
+    step = _any_step(draw, rows) * draw.log_uniform(n, -8, 0)[:, None]
+    step[:, 2] = rows[:, 3] * draw.signed(n, -1, 3)
+    return _through(draw, rows, step)
+
+
+def sweeps_through_thin(draw: Draw, n: int) -> Rows:
+    """Sweeps through a place near contact with a surface of which only a thin slab exists."""
+    rows = thin()(draw, n)
+    return _through(draw, rows, _any_step(draw, rows))
+
+
+def sweeps_touching(draw: Draw, n: int) -> Rows:
+    """Sweeps through an exact touch of a rim: along the rim, away from it, or upwards; or sweeps that end there."""
+    rows = rim_tangent(draw, n)
+    away = np.where(turns(n, True, False)[:, None], [[0.0, 0.0, 1.0]], rows[:, CENTRE] * [1, 1, 0])
+    step = np.where(turns(n, True, True, False)[:, None], _around(rows), away)
+    step = step * np.where(turns(n, False, False, True), rows[:, 3], 1.0)[:, None]
+    centre, back = rows[:, CENTRE], np.where(turns(n, 1.0, 1.0, 1.0, 0.0), 1.0, 0.0)[:, None]
+    return between(rows, centre + step, centre - step * back)
+
+
+def _beside_ends(rows: Rows, level: Floats, draw: Draw) -> Rows:
+    """The rows, with an axis, beside hyperboloids of which one end is within one and a half radii of the level.
+
+    One end in eight is exactly at the level. A third of the bodies have one end, half of all are solid; both are drawn,
+    since the rows may come in turns.
+    """
+    n, unit = len(rows), rows[:, 2:4].max(axis=1)
+    end = level + unit * np.where(draw.integers(n, 0, 7) == 0, 0.0, draw.between(n, -1.5, 1.5))
+    height = np.maximum(unit * draw.log_uniform(n, -3, 6), np.abs(end) * 2.0**-50)
+    height = np.where(draw.integers(n, 0, 2) == 0, np.inf, height)
+    upper = draw.signs(n) > 0
+    low, high = np.where(upper, end - height, end), np.where(upper, end, end + height)
+    return np.concatenate([rows, np.stack([low, high, draw.integers(n, 0, 1)], axis=1)], axis=1) + 0.0
+
+
+def given_ends(rows_of: Maker) -> Maker:
+    """Pairs beside an end that is near the height of the centre."""
+
+    def make(draw: Draw, n: int) -> Rows:
+        rows = with_axis(rows_of(draw, n))
+        return _beside_ends(rows, rows[:, 6], draw)
+
+    return make
+
+
+def sweeps_given_ends(rows_of: Maker) -> Maker:
+    """Sweeps beside an end that is near the height of the start, of the middle or of the end of the sweep."""
+
+    def make(draw: Draw, n: int) -> Rows:
+        rows = with_axis(rows_of(draw, n), SWEEPS)
+        share = draw.integers(n, 0, 2) / 2
+        return _beside_ends(rows, rows[:, 6] + share * (rows[:, 9] - rows[:, 6]), draw)
+
+    return make

@@ -23,11 +23,11 @@ import numpy as np
 
 from hypcheck.derivation.float_arithmetic import FLOAT_FORMATS, FloatFormat
 from hypcheck.geometry.rows import Floats, Mask, Rows, within
-from hypcheck.vectors import double_roots
+from hypcheck.vectors import double_roots, tilted
 from hypcheck.vectors.coincidences import exact_maker
 from hypcheck.vectors.double_roots import AXIAL_COLUMNS, RADIAL_COLUMNS, gathered
 from hypcheck.vectors.draw import Draw, Integers, Maker, exponent, in_turn, ldexp, to_bits, turns
-from hypcheck.vectors.random_pairs import Sizes, all_regimes, around, beside, heights, offsets, sizes
+from hypcheck.vectors.random_pairs import Sizes, around, beside, heights, nearly_touching, offsets, sizes_of_all_regimes
 
 STIFF_RATIOS = (10, 40)
 """Exponents of 2. Ratios beyond 1e8 are outside the domain that an implementation has unless it declares more."""
@@ -42,7 +42,7 @@ def stiff(*, radial: bool, axial: bool) -> Maker:
         a = draw.log_uniform(n, *(STIFF_RATIOS if radial else PLAIN))
         c = draw.log_uniform(n, *(STIFF_RATIOS if axial else PLAIN))
         (alpha, b), (gamma, d) = _split(draw, a), _split(draw, c)
-        hair = 1 + draw.signs(n) * draw.log_uniform(n, -30, -3)
+        hair = 1 + draw.signed(n, -30, -3)
         offset = np.where(turns(n, True, False), offsets(draw, n), draw.signs(n) * hair)
         return beside(draw, Sizes(alpha, gamma, b, d), heights(draw, c), offset)
 
@@ -62,22 +62,33 @@ TENS = np.asarray([1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1e0, 1e1, 1e2, 1e3, 1e4, 
 """The powers of ten in the ordinary range, both ends among them, as a person types them."""
 
 
-def _in_the_domain(draw: Draw, n: int) -> tuple[Rows, Mask]:
-    """Ratios in pairs: half of the second ratios are independent of the first, the others are within 2⁴ of it."""
+@gathered
+def whole_domain(draw: Draw, n: int) -> tuple[Rows, Mask]:
+    """Ratios and sizes log-uniform over the ordinary ranges, centres all around the surface or a hair off contact.
+
+    Half of the second ratios are independent of the first, the others are within 2⁴ of it.
+    """
     octave = draw.integers(n, -DOMAIN_RATIOS, DOMAIN_RATIOS - 1)
     other = np.where(
         turns(n, True, False), draw.integers(n, -DOMAIN_RATIOS, DOMAIN_RATIOS - 1), octave + draw.integers(n, -4, 3)
     )
     (alpha, b), (gamma, d) = _lengths(draw, octave), _lengths(draw, other)
     size = Sizes(alpha, gamma, b, d)
-    hair = draw.signs(n) * (1 + draw.signs(n) * draw.log_uniform(n, -40, -3))
+    hair = nearly_touching(draw, n, -40, -3)
     offset = np.where(turns(n, True, True, False, False), offsets(draw, n), hair)
     rows = beside(draw, size, _heights(draw, size), offset)
     return rows, within(rows)
 
 
-whole_domain = gathered(_in_the_domain)
-"""Ratios and sizes log-uniform over the ordinary ranges, centres all around the surface or a hair off contact."""
+@gathered
+def tilted_whole_domain(draw: Draw, n: int) -> tuple[Rows, Mask]:
+    """As whole_domain, of tilted spheroids: ratios, sizes and heights are those of its rows."""
+    upright = whole_domain(draw, n)
+    size = Sizes(*upright[:, :4].T)
+    hair = nearly_touching(draw, n, -40, -3)
+    offset = np.where(turns(n, True, False), offsets(draw, n), hair)
+    rows = tilted.beside(draw, size, upright[:, 6] / size.gamma, tilted.anywhere(draw, n), offset)
+    return rows, within(rows)
 
 
 def _lengths(draw: Draw, octave: Integers) -> tuple[Floats, Floats]:
@@ -128,7 +139,7 @@ def long_ratios(form: FloatFormat) -> Maker:
         size = Sizes(a * b, c * d, b, d)
         height = np.minimum(heights(draw, c), ldexp(c, np.full(n, form.overflow // 4)))
         rows = beside(draw, size, height, offsets(draw, n))
-        rows[:, 4:6] *= np.where(draw.signs(n) > 0, 1, 1 + draw.signs(n) * draw.log_uniform(n, -20, -1))[:, None]
+        rows[:, 4:6] *= np.where(draw.signs(n) > 0, 1, 1 + draw.signed(n, -20, -1))[:, None]
         return fitted(rows, form)
 
     return make
@@ -138,7 +149,7 @@ def long_units(form: FloatFormat) -> Maker:
     """Ordinary ratios in units so large or small that a length, or its square, is near the limits of the format."""
 
     def make(draw: Draw, n: int) -> Rows:
-        rows = around(draw, sizes(draw, *all_regimes(draw, n), units=(-1, 1)))
+        rows = around(draw, sizes_of_all_regimes(draw, n, units=(-1, 1)))
         octave = _limits(draw, n, form) // turns(n, 2, 2, 1, 1)
         group = turns(n, 0, 1, 2, 2, 2)
         for number, columns in enumerate(GROUPS):
@@ -153,7 +164,7 @@ def short_coordinates(form: FloatFormat) -> Maker:
     """Ordinary sizes, and x, y or z so small that P, Q or the coordinate's square is near the lower limit."""
 
     def make(draw: Draw, n: int) -> Rows:
-        rows = around(draw, sizes(draw, *all_regimes(draw, n), units=(-1, 1)))
+        rows = around(draw, sizes_of_all_regimes(draw, n, units=(-1, 1)))
         under = np.asarray(form.least - draw.integers(n, -3, form.bits + 1))
         for columns, chosen in (([4, 5], turns(n, True, False)), ([6], turns(n, False, True))):
             largest = np.abs(rows[:, columns]).max(axis=1)
@@ -183,7 +194,7 @@ def _shifted(lengths: Rows, shift: Integers, form: FloatFormat) -> Rows:
 
 def subnormal(draw: Draw, n: int) -> Rows:
     """One group of lengths, or both, among the subnormal numbers of float16, float32 or float64, in turn."""
-    rows = around(draw, sizes(draw, *all_regimes(draw, n), units=(-1, 1)))
+    rows = around(draw, sizes_of_all_regimes(draw, n, units=(-1, 1)))
     group = turns(n, *range(4))
     for number, columns in enumerate(GROUPS):
         lengths = rows[:, columns]
@@ -200,7 +211,7 @@ def subnormal(draw: Draw, n: int) -> Rows:
 
 def magnitudes(draw: Draw, n: int) -> Rows:
     """Ordinary ratios in units of 1e±150 and beyond, the same or opposite for the two groups of lengths."""
-    rows = around(draw, sizes(draw, *all_regimes(draw, n), units=(-1, 1)))
+    rows = around(draw, sizes_of_all_regimes(draw, n, units=(-1, 1)))
     far = draw.integers(n, 499, 1000), draw.integers(n, 499, 1000)
     sides = turns(n, 1, -1, 1, -1), turns(n, 1, -1, -1, 1)
     for columns, distance, side in zip(GROUPS, far, sides, strict=True):
@@ -217,7 +228,7 @@ def almost_zero(draw: Draw, n: int) -> Rows:
     index = np.arange(n)
     for _ in range(2):
         place = np.where(zero[index, place], place, (place + 1) % 3)
-    rows[index, 4 + place] = draw.signs(n) * draw.log_uniform(n, -1000, -200)
+    rows[index, 4 + place] = draw.signed(n, -1000, -200)
     return rows
 
 

@@ -16,14 +16,13 @@ from hypcheck.vectors import (
     coincidences,
     crossed,
     ended,
-    ended_sweeps,
     extremes,
     random_pairs,
     sweeps,
     tilted,
-    together,
 )
 from hypcheck.vectors.border_lines import SEARCHED
+from hypcheck.vectors.draw import in_turn
 from hypcheck.vectors.family import MARK, Family
 from hypcheck.vectors.fixed_sizes import family_at
 
@@ -31,6 +30,20 @@ from hypcheck.vectors.fixed_sizes import family_at
 def _table(*families: Family, groups: Sequence[str] = ()) -> dict[str, Family]:
     """The families by name, with these groups."""
     return {family.name: replace(family, groups=frozenset(groups)) for family in families}
+
+
+# Traps of several columns in one row. A program may be right for the traps of each column beside ordinary values of the
+# others, and wrong where two traps meet, such as an axis that is not normalised beside an end.
+
+_TILTS = (tilted.slight, tilted.any_length, tilted.spheres, tilted.upright, tilted.stiff, extremes.tilted_whole_domain)
+"""Traps of the axis, and of sizes, as rows of ten numbers."""
+
+_SWEEP_TILTS = in_turn(*map(sweeps.beside_rows, _TILTS))
+_ENDED_TILTS = in_turn(*map(ended.given_ends, _TILTS), ended.rim(tilted.nearly_along), ended.disc(tilted.nearly_along))
+_SWEEP_DOMAIN = sweeps.beside_rows(extremes.whole_domain)
+_ENDED_LENGTHS = in_turn(
+    *map(ended.sweeps_given_ends, (sweeps.still, sweeps.very_short, sweeps.very_long, _SWEEP_DOMAIN))
+)
 
 
 FAMILIES = _table(
@@ -70,7 +83,7 @@ FAMILIES = _table(
     Family("whole-domain", extremes.whole_domain, 240),
     Family("coincidences", crossed.crossed("coincidences"), 300),
     Family("strata", border_lines.upright, 240, times=10),
-    Family("nearly-zero", together.nearly_zero),
+    Family("nearly-zero", coincidences.nearly_zero),
     Family("extreme-float16", extremes.at_the_ends_of("float16"), 180, extreme=True),
     Family("extreme-float32", extremes.at_the_ends_of("float32"), 180, extreme=True),
     Family("extreme-float64", extremes.at_the_ends_of("float64"), 180, extreme=True),
@@ -99,8 +112,8 @@ TILTED_FAMILIES = _table(
     Family("tilted-coincidences", crossed.crossed("tilted-coincidences"), 370, times=2),
     Family("tilted-strata", border_lines.tilted, 200, times=10),
     Family("tilted-one-number-changed", tilted.one_number_changed),
-    Family("tilted-nearly-zero", together.tilted_nearly_zero),
-    Family("tilted-whole-domain", together.tilted_domain),
+    Family("tilted-nearly-zero", tilted.nearly_zero),
+    Family("tilted-whole-domain", extremes.tilted_whole_domain),
     Family("extreme-tilted", tilted.whole_domain, 120, extreme=True),
     groups=("axis",),
 )
@@ -126,8 +139,8 @@ SWEEP_FAMILIES = _table(
     Family("way-stiff", sweeps.stiff, 108),
     Family("way-small-integers", sweeps.small_integers, 108),
     Family("way-one-number-changed", sweeps.one_number_changed(sweeps.at_an_end, 10)),
-    Family("way-nearly-zero", together.sweep_nearly_zero),
-    Family("way-whole-domain", together.sweep_domain),
+    Family("way-nearly-zero", sweeps.beside_rows(coincidences.nearly_zero)),
+    Family("way-whole-domain", _SWEEP_DOMAIN),
     Family("way-coincidences", crossed.crossed("way-coincidences"), 353),
     groups=("end",),
 ) | _table(
@@ -136,35 +149,60 @@ SWEEP_FAMILIES = _table(
     Family("tilted-way-ring", sweeps.tilted_ring, 40),
     Family("tilted-way-small-integers", sweeps.tilted_integers, 40),
     Family("tilted-way-one-number-changed", sweeps.one_number_changed(sweeps.tilted_end, 13)),
-    Family("tilted-way-traps", together.sweep_tilts),
+    Family("tilted-way-traps", _SWEEP_TILTS),
     Family("tilted-way-coincidences", crossed.crossed("tilted-way-coincidences"), 80, times=3),
     groups=("end", "axis"),
 )
 """Those of sweeps between two positions: rows as geometry.rows.SWEEPS has them, upright or tilted."""
 
 ENDED_FAMILIES = _table(
-    *(Family(name, make, frozen) for name, (make, frozen) in ended.FAMILIES.items()),
-    Family("ended-nearly-zero", together.ended_nearly_zero),
-    Family("ended-whole-domain", together.ended_domain),
+    Family("ended-uniform", ended.uniform(), 48),
+    Family("ended-rim", ended.rim(), 60),
+    Family("ended-rim-tangent", ended.rim_tangent, 60),
+    Family("ended-rim-neighbourhood", ended.rim_neighbourhood, 60),
+    Family("ended-opening", ended.opening, 48),
+    Family("ended-thin", ended.thin(), 48),
+    Family("ended-swallowed", ended.swallowed, 48),
+    Family("ended-disc", ended.disc(), 48),
+    Family("ended-groove", ended.groove, 60),
+    Family("ended-waist", ended.waist, 40),
+    Family("ended-far", ended.far, 40),
+    Family("ended-stiff", ended.stiff, 40),
+    Family("ended-small-integers", ended.integers(), 48),
+    Family("ended-one-number-changed", ended.one_number_changed),
+    Family("ended-nearly-zero", ended.given_ends(coincidences.nearly_zero)),
+    Family("ended-whole-domain", ended.given_ends(extremes.whole_domain)),
     groups=("heights",),
 ) | _table(
-    *(Family(name, make, frozen) for name, (make, frozen) in ended.TILTED.items()),
-    Family("tilted-ended-nearly-zero", together.tilted_ended_nearly_zero),
-    Family("tilted-ended-traps", together.ended_tilts, times=2),
-    Family("tilted-ended-coincidences", together.ended_coincidences),
+    Family("tilted-ended-uniform", ended.uniform(tilted.uniform, (2, 3)), 48),
+    Family("tilted-ended-rim", ended.rim(tilted.anywhere), 48),
+    Family("tilted-ended-thin", ended.thin(tilted.near_contact), 40),
+    Family("tilted-ended-disc", ended.disc(tilted.anywhere), 48),
+    Family("tilted-ended-small-integers", ended.integers(10), 60),
+    Family("tilted-ended-nearly-zero", ended.given_ends(tilted.nearly_zero)),
+    Family("tilted-ended-traps", _ENDED_TILTS, times=2),
+    Family("tilted-ended-coincidences", ended.given_ends(crossed.crossed("tilted-coincidences"))),
     groups=("axis", "heights"),
 )
 """Those of hyperboloids that end: rows of thirteen numbers, of upright spheroids and of tilted ones."""
 
 ENDED_SWEEP_FAMILIES = _table(
-    *(Family(name, make, frozen) for name, (make, frozen) in ended_sweeps.FAMILIES.items()),
-    Family("ended-way-lengths", together.ended_lengths),
-    Family("ended-way-coincidences", together.ended_sweep_coincidences),
+    Family("ended-way-uniform", ended.sweeps_about(ended.uniform()), 16),
+    Family("ended-way-over", ended.sweeps_over(ended.rim()), 20),
+    Family("ended-way-landing", ended.sweeps_landing(ended.rim()), 16),
+    Family("ended-way-disc", ended.sweeps_landing(ended.disc()), 16),
+    Family("ended-way-opening", ended.sweeps_through_opening, 16),
+    Family("ended-way-thin", ended.sweeps_through_thin, 12),
+    Family("ended-way-touch", ended.sweeps_touching, 20),
+    Family("ended-way-one-number-changed", ended.sweeps_with_one_number_changed),
+    Family("ended-way-lengths", _ENDED_LENGTHS),
+    Family("ended-way-coincidences", ended.sweeps_given_ends(crossed.crossed("way-coincidences"))),
     groups=("end", "heights"),
 ) | _table(
-    *(Family(name, make, frozen) for name, (make, frozen) in ended_sweeps.TILTED.items()),
-    Family("tilted-ended-way-traps", together.ended_sweep_tilts),
-    Family("tilted-ended-way-coincidences", together.ended_tilted_sweep_coincidences),
+    Family("tilted-ended-way-uniform", ended.sweeps_about(ended.uniform(tilted.uniform, (2, 3))), 12),
+    Family("tilted-ended-way-over", ended.sweeps_over(ended.rim(tilted.anywhere)), 12),
+    Family("tilted-ended-way-traps", ended.sweeps_given_ends(_SWEEP_TILTS)),
+    Family("tilted-ended-way-coincidences", ended.sweeps_given_ends(crossed.crossed("tilted-way-coincidences"))),
     groups=("end", "axis", "heights"),
 )
 """Those of sweeps beside hyperboloids that end: rows of sixteen numbers, of upright spheroids and of tilted ones."""

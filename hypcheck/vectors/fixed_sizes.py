@@ -23,7 +23,7 @@ from hypcheck.truth import exact
 from hypcheck.vectors import tilted
 from hypcheck.vectors.draw import Draw, ldexp, stepped, turns
 from hypcheck.vectors.family import MARK, Family
-from hypcheck.vectors.random_pairs import Sizes, beside_surface, stack
+from hypcheck.vectors.random_pairs import Sizes, beside_surface, nearly_touching, stack
 
 OPEN = 2.0
 """Where the centre may be anywhere, rows lie within so many waist radii of the axis and heights γ of the waist."""
@@ -165,7 +165,7 @@ def _box(setting: FixedSizes, draw: Draw, n: int) -> Rows:
 def _beside(setting: FixedSizes, draw: Draw, n: int) -> Rows:
     """Centres one radius (1 ± 2⁻⁵² … 1) off the surface, on either side, along the normal."""
     alpha, gamma, b, d = (np.full(n, size) for size in setting.sizes)
-    offset = draw.signs(n) * (1 + draw.signs(n) * draw.log_uniform(n, -53, 0))
+    offset = nearly_touching(draw, n, -53, 0)
     height = np.abs(_heights(setting, draw, n)) / d
     radius, level = beside_surface(alpha / b, gamma / d, height, offset)
     return _turned(setting, draw, radius * b, level * d * draw.signs(n))
@@ -176,7 +176,7 @@ def _ring(setting: FixedSizes, draw: Draw, n: int) -> Rows:
     alpha, gamma, b, d = setting.sizes
     a, c = np.float64(alpha) / b, np.float64(gamma) / d  # numpy floats, which can be divided by c = 0
     radius: Floats = np.full(n, b * np.sqrt((c * c + 1) * (a * a / (c * c) + 1)))
-    radius = radius * (1 + turns(n, 0.0, 1.0) * draw.signs(n) * draw.log_uniform(n, -53, -2))
+    radius = radius * (1 + turns(n, 0.0, 1.0) * draw.signed(n, -53, -2))
     height = turns(n, 0.0, 0.0, 1.0) * draw.signs(n) * d * draw.log_uniform(n, -50, 0)
     return _turned(setting, draw, radius, height)
 
@@ -189,7 +189,7 @@ def _zeros(setting: FixedSizes, draw: Draw, n: int) -> Rows:
     z = _heights(setting, draw, n)
     Q = (z / d) * (z / d)
     P = np.where(turns(n, True, False), A - B + 1 - Q, (A * B - A + B + A * Q) / B)
-    steps = draw.signs(n) * draw.log_uniform(n, -53, -3) * turns(n, 0.0, 1.0, 1.0)
+    steps = draw.signed(n, -53, -3) * turns(n, 0.0, 1.0, 1.0)
     return _turned(setting, draw, b * np.sqrt(np.maximum(P * (1 + steps), 0.0)), z)
 
 
@@ -285,7 +285,7 @@ def _tilted_box(setting: FixedSizes, draw: Draw, n: int) -> Rows:
 
 
 def _tilted_beside(setting: FixedSizes, draw: Draw, n: int) -> Rows:
-    offset = draw.signs(n) * (1 + draw.signs(n) * draw.log_uniform(n, -53, 0))
+    offset = nearly_touching(draw, n, -53, 0)
     return _held(setting, _tilted_rows(setting, draw, n, offset))
 
 

@@ -97,6 +97,11 @@ def offsets(draw: Draw, n: int) -> Floats:
     return draw.between(n, -2.5, 2.5)
 
 
+def nearly_touching(draw: Draw, n: int, low: int = -52, high: int = -4) -> Floats:
+    """Offsets of ±1, or of 2^low to 2^high more or less."""
+    return draw.signs(n) * (1 + draw.signed(n, low, high))
+
+
 def around(draw: Draw, size: Sizes) -> Rows:
     """Rows all around the surface, at `heights` and `offsets`."""
     return beside(draw, size, heights(draw, size.c), offsets(draw, len(size.b)))
@@ -109,9 +114,14 @@ def all_regimes(draw: Draw, n: int) -> tuple[Floats, Floats]:
     return a, np.sqrt(a * bend)
 
 
+def sizes_of_all_regimes(draw: Draw, n: int, units: tuple[int, int] = UNITS) -> Sizes:
+    """Sizes with the ratios of all_regimes, b and d log-uniform in 2^units."""
+    return sizes(draw, *all_regimes(draw, n), units)
+
+
 def uniform(draw: Draw, n: int) -> Rows:
     """Rows in all regimes with centres all around the surface."""
-    return around(draw, sizes(draw, *all_regimes(draw, n)))
+    return around(draw, sizes_of_all_regimes(draw, n))
 
 
 def far_centers(draw: Draw, n: int) -> Rows:
@@ -188,7 +198,7 @@ def symmetric_images(draw: Draw, n: int) -> Rows:
     """Sixteen images of a pair in consecutive rows: x, y swapped, signs turned (−0.0 included), other units."""
     pairs = -(-n // 16)
     a, c = all_regimes(draw, pairs)
-    side = np.where(draw.signs(pairs) > 0, 1.0, -1.0) * (1 + draw.signs(pairs) * draw.log_uniform(pairs, -40, -2))
+    side = nearly_touching(draw, pairs, -40, -2)
     size = sizes(draw, a, c)
     rows = np.repeat(beside(draw, size, draw.unit(pairs) * 2 * np.maximum(c, 1), side), 16, axis=0)[:n]
     image = np.arange(n) % 16
@@ -210,8 +220,8 @@ TURN = 2 * len(COLUMNS)
 def one_number_changed(draw: Draw, n: int) -> Rows:
     """Pairs 2⁻¹⁴ to 2⁻⁶ radii from contact; a number changes by 1/16 of itself or more, so that many cross contact."""
     pairs = -(-n // TURN)
-    size = sizes(draw, *all_regimes(draw, pairs))
-    offset = draw.signs(pairs) * (1 + draw.signs(pairs) * draw.log_uniform(pairs, -14, -6))
+    size = sizes_of_all_regimes(draw, pairs)
+    offset = nearly_touching(draw, pairs, -14, -6)
     rows = np.repeat(beside(draw, size, heights(draw, size.c), offset), TURN, axis=0)[:n]
     return changed_in_turn(rows, by_sixteenths(draw, rows), range(len(COLUMNS)))
 
@@ -219,7 +229,7 @@ def one_number_changed(draw: Draw, n: int) -> Rows:
 def by_sixteenths(draw: Draw, rows: Rows) -> Rows:
     """The rows with all numbers changed by one factor, 1/16 or more from 1."""
     n = len(rows)
-    return np.asarray(rows * (1 + draw.signs(n) * draw.log_uniform(n, -4, 0))[:, None])
+    return np.asarray(rows * (1 + draw.signed(n, -4, 0))[:, None])
 
 
 def repeated(pairs: Rows, columns: Sequence[int], n: int, centres: int = 6) -> Rows:

@@ -16,7 +16,7 @@ from hypcheck.vectors import double_roots, random_pairs, tilted
 from hypcheck.vectors.coincidences import tangent
 from hypcheck.vectors.double_roots import gather, gathered, in_metres
 from hypcheck.vectors.draw import Draw, Maker, in_turn, ldexp, turns
-from hypcheck.vectors.random_pairs import BODY, TOWER, Sizes, all_regimes, heights, offsets, sizes
+from hypcheck.vectors.random_pairs import BODY, TOWER, Sizes, heights, offsets, sizes, sizes_of_all_regimes
 
 CENTRE = slice(4, 7)
 """The columns of the centre, or of the first end of a sweep."""
@@ -36,6 +36,7 @@ def through(rows: Rows, steps: Rows, after: Floats) -> tuple[Rows, Mask]:
     return between(rows, end, start), np.asarray((lost == 0).all(axis=1) & (missed == 0).all(axis=1) & moved)
 
 
+@gathered
 def _exterior_graze(draw: Draw, n: int) -> tuple[Rows, Mask]:
     """Sweeps through an outer tangency along the surface's horizontal section, which curves away from the sweep."""
     tangencies = double_roots.by_ratios(draw, n)
@@ -46,10 +47,10 @@ def _exterior_graze(draw: Draw, n: int) -> tuple[Rows, Mask]:
     return sweeps, exact & tangencies.usable & tangencies.outer & tangencies.tangent
 
 
+@gathered
 def _interior_graze(draw: Draw, n: int) -> tuple[Rows, Mask]:
     """Sweeps up or down through an inner tangency at the waist, the narrowest place."""
-    rows = gather(draw, n, double_roots.waist_points)
-    rows = in_metres(draw, rows)
+    rows = in_metres(draw, gather(draw, n, double_roots.waist_points))
     radius = np.sqrt(rows[:, 4] * rows[:, 4] + rows[:, 5] * rows[:, 5])
     steps = np.zeros((n, 3))
     steps[:, 2] = rows[:, 1] * ldexp(draw.signs(n), draw.integers(n, -6, 3))
@@ -57,7 +58,7 @@ def _interior_graze(draw: Draw, n: int) -> tuple[Rows, Mask]:
     return sweeps, exact & (radius < rows[:, 0])
 
 
-grazing = in_turn(gathered(_exterior_graze), gathered(_interior_graze))
+grazing = in_turn(_exterior_graze, _interior_graze)
 """Exact tangency at one instant, clear before and after, outside and inside."""
 
 
@@ -217,7 +218,7 @@ def tunnelling(draw: Draw, n: int) -> Rows:
 
 def uniform(draw: Draw, n: int) -> Rows:
     """Sweeps in all regimes, with both ends all around the surface, or near to each other."""
-    size = sizes(draw, *all_regimes(draw, n))
+    size = sizes_of_all_regimes(draw, n)
     start = random_pairs.beside(draw, size, heights(draw, size.c), 2 * offsets(draw, n))
     return between(start, _ends(draw, size, start))
 
@@ -236,7 +237,7 @@ def tower(draw: Draw, n: int) -> Rows:
 
 def across(draw: Draw, n: int) -> Rows:
     """Steps that are too long: both ends outside, or inside above and below the waist; the surface is between."""
-    size = sizes(draw, *all_regimes(draw, n))
+    size = sizes_of_all_regimes(draw, n)
     cosine, sine = draw.circle(n)
     reach = size.alpha * draw.log_uniform(n, 0, 5) + size.b * draw.between(n, 1, 3)
     height = size.gamma * draw.between(n, -0.5, 0.5)
@@ -252,7 +253,7 @@ def across(draw: Draw, n: int) -> Rows:
 
 def begun_in_contact(draw: Draw, n: int) -> Rows:
     """The first end crosses the surface: the first contact is at t = 0, wherever the sweep leads."""
-    size = sizes(draw, *all_regimes(draw, n))
+    size = sizes_of_all_regimes(draw, n)
     start = random_pairs.beside(draw, size, heights(draw, size.c), draw.between(n, -0.9, 0.9))
     return between(start, _beside(draw, size)[:, CENTRE])
 
@@ -265,7 +266,7 @@ def still(draw: Draw, n: int) -> Rows:
 
 def along_a_line(draw: Draw, n: int) -> Rows:
     """Sweeps along a straight line of the hyperboloid, or up to 2.5 radii beside one: the distance hardly changes."""
-    size = sizes(draw, *all_regimes(draw, n))
+    size = sizes_of_all_regimes(draw, n)
     cosine, sine = draw.circle(n)
     first, last = draw.between(n, -3, 0), draw.between(n, 0, 3)
     radius = size.alpha + size.b * turns(n, 0.0, 1.0, -1.0) * draw.between(n, 0.5, 2.5)
@@ -280,7 +281,7 @@ def along_a_line(draw: Draw, n: int) -> Rows:
 
 def vertical(draw: Draw, n: int) -> Rows:
     """Sweeps parallel to the hyperboloid's axis, and on it: x and y do not change."""
-    size = sizes(draw, *all_regimes(draw, n))
+    size = sizes_of_all_regimes(draw, n)
     rows = _beside(draw, size)
     rows[:, 4:6] *= turns(n, 1.0, 1.0, 1.0, 0.0)[:, None]
     end = rows[:, CENTRE].copy()
@@ -290,7 +291,7 @@ def vertical(draw: Draw, n: int) -> Rows:
 
 def horizontal(draw: Draw, n: int) -> Rows:
     """Sweeps at constant height; every third one is in the plane of the waist."""
-    size = sizes(draw, *all_regimes(draw, n))
+    size = sizes_of_all_regimes(draw, n)
     rows, end = _beside(draw, size), _beside(draw, size)[:, CENTRE]
     rows[:, 6] *= turns(n, 1.0, 1.0, 0.0)
     end[:, 2] = rows[:, 6]
@@ -299,7 +300,7 @@ def horizontal(draw: Draw, n: int) -> Rows:
 
 def very_long(draw: Draw, n: int) -> Rows:
     """Sweeps past the surface, over 2¹⁰ to 2⁴⁰ times the spheroid's size: contact is very short."""
-    size = sizes(draw, *all_regimes(draw, n))
+    size = sizes_of_all_regimes(draw, n)
     rows = _beside(draw, size)
     cosine, sine = draw.circle(n)
     reach = draw.log_uniform(n, 10, 40)
@@ -310,7 +311,7 @@ def very_long(draw: Draw, n: int) -> Rows:
 
 def very_short(draw: Draw, n: int) -> Rows:
     """Sweeps from a place within 2⁻²⁰ radii of contact, over 2⁻⁵⁰ to 2⁻¹⁰ of its distance: the ends nearly coincide."""
-    size = sizes(draw, *all_regimes(draw, n))
+    size = sizes_of_all_regimes(draw, n)
     offset = draw.signs(n) + ldexp(draw.signs(n), draw.integers(n, -50, -20))
     rows = random_pairs.beside(draw, size, heights(draw, size.c), offset)
     return between(rows, rows[:, CENTRE] * (1 + ldexp(draw.signs(n), draw.integers(n, -50, -10)))[:, None])

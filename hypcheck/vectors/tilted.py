@@ -16,13 +16,16 @@ tangent if and only if M + λD is positive semidefinite there. At last a rationa
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import reduce
 
 import numpy as np
 
+from hypcheck import toml
 from hypcheck.geometry.arithmetic import dot
 from hypcheck.geometry.pair import TILTED_COLUMNS
 from hypcheck.geometry.rows import Floats, Mask, Rows
+from hypcheck.vectors import coincidences
 from hypcheck.vectors.double_roots import (
     ULPS,
     BigIntegers,
@@ -38,11 +41,12 @@ from hypcheck.vectors.random_pairs import (
     BODY,
     TOWER,
     Sizes,
-    all_regimes,
     each_with_one_number_changed,
     heights,
+    nearly_touching,
     offsets,
     sizes,
+    sizes_of_all_regimes,
 )
 
 Vectors = tuple[Floats, Floats, Floats]
@@ -93,21 +97,36 @@ def stack(size: Sizes, centre: list[Floats], axis: Vectors) -> Rows:
     return np.stack([size.alpha, size.gamma, size.b, size.d, *centre, *axis], axis=1) + 0.0
 
 
+Shapes = Callable[[Draw, int], tuple[Sizes, Floats]]
+"""What draws sizes, and the heights in γ of points of the surface."""
+
+Axes = Callable[[Draw, int], Vectors]
+"""What draws axes, of any length."""
+
+
 def _ordinary(draw: Draw, n: int) -> tuple[Sizes, Floats]:
     """Sizes of every regime, and heights in γ."""
-    size = sizes(draw, *all_regimes(draw, n))
+    size = sizes_of_all_regimes(draw, n)
     return size, heights(draw, size.c) / size.c * draw.signs(n)
 
 
-def _nearly(draw: Draw, n: int, low: int = -52, high: int = -4) -> Floats:
-    """Offsets of ±1, or a little more or less."""
-    return draw.signs(n) * (1 + draw.signs(n) * draw.log_uniform(n, low, high))
+def near_surface(
+    shapes: Shapes = _ordinary, axes: Axes = anywhere, offsets: Callable[[Draw, int], Floats] = nearly_touching
+) -> Maker:
+    """The generator of rows beside the surface: it draws sizes and heights first, then axes, then offsets."""
+
+    def make(draw: Draw, n: int) -> Rows:
+        size, height = shapes(draw, n)
+        return beside(draw, size, height, axes(draw, n), offsets(draw, n))
+
+    return make
 
 
-def uniform(draw: Draw, n: int) -> Rows:
-    """Rows in all regimes, with axes in all directions and centres all around the surface."""
-    size, height = _ordinary(draw, n)
-    return beside(draw, size, height, anywhere(draw, n), offsets(draw, n))
+uniform = near_surface(offsets=offsets)
+"""Rows in all regimes, with axes in all directions and centres all around the surface."""
+
+near_contact = near_surface()
+"""Rows from 2⁻⁵² to 2⁻⁴ radii off contact, all over the surface."""
 
 
 def tower(draw: Draw, n: int) -> Rows:
@@ -120,26 +139,18 @@ def tower(draw: Draw, n: int) -> Rows:
     return beside(draw, size, draw.between(n, -1, 1), axis, offset)
 
 
-def near_contact(draw: Draw, n: int) -> Rows:
-    """Rows from 2⁻⁵² to 2⁻⁴ radii off contact, all over the surface."""
-    size, height = _ordinary(draw, n)
-    return beside(draw, size, height, anywhere(draw, n), _nearly(draw, n))
-
-
 def one_number_changed(draw: Draw, n: int) -> Rows:
     """As in random_pairs, with the three numbers of the axis."""
     columns = range(len(TILTED_COLUMNS))
-    pairs = -(-n // (2 * len(columns)))
-    size, height = _ordinary(draw, pairs)
-    rows = beside(draw, size, height, anywhere(draw, pairs), _nearly(draw, pairs, -14, -6))
+    make = near_surface(offsets=lambda draw, n: nearly_touching(draw, n, -14, -6))
+    rows = make(draw, -(-n // (2 * len(columns))))
     return each_with_one_number_changed(draw, rows, columns, n, centres=3)
 
 
-def horizontal(draw: Draw, n: int) -> Rows:
-    """Rows near contact with a horizontal axis."""
-    size, height = _ordinary(draw, n)
+def _level(draw: Draw, n: int) -> Vectors:
+    """Horizontal axes."""
     cosine, sine = draw.circle(n)
-    return beside(draw, size, height, (cosine, sine, np.zeros(n)), _nearly(draw, n))
+    return cosine, sine, np.zeros(n)
 
 
 def through_the_centre(draw: Draw, n: int) -> Rows:
@@ -154,7 +165,7 @@ def in_meridian_plane(draw: Draw, n: int) -> Rows:
     size, height = _ordinary(draw, n)
     up, across = circle_at(draw.unit(n))
     axis = (across * draw.signs(n), np.zeros(n), up)
-    rows = beside(draw, size, height, axis, _nearly(draw, n), on_x_axis=True)
+    rows = beside(draw, size, height, axis, nearly_touching(draw, n), on_x_axis=True)
     swap = draw.signs(n) < 0
     rows[:, [4, 5]] = np.where(swap[:, None], rows[:, [5, 4]], rows[:, [4, 5]])
     rows[:, [7, 8]] = np.where(swap[:, None], rows[:, [8, 7]], rows[:, [7, 8]])
@@ -168,39 +179,61 @@ def at_the_waist(draw: Draw, n: int) -> Rows:
     return rows
 
 
-symmetric = in_turn(in_meridian_plane, horizontal, through_the_centre, at_the_waist)
+symmetric = in_turn(in_meridian_plane, near_surface(axes=_level), through_the_centre, at_the_waist)
 
 
-def spheres(draw: Draw, n: int) -> Rows:
-    """b = d: the axis does not matter."""
+def _spheres(draw: Draw, n: int) -> tuple[Sizes, Floats]:
+    """As _ordinary, with b = d."""
     size, height = _ordinary(draw, n)
-    size = Sizes(size.alpha, size.c * size.b, size.b, size.b)
-    return beside(draw, size, height, anywhere(draw, n), _nearly(draw, n))
+    return Sizes(size.alpha, size.c * size.b, size.b, size.b), height
+
+
+spheres = near_surface(_spheres)
+"""Rows near contact whose axis does not matter."""
+
+
+def vertical(_: Draw, n: int) -> Vectors:
+    """The axis 0, 0, 1."""
+    return np.zeros(n), np.zeros(n), np.ones(n)
 
 
 def upright(draw: Draw, n: int) -> Rows:
     """The axis (0, 0, s), of any length and either sign."""
-    size, height = _ordinary(draw, n)
-    rows = beside(draw, size, height, (np.zeros(n), np.zeros(n), np.ones(n)), _nearly(draw, n))
-    rows[:, 9] = draw.signs(n) * draw.log_uniform(n, -60, 60)
+    rows = near_surface(axes=vertical)(draw, n)
+    rows[:, 9] = draw.signed(n, -60, 60)
     return rows
 
 
-def slight(draw: Draw, n: int) -> Rows:
-    """Rows near contact with an axis that differs from the vertical or the horizontal by 2⁻¹⁰⁷⁴ to 2⁻¹."""
-    size, height = _ordinary(draw, n)
+def _slight(draw: Draw, n: int) -> Vectors:
+    """Axes that differ from the vertical or the horizontal by 2⁻¹⁰⁷⁴ to 2⁻¹."""
     cosine, sine = draw.circle(n)
     little = np.where(turns(n, True, True, True, False), draw.log_uniform(n, -60, 0), draw.log_uniform(n, -1074, -60))
     standing = turns(n, True, True, False)
     across, up = np.where(standing, little, 1.0), np.where(standing, 1.0, little)
-    return beside(draw, size, height, (across * cosine, across * sine, up * draw.signs(n)), _nearly(draw, n))
+    return across * cosine, across * sine, up * draw.signs(n)
 
 
-def stiff(draw: Draw, n: int) -> Rows:
-    """Rows near contact, with ratios of sizes up to 2²⁷, about 10⁸."""
+slight = near_surface(axes=_slight)
+"""Rows near contact with these axes."""
+
+
+def nearly_along(draw: Draw, n: int) -> Vectors:
+    """Axes of length 1 to 3 that are horizontal, or differ by 2⁻⁶⁰ to 1 from the horizontal or the vertical."""
+    cosine, sine = draw.circle(n)
+    little, flat = draw.log_uniform(n, -60, 0), turns(n, True, True, False)
+    across = np.where(flat, 1.0, little) * draw.integers(n, 1, 3)
+    up = np.where(flat, np.where(turns(n, True, False), 0.0, little), 1.0) * draw.signs(n)
+    return across * cosine, across * sine, up
+
+
+def _stiff(draw: Draw, n: int) -> tuple[Sizes, Floats]:
+    """Ratios of sizes up to 2²⁷, about 10⁸."""
     size = sizes(draw, draw.log_uniform(n, -14, 14), draw.log_uniform(n, -14, 14), units=(-13, 13))
-    height = draw.signs(n) * draw.log_uniform(n, -20, 4)
-    return beside(draw, size, height, anywhere(draw, n), _nearly(draw, n))
+    return size, draw.signed(n, -20, 4)
+
+
+stiff = near_surface(_stiff)
+"""Rows near contact with these ratios."""
 
 
 def any_length(draw: Draw, n: int) -> Rows:
@@ -219,10 +252,20 @@ def small_integers(draw: Draw, n: int) -> Rows:
     return np.stack([*whole, np.where(zero, 1, axis[0]), *axis[1:]], axis=1).astype(np.float64)
 
 
+def nearly_zero(draw: Draw, n: int) -> Rows:
+    """As coincidences.nearly_zero, with axes in every direction."""
+    return np.concatenate([coincidences.nearly_zero(draw, n), np.stack(anywhere(draw, n), axis=1)], axis=1) + 0.0
+
+
+def _small(draw: Draw, n: int) -> tuple[Sizes, Floats]:
+    """Sizes and heights within a few powers of two of 1."""
+    size = sizes(draw, draw.log_uniform(n, -6, 6), draw.log_uniform(n, -6, 6), units=(-3, 3))
+    return size, draw.between(n, -2, 2)
+
+
 def whole_domain(draw: Draw, n: int) -> Rows:
     """Rows over all of float64: all lengths are scaled by one power of two, also to below the least normal number."""
-    size = sizes(draw, draw.log_uniform(n, -6, 6), draw.log_uniform(n, -6, 6), units=(-3, 3))
-    rows = beside(draw, size, draw.between(n, -2, 2), anywhere(draw, n), _nearly(draw, n, high=0))
+    rows = near_surface(_small, offsets=lambda draw, n: nearly_touching(draw, n, high=0))(draw, n)
     unit = np.where(turns(n, True, False), draw.integers(n, -1064, -1000), draw.integers(n, 900, 1008))
     rows[:, :7] = ldexp(rows[:, :7], unit[:, None])
     return np.concatenate([np.maximum(rows[:, :4], 5e-324), rows[:, 4:]], axis=1) + 0.0
@@ -230,43 +273,6 @@ def whole_domain(draw: Draw, n: int) -> Rows:
 
 _MARGIN = 1e-6
 """A pivot of M + λD, over what it comes from, is not taken for positive or negative where it is nearer to 0."""
-
-RINGS = (
-    (12, 12, 1, 3, 0, 14, 0, 1, 0, 1),
-    (7, 9, 1, 3, 0, 10, 0, 3, 0, 2),
-    (5, 5, 2, 1, 0, 9, 0, 1, 0, 1),
-    (5, 10, 2, 5, 0, 10.5, 0, 2, 0, 1),
-    (3, 11, 3, 5, 0, 10, 0, 1, 0, 1),
-    (4, 4, 4, 1, 0, 10, 0, 1, 0, 1),
-    (2, 4, 5, 2, 0, 10.5, 0, 1, 0, 2),
-    (2, 6, 5, 2, 0, 9, 0, 3, 0, 1),
-    (5, 10, 7, 1, 0, 16, 0, 3, 0, 1),
-    (2, 3, 9, 2, 0, 14, 0, 2, 0, 3),
-    (4, 12, 10, 4, 0, 18, 0, 3, 0, 1),
-    (12, 12, 12, 3, 0, 30, 0, 1, 0, 1),
-    (9, 9, 3, 1, -8, 0, 4, 1, 0, 1),
-    (9, 9, 3, 2, -5, 0, 1, 1, 0, 1),
-    (8, 8, 4, 3, -3.5, 0, 0.5, 1, 0, 1),
-    (9, 9, 6, 5, -2.75, 0, 0.25, 1, 0, 1),
-)
-"""Clear pairs, the centre on an axis of symmetry of both, a double root at a pole; found by a search of sizes to 12.
-
-Before the last four, which are inside, y = b √((A1 + B)(1 + B)/B) with A1 = α²/b² and −1/B the negative eigenvalue.
-"""
-
-TWO_POINTS = (
-    (2, 2, 1, 2, 0, 3, 0, 1, 0, 1),
-    (5, 5, 2, 5, 0, 7, 0, 1, 0, 1),
-    (2, 1, 5, 2, 0, 10.5, 0, 2, 0, 1),
-    (3, 6, 5, 9, 0, 8, 0, 1, 0, 2),
-    (2, 2, 6, 2, 0, 8, 0, 1, 0, 1),
-    (7, 7, 8, 7, 0, 15, 0, 1, 0, 1),
-    (8, 8, 4, 1, -7.5, 0, 4.5, 1, 0, 1),
-    (5, 5, 4, 2, -2.25, 0, 0.75, 1, 0, 1),
-    (9, 9, 6, 1, -8.75, 0, 6.25, 1, 0, 1),
-    (10, 10, 8, 4, -4.5, 0, 1.5, 1, 0, 1),
-)
-"""Found in the same way: tangent in two points, the last four from inside."""
 
 
 def double_roots(draw: Draw, n: int) -> tuple[Rows, Mask, Mask]:
@@ -385,11 +391,17 @@ def near_tangent(draw: Draw, n: int) -> Rows:
     return moved_by_ulps(draw, tangent(draw, n))
 
 
-def _of_table(table: tuple[tuple[float, ...], ...]) -> Maker:
-    """The generator of a table's rows, turned by rational angles and scaled; three of four are moved by ulps."""
+def listed(name: str) -> Rows:
+    """The rows of that name in symmetric_pairs.toml, (n, 10)."""
+    return np.asarray(toml.shipped("hypcheck.vectors", "symmetric_pairs.toml")[name], dtype=np.float64)
+
+
+def _of_list(name: str) -> Maker:
+    """The generator of listed rows, turned by rational angles and scaled; three of four are moved by ulps."""
 
     def attempt(draw: Draw, n: int) -> tuple[Rows, Mask]:
-        chosen = np.asarray(table)[draw.integers(n, 0, len(table) - 1)] * 4
+        rows = listed(name)
+        chosen = rows[draw.integers(n, 0, len(rows) - 1)] * 4
         whole = [column.astype(np.int64).astype(object) for column in chosen.T]
         ones = np.ones(n, dtype=np.int64).astype(object)
         return _turned(draw, tuple(whole[:4]), tuple(whole[4:7]), tuple(whole[7:]), ones)
@@ -401,7 +413,7 @@ def _of_table(table: tuple[tuple[float, ...], ...]) -> Maker:
     return make
 
 
-ring = _of_table(RINGS)
+ring = _of_list("rings")
 
 
 def _at_the_origin(draw: Draw, n: int) -> Rows:
@@ -423,4 +435,4 @@ def _in_both_planes(draw: Draw, n: int) -> Rows:
     return np.stack([alpha, gamma, b, d, x, zero, z, draw.between(n, -1, 1), zero, draw.signs(n)], axis=1) + 0.0
 
 
-twins = in_turn(_of_table(TWO_POINTS), _at_the_origin, _in_both_planes)
+twins = in_turn(_of_list("tangent-in-two-points"), _at_the_origin, _in_both_planes)

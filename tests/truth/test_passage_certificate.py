@@ -10,8 +10,10 @@ from fractions import Fraction
 import pytest
 
 from hypcheck.truth.prove import prove_passage, simplest
-from hypcheck.vectors.tilted import TWO_POINTS
+from hypcheck.vectors.tilted import listed
 from tests.support.inside import PassageCertificate, check_passage, clear_until, contact_at
+
+TWO_POINTS = list(map(tuple, listed("tangent-in-two-points").tolist()))
 
 THROUGH = (2.0, 3.0, 1.0, 1.0, 0.25, 0.5, 0.0, 8.0, 2.0, 0.5)
 OUTSIDE = (2.0, 3.0, 1.0, 1.0, -6.0, 5.0, 1.0, 8.0, 3.25, 0.5)

@@ -16,7 +16,7 @@ from hypcheck.geometry.pair import Lengths, Pair, Position
 from hypcheck.truth import polynomials
 from hypcheck.truth.sweep import _ring_between
 from hypcheck.vectors import frozen
-from hypcheck.vectors.tilted import RINGS, TWO_POINTS
+from hypcheck.vectors.tilted import listed
 from tests.support.examples import examples
 from tests.support.inside import (
     Surd,
@@ -34,6 +34,8 @@ from tests.support.inside import (
     tolerance,
 )
 from tests.support.inside import position as exact_position
+
+RINGS, TWO_POINTS = (list(map(tuple, listed(name).tolist())) for name in ("rings", "tangent-in-two-points"))
 
 CONTACT = Position.CONTACT
 

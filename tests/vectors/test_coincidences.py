@@ -129,7 +129,7 @@ def test_rows_constructed_for_a_vanishing_coefficient_have_it_exactly_0() -> Non
         (coincidences.first_coefficient_zero_for_any_waist, {"n1"}),
         (coincidences.both_coefficients_zero, {"n1", "n2"}),
     ):
-        rows = gather(Draw("zero"), 200, construct)
+        rows = construct(Draw("zero"), 200)
         cubics = [cubic(lengths) for lengths in lengths_of(rows)]
         assert all(getattr(g, name) == 0 for g in cubics for name in vanishing)
     whole = [cubic(lengths) for lengths in lengths_of(FAMILIES["coefficient-zero"].rows(0, 400))]

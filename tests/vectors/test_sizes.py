@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from hypcheck.geometry.rows import ORDINARY_MAGNITUDE, ORDINARY_RATIO, within
-from hypcheck.vectors import ended, ended_sweeps
+from hypcheck.vectors import ended
 from hypcheck.vectors.families import ALL, FAMILIES
 from tests.support import inside
 from tests.support.inside import passage_of
@@ -105,7 +105,7 @@ def test_whole_domain_family_has_every_position_in_each_regime_and_near_its_ends
         ("ended-one-number-changed", ended.CHANGED, 6),
         ("way-one-number-changed", range(10), 3),
         ("tilted-way-one-number-changed", range(13), 1),
-        ("ended-way-one-number-changed", ended_sweeps.CHANGED, 0),
+        ("ended-way-one-number-changed", ended.SWEEP_CHANGED, 0),
     ],
 )
 def test_one_number_changed_families_change_one_number_from_row_to_row(
