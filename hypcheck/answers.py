@@ -16,7 +16,7 @@ import numpy as np
 from hypcheck.answer import ended_clearance_of, passage_of_row, require_agreement
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import COLUMNS, REFUSED, TILTED_COLUMNS, Pair
-from hypcheck.geometry.rows import PAIRS, Mask, Positions, Rows, require_valid
+from hypcheck.geometry.rows import PAIRS, Mask, Positions, Rows, require_valid, upright_mask
 from hypcheck.kernel.classify import classify
 from hypcheck.kernel.in_use import kernel
 from hypcheck.processes import in_order, usable_processors
@@ -27,7 +27,6 @@ from hypcheck.tables.npy_table import read_npy, write_npy
 from hypcheck.tables.streams import Route, open_input, replace_output, same_file
 from hypcheck.truth import exact, float_filter, nearest_rows
 from hypcheck.truth.nearest import NearestStage
-from hypcheck.truth.nearest_rows import upright_mask
 
 
 def answers(rows: Rows) -> TableAnswers:

@@ -204,8 +204,11 @@ class Lengths:
         if upward[0] == upward[1] == 0 and (not direction or direction[0] == direction[1] == 0 or b == d):
             (a, b, x, y), (g, d, z, *ends), axis, along = to_integers(radial), to_integers(axial), (0, 0, 1), (0, 0, 1)
         else:
-            (a, b, x, y, g, d, z, *ends), axis = _smallest(radial + axial), _smallest(direction or UPRIGHT)
-            along = _smallest(upward)
+            (a, b, x, y, g, d, z, *ends), axis = (
+                reduced(radial + axial),
+                reduced(direction or UPRIGHT),
+            )
+            along = reduced(upward)
         if not ends:
             return cls(a, b, x, y, g, d, z, axis, along)
         low = None if others[3] == -math.inf else ends[0]
@@ -295,7 +298,7 @@ def over_one_denominator(values: Sequence[float | Fraction]) -> tuple[list[int],
     return [numerator * (unit // denominator) for numerator, denominator in ratios], unit
 
 
-def _smallest(values: Sequence[float | Fraction]) -> Any:  # noqa: ANN401 - as many integers as values
+def reduced(values: Sequence[float | Fraction]) -> Any:  # noqa: ANN401 - as many integers as values
     """The values over the largest number of which all are integer multiples, up to an odd factor; not all are 0."""
     multiples = to_integers(values)
     union = 0

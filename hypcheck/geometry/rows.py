@@ -290,6 +290,13 @@ def with_axis(rows: Rows, layout: Layout = PAIRS) -> Rows:
     return wide
 
 
+def upright_mask(rows: Rows) -> Mask:
+    """A mask (n,) of the rows about pairs whose spheroid is upright: the axis is vertical, or b = d."""
+    if not PAIRS.has_axis(rows):
+        return np.ones(len(rows), dtype=np.bool_)
+    return np.asarray((rows[:, 7:9] == 0).all(axis=1) | (rows[:, 2] == rows[:, 3]))
+
+
 def scenes_of(rows: Rows) -> list[Indices]:
     """The indices of the rows of each scene, the largest scene first: rows of a scene differ only in their centres."""
     fixed = np.delete(rows, (4, 5, 6), axis=1)

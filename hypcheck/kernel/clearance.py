@@ -31,11 +31,10 @@ from hypcheck.float_environment import in_default_environment
 from hypcheck.geometry.arithmetic import rounded_toward
 from hypcheck.geometry.forms import Argument, questions_of
 from hypcheck.geometry.pair import REFUSED, TILTED_COLUMNS, Pair, Position, trouble_with
-from hypcheck.geometry.rows import PAIRS, Floats, Indices, Mask, Positions, Rows, invalid, with_heights
+from hypcheck.geometry.rows import PAIRS, Floats, Indices, Mask, Positions, Rows, invalid, upright_mask, with_heights
 from hypcheck.kernel.choice import POSITION_OF, Question, required
 from hypcheck.kernel.clearance_bounds import Clearance, clearances_without_ends
 from hypcheck.kernel.in_use import positions_of_rows
-from hypcheck.kernel.numpy_kernel import is_tilted
 from hypcheck.kernel.precision import are_apart
 from hypcheck.kernel.scene_gaps import gaps, gaps_at
 
@@ -168,7 +167,7 @@ def _apart(result: Clearance) -> Mask:
     shares = rows[:, :4] / reach[:, None]
     apart[some] = ((shares >= _RANGE[0]) & (shares <= _RANGE[1])).all(axis=1)
     if PAIRS.has_axis(rows):
-        far = is_tilted(rows) & (np.maximum(reach, rows[:, 0]) > _FAR * longer)
+        far = ~upright_mask(rows) & (np.maximum(reach, rows[:, 0]) > _FAR * longer)
         apart[some] &= ~far | (high - low > _WIDE * (low + longer))
     return apart
 

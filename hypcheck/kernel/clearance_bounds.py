@@ -30,12 +30,11 @@ import numpy as np
 
 from hypcheck.float_environment import in_default_environment
 from hypcheck.geometry.pair import COLUMNS, REFUSED
-from hypcheck.geometry.rows import PAIRS, Floats, Indices, Integers, Mask, Positions, Rows, invalid
+from hypcheck.geometry.rows import PAIRS, Floats, Indices, Integers, Mask, Positions, Rows, invalid, upright_mask
 from hypcheck.kernel import clearance_points as points
 from hypcheck.kernel import compiled_kernel
 from hypcheck.kernel.choice import choice
 from hypcheck.kernel.in_use import kernel
-from hypcheck.kernel.numpy_kernel import is_tilted
 
 CHUNK = 1 << 14
 GUESS = 2.0**-32
@@ -195,10 +194,10 @@ def _compiled(rows: Rows, threads: int | None) -> Clearance:
 def _fill(result: Clearance, places: Indices, queries: Rows, threads: int | None) -> None:
     """Fill in the answers about valid rows: the tilted rows in one call, the upright ones in another."""
     some = queries[places]
-    tilted = is_tilted(some) if PAIRS.has_axis(some) else np.zeros(len(some), np.bool_)
-    for chosen in (tilted, ~tilted):
+    upright = upright_mask(some)
+    for chosen in (~upright, upright):
         if chosen.any():
-            rows = np.ascontiguousarray(some[chosen] if chosen is tilted else some[chosen, : len(COLUMNS)])
+            rows = np.ascontiguousarray(some[chosen, : len(COLUMNS)] if chosen is upright else some[chosen])
             answers = _answers(rows, threads)
             for name in _MEASURED:
                 getattr(result, name)[places[chosen]] = getattr(answers, name)

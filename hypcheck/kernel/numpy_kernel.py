@@ -31,6 +31,7 @@ from hypcheck.geometry.rows import (
     invalid,
     parts_of,
     tilted_rows,
+    upright_mask,
 )
 from hypcheck.kernel import integers, scene_lines
 from hypcheck.kernel.choice import POSITION_OF, Question
@@ -77,16 +78,15 @@ def positions(rows: Rows) -> Positions:
 
 def _positions_of_ten(rows: Rows) -> Positions:
     result = np.empty(len(rows), dtype=np.int8)
-    of_tilted = is_tilted(rows)
-    those = np.flatnonzero(of_tilted)
-    for start in range(0, len(those), TILTED_CHUNK):
-        part = those[start : start + TILTED_CHUNK]
+    upright = upright_mask(rows)
+    tilted_places = np.flatnonzero(~upright)
+    for start in range(0, len(tilted_places), TILTED_CHUNK):
+        part = tilted_places[start : start + TILTED_CHUNK]
         result[part] = _tilted_positions(rows[part])
-    if not of_tilted.all():
-        upright = rows[~of_tilted]
-        answers = positions(upright[:, : len(COLUMNS)])
-        answers[invalid(upright)] = REFUSED
-        result[~of_tilted] = answers
+    if upright.any():
+        answers = positions(rows[upright, : len(COLUMNS)])
+        answers[invalid(rows[upright])] = REFUSED
+        result[upright] = answers
     return result
 
 
@@ -267,11 +267,6 @@ def _by_integers(rows: Rows, places: Indices, result: Positions, position: Calla
         result[places[refused]] = REFUSED
         for place in places[~refused]:
             result[place] = position(rows[place].tolist())
-
-
-def is_tilted(rows: Rows) -> Mask:
-    """A mask (n,) of the rows of ten that are neither upright nor of a sphere."""
-    return np.asarray((rows[:, 7:9] != 0).any(axis=1) & (rows[:, 2] != rows[:, 3]))
 
 
 def _tilted_positions(rows: Rows) -> Positions:

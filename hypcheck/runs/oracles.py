@@ -23,7 +23,7 @@ from hypcheck.geometry.rows import PAIRS, Rows
 from hypcheck.record.fields import row_fields
 from hypcheck.record.lines import DisagreementPart, OracleLine
 from hypcheck.runs.findings import Batch, SelfCheckPlan
-from hypcheck.truth import exact, heights, least, mesh, mesh_oracle, nearest_rows, roots
+from hypcheck.truth import exact, least, mesh, mesh_oracle, nearest_rows, roots, sections
 from hypcheck.truth.certificate import Certificate, check_certificate
 from hypcheck.truth.exact import Decision
 from hypcheck.truth.nearest import STAGES
@@ -116,7 +116,7 @@ def _coefficient_rule() -> Callable[[Mapping[str, float]], int]:
 
 def _heights(row: list[float]) -> Opinion:
     """Whether both surfaces meet in some horizontal plane: by the real roots of a polynomial in the height."""
-    return Opinion(heights.position(Pair.from_row(row)), stage="rule in the height")
+    return Opinion(sections.position(Pair.from_row(row)), stage="rule in the height")
 
 
 def _mesh(row: list[float]) -> Opinion:

@@ -29,16 +29,14 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck.geometry.arithmetic import rounded_toward
+from hypcheck.geometry.arithmetic import octave, power_of_two, rounded, rounded_toward
 from hypcheck.geometry.pair import COLUMNS, TILTED_COLUMNS, Pair, Position
-from hypcheck.geometry.rows import Floats, Mask, Positions, Rows
+from hypcheck.geometry.rows import Floats, Mask, Positions, Rows, upright_mask
 from hypcheck.truth import exact, float_boxes, float_filter
 from hypcheck.truth.box_proofs import Goal
 from hypcheck.truth.changes import BITS, CUTS, Flip, goal_of
 from hypcheck.truth.ended_error import EndedFlip
 from hypcheck.truth.exact import Decision
-from hypcheck.truth.nearest_rows import upright_mask
-from hypcheck.truth.rationals import octave, power_of_two, rounded
 
 
 @dataclass(frozen=True, slots=True)

@@ -214,14 +214,7 @@ def proves(S: Matrix, H: Matrix, certificate: Certificate) -> bool:
         return at is not None and at * claim > 0 and all(pivot > 0 for pivot in pivots(pencil(S, H, at)))
     if m is not None:
         return m != 0 and _touches(pencil(S, H, m), H, 1 if m > 0 else -1)
-    sides = set()
-    for point in certificate.points:
-        place = [*map(Fraction, point), Fraction(1)]
-        if _at(S, place) > 0:
-            return False
-        height = _at(H, place)
-        sides.add((height > 0) - (height < 0))
-    return 0 in sides or sides == {-1, 1}
+    return _crosses_border(S, H, *WITHOUT_ENDS[:2], certificate.points, solid=False)
 
 
 def _touches(both: Matrix, H: Matrix, side: int) -> bool:

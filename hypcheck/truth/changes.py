@@ -23,10 +23,10 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
+from hypcheck.geometry.arithmetic import fraction, rounded
 from hypcheck.geometry.pair import COLUMNS, SIZES, Lengths, Pair, Position
 from hypcheck.truth import exact
 from hypcheck.truth.box_proofs import Goal, Signs
-from hypcheck.truth.rationals import fraction, rounded
 
 if TYPE_CHECKING:
     from hypcheck.truth.box_certificate import State

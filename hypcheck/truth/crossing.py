@@ -10,11 +10,20 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 
-from hypcheck.geometry.arithmetic import adjugate, dot, sign_of, times
+from hypcheck.geometry.arithmetic import (
+    adjugate,
+    dot,
+    exponent_of,
+    floor_root,
+    power_of_two,
+    precisions,
+    root_of,
+    sign_of,
+    times,
+)
 from hypcheck.geometry.pair import Lengths, over_one_denominator
 from hypcheck.truth.certificate import Point, Query
 from hypcheck.truth.pencil import Quartic, inside, quartic, toward_maximum
-from hypcheck.truth.rationals import exponent_of, floor_root, power_of_two, precisions, root_of
 
 Vector = list[int]
 Matrix = list[list[int]]

@@ -32,10 +32,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
 
+from hypcheck.geometry.arithmetic import exponent_of, last, power_of_two, root_of, rounded
 from hypcheck.geometry.pair import Lengths, Pair, Position
 from hypcheck.truth import exact, least
 from hypcheck.truth.exact import Decision
-from hypcheck.truth.rationals import exponent_of, last, power_of_two, root_of, rounded
 
 _LARGEST = Fraction(1, 100)
 _LEAST_OCTAVE = -1100

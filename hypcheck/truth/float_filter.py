@@ -45,7 +45,7 @@ from functools import lru_cache
 import numpy as np
 
 from hypcheck.geometry.pair import COLUMNS, TILTED_COLUMNS, Lengths, Pair, Position
-from hypcheck.geometry.rows import PAIRS, Floats, Mask, Positions, Rows, require_valid
+from hypcheck.geometry.rows import PAIRS, Floats, Mask, Positions, Rows, require_valid, upright_mask
 from hypcheck.truth import exact
 
 LINE_MARGIN = 64 * 2.0**-53
@@ -148,28 +148,22 @@ def positions(rows: Rows) -> Positions:
     """The exact position of every row, (n, 7), (n, 10) or (n, 13): int8 (n,).
 
     Rows of seven whose columns lie in memory one behind the other (the transpose of a (7, n) array) are decided
-    fastest; each row of ten is decided on its own. Raises InputError about the first invalid row.
+    fastest; each row of a tilted spheroid is decided on its own, and so are ends. Raises InputError about the first
+    invalid row.
     """
+    result = np.empty(len(rows), dtype=np.int8)
+    if not PAIRS.has_axis(rows):
+        for start in range(0, len(rows), CHUNK):
+            result[start : start + CHUNK] = _chunk(rows[start : start + CHUNK], start)
+        return result
+    require_valid(rows)
+    upright = upright_mask(rows)
+    result[upright] = positions(np.ascontiguousarray(rows[upright, : len(COLUMNS)]))
+    for index in np.flatnonzero(~upright):
+        result[index] = exact.position(Lengths.of(rows[index, : len(TILTED_COLUMNS)].tolist()))
     if PAIRS.has_heights(rows):
-        require_valid(rows)
-        return _between_ends(rows)
-    if PAIRS.has_axis(rows):
-        require_valid(rows)
-        return np.array([exact.position(Lengths.of(row)) for row in rows.tolist()], dtype=np.int8)
-    result = np.empty(len(rows), dtype=np.int8)
-    for start in range(0, len(rows), CHUNK):
-        result[start : start + CHUNK] = _chunk(rows[start : start + CHUNK], start)
-    return result
-
-
-def _between_ends(rows: Rows) -> Positions:
-    """The positions of valid rows (n, 13): those without ends, then the ends one by one."""
-    upright = (rows[:, 7:9] == 0).all(axis=1)
-    result = np.empty(len(rows), dtype=np.int8)
-    for some, width in ((upright, len(COLUMNS)), (~upright, len(TILTED_COLUMNS))):
-        result[some] = positions(np.ascontiguousarray(rows[some, :width]))
-    for index in np.flatnonzero(np.isfinite(rows[:, 10:12]).any(axis=1)):
-        result[index] = exact.ended_position(Lengths.of(rows[index].tolist()), Position(int(result[index])))
+        for index in np.flatnonzero(np.isfinite(rows[:, 10:12]).any(axis=1)):
+            result[index] = exact.ended_position(Lengths.of(rows[index].tolist()), Position(int(result[index])))
     return result
 
 

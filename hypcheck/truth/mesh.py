@@ -1,4 +1,4 @@
-"""Meshes of the surface for FCL (python-fcl), the distance to them, and the results of the mesh oracle's searches."""
+"""Meshes of the surface for FCL (python-fcl), the distance to them, and the mesh oracle's verdict."""
 
 from __future__ import annotations
 
@@ -11,8 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.errors import UnavailableError
-from hypcheck.geometry.arithmetic import sign_of
-from hypcheck.geometry.pair import Lengths
+from hypcheck.geometry.pair import Pair, Position
 from hypcheck.geometry.rows import Floats
 
 Vertices = Floats
@@ -71,10 +70,12 @@ def distance_to_mesh(vertices: Vertices, triangles: Triangles) -> float:
     return float(fcl.distance(point, mesh, fcl.DistanceRequest(), fcl.DistanceResult()))
 
 
-def side_of_center(lengths: Lengths) -> int:
-    """The exact sign of F(C) = (x² + y²)/α² − z²/γ² − 1: 1 outside the surface, −1 inside, 0 on it."""
+def side_of_center(pair: Pair) -> Position:
+    """INTERIOR if C lies between the ends where F(C) = (x² + y²)/α² − z²/γ² − 1 ≤ 0, else EXTERIOR, exactly."""
+    lengths = pair.lengths
     alpha2, gamma2 = lengths.alpha**2, lengths.gamma**2
-    return sign_of((lengths.x**2 + lengths.y**2 - alpha2) * gamma2 - lengths.z**2 * alpha2)
+    inside = (lengths.x**2 + lengths.y**2 - alpha2) * gamma2 <= lengths.z**2 * alpha2
+    return Position.INTERIOR if inside and pair.z_min <= pair.z <= pair.z_max else Position.EXTERIOR
 
 
 Measure = Callable[[Vertices, Triangles], float]
@@ -82,7 +83,7 @@ Measure = Callable[[Vertices, Triangles], float]
 
 
 class MeshOutcome(Enum):
-    """The answer that a mesh gives about a pair. It names no side: a side follows only from the sign of F(C)."""
+    """The answer that a mesh gives about a pair. It names no side: a side follows only from side_of_center."""
 
     CLEAR = "clear"
     CONTACT = "contact"
@@ -90,21 +91,37 @@ class MeshOutcome(Enum):
 
 
 @dataclass(frozen=True, slots=True)
-class Refinement:
-    """The result of cutting the surface into cells, and the meshes that show it, relative to C in spheroid radii.
+class MeshVerdict:
+    """The answer of cells of the surface about one pair, and the meshes that show it, relative to C in spheroid radii.
 
     For a clear pair the mesh is the near mesh over all cells within reach, each at the size at which it was decided;
-    for a contact it is the far mesh over cells that were undecided. If the surface ends, both meshes are given. The
-    distance of each must differ from 1 by more than `slack`; without a decision there are no meshes. `side` is the
-    exact sign of the hyperboloid's equation at C. `levels` counts the rounds of cutting. The distance from C to the
-    surface, in radii, is between `lower` and `upper`; `reason` says why nothing is decided.
+    for a contact it is the far mesh over cells that were undecided. If the surface ends, both meshes are given; if
+    nothing is near, or bounds decide nothing, there are none. The distance of each must differ from 1 by more than
+    `slack`. `side` is the position of a spheroid that touches nothing. `levels` counts the rounds of cutting.
+    `reason` is a sentence that says why nothing is decided.
+
+    `lower` and `upper` are bounds of the distance from C to the surface, in radii (clearance + 1). They are proved for
+    an upright spheroid and a hyperboloid without ends, else 0 and inf; for a clear pair they are seldom tight, and
+    beyond 5/4 radii they are 5/4 and inf.
     """
 
     outcome: MeshOutcome
-    side: int
+    side: Position
     meshes: tuple[Mesh, ...]
     levels: int
     lower: float = 0.0
     upper: float = float("inf")
     slack: float = 0.0
     reason: str = ""
+
+    @property
+    def position(self) -> Position | None:
+        """The position; None if undecided."""
+        if self.outcome is MeshOutcome.CLEAR:
+            return self.side
+        return Position.CONTACT if self.outcome is MeshOutcome.CONTACT else None
+
+    @property
+    def triangles(self) -> int:
+        """The number of triangles given to FCL."""
+        return sum(len(triangles) for _, triangles in self.meshes)

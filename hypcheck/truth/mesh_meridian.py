@@ -25,9 +25,9 @@ from math import isqrt, sqrt
 
 import numpy as np
 
-from hypcheck.geometry.pair import Pair
+from hypcheck.geometry.pair import Pair, Position
 from hypcheck.geometry.rows import Floats
-from hypcheck.truth.mesh import Mesh, MeshOutcome, Refinement, side_of_center
+from hypcheck.truth.mesh import Mesh, MeshOutcome, MeshVerdict, side_of_center
 
 UNIT_BITS = 96
 UNIT = 1 << UNIT_BITS
@@ -41,7 +41,7 @@ REACH = 5 * UNIT // 4
 class Meridian:
     """A pair in its meridian half plane: radii a and c, and the centre ρ, ζ in units, each rounded down.
 
-    `side` is the exact sign of F(C) = (x² + y²)/α² − z²/γ² − 1: 1 outside the surface, −1 inside, 0 on it.
+    `side` is that of C.
     Values of e are integers, `one` standing for 1.
     """
 
@@ -49,7 +49,7 @@ class Meridian:
     c: Fraction
     rho: int
     zeta: int
-    side: int
+    side: Position
     one: int
 
     def tangents_meet(self, e: int, f: int) -> tuple[int, int]:
@@ -70,7 +70,7 @@ def meridian_of(pair: Pair) -> Meridian:
         c=c,
         rho=isqrt((lengths.x**2 + lengths.y**2 << 2 * UNIT_BITS) // lengths.b**2),
         zeta=(abs(lengths.z) << UNIT_BITS) // lengths.d,
-        side=side_of_center(lengths),
+        side=side_of_center(pair),
         # dr/de < a/2 and dz/de ≤ c: a step of e, 1/one, moves a point by less than 2⁻⁶³ radii.
         one=1 << (64 + (int(max(a, c)) + 1).bit_length()),
     )
@@ -177,7 +177,7 @@ def halves(meridian: Meridian, cell: MeridianCell) -> tuple[MeridianCell, Meridi
 
 
 def bounds_of(cell: MeridianCell, *, outside: bool) -> Bounds:
-    """Proved bounds from one cell; `outside` says that C is not inside the surface (F(C) ≥ 0).
+    """Proved bounds from one cell; `outside` says that C is outside the surface (F(C) > 0).
 
     Upper: for a point Y of the far facets (tangents seen from outside, chords from inside) F(C) and F(Y) do not have
     the same sign, so the segment CY meets the surface. Lower: for any direction n, every X in the triangle has |X| ≥
@@ -230,7 +230,7 @@ MOST_CELLS = 1 << 14
 4,000 at the resolution; the limit keeps the time of a query bounded."""
 
 
-def refine(pair: Pair) -> Refinement:
+def refine(pair: Pair) -> MeshVerdict:
     """Halve undecided cells, level by level, until all are beyond one radius, one proves contact, or neither can be.
 
     This always ends: the bounds of a cell are at most 62 u and twice its length apart (u = 2⁻⁵³: 2 SLACK, and what
@@ -238,7 +238,7 @@ def refine(pair: Pair) -> Refinement:
     radii.
     """
     meridian = meridian_of(pair)
-    outside = meridian.side >= 0
+    outside = meridian.side is Position.EXTERIOR
     window = window_of(meridian)
     cells = [] if window is None else [cell_of(meridian, *window)]
     settled: list[Segment] = []
@@ -250,16 +250,16 @@ def refine(pair: Pair) -> Refinement:
         upper = min(upper, *(bounds.upper for _, bounds in judged))
         if upper <= 1.0:
             shown = ribbon(_facets(cells, chords=not outside))
-            return Refinement(MeshOutcome.CONTACT, meridian.side, (shown,), levels, lower, upper)
+            return MeshVerdict(MeshOutcome.CONTACT, meridian.side, (shown,), levels, lower, upper)
         cells = [cell for cell, bounds in judged if bounds.lower <= 1.0]
         if cells and (upper - lower <= RESOLUTION or len(cells) > MOST_CELLS):
             why = _why_open(levels, lower, upper)
-            return Refinement(MeshOutcome.UNDECIDED, meridian.side, (), levels, lower, upper, reason=why)
+            return MeshVerdict(MeshOutcome.UNDECIDED, meridian.side, (), levels, lower, upper, reason=why)
         beyond = [(cell, bounds) for cell, bounds in judged if bounds.lower > 1.0]
         settled.extend(_facets((cell for cell, _ in beyond), chords=outside))
         settled_lower = min(settled_lower, _least(bounds for _, bounds in beyond))
         cells = [half for cell in cells for half in halves(meridian, cell)]
-    return Refinement(MeshOutcome.CLEAR, meridian.side, (ribbon(settled),), levels, settled_lower, upper)
+    return MeshVerdict(MeshOutcome.CLEAR, meridian.side, (ribbon(settled),), levels, settled_lower, upper)
 
 
 def _facets(cells: Iterable[MeridianCell], *, chords: bool) -> tuple[Segment, ...]:

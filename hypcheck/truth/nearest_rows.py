@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import COLUMNS, Pair
-from hypcheck.geometry.rows import PAIRS, Floats, Mask, Positions, Rows, require_valid
+from hypcheck.geometry.rows import Floats, Mask, Positions, Rows, require_valid, upright_mask
 from hypcheck.truth import distances, upright_distances
 from hypcheck.truth.nearest import NearestStage, nearest
 
@@ -45,13 +45,6 @@ def positions(rows: Rows) -> NearestBatch:
 def clearances(rows: Rows) -> NearestBatch:
     """The clearances and positions of rows (n, 7) or (n, 10). Raises InputError about the first invalid row."""
     return _run(rows, clearances_wanted=True)
-
-
-def upright_mask(rows: Rows) -> Mask:
-    """A mask (n,) of the rows (n, 7) or (n, 10) of an upright spheroid: the axis is vertical, or b = d."""
-    if not PAIRS.has_axis(rows):
-        return np.ones(len(rows), dtype=np.bool_)
-    return np.asarray((rows[:, 7:9] == 0).all(axis=1) | (rows[:, 2] == rows[:, 3]))
 
 
 def _run(rows: Rows, *, clearances_wanted: bool) -> NearestBatch:

@@ -21,10 +21,9 @@ from functools import lru_cache
 
 import numpy as np
 
-from hypcheck.geometry.arithmetic import rounded_toward
+from hypcheck.geometry.arithmetic import octave, power_of_two, rounded_toward
 from hypcheck.geometry.pair import UPRIGHT, WITHOUT_ENDS
 from hypcheck.geometry.rows import SWEEPS, Positions, Rows
-from hypcheck.truth.rationals import octave, power_of_two
 from hypcheck.truth.sweep import StraightSweep
 from hypcheck.truth.swept import WIDTH_BITS, Passage, Rational, meets, passage_on, sweep_of
 

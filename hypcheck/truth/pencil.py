@@ -30,10 +30,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, TypeAlias
 
-from hypcheck.geometry.arithmetic import cross, dot, sign_with_root
+from hypcheck.geometry.arithmetic import cross, dot, power_near, sign_with_root
 from hypcheck.geometry.pair import Lengths
 from hypcheck.truth.polynomials import derivative, difference, polynomial_product, sign_at
-from hypcheck.truth.rationals import power_near
 
 Number: TypeAlias = Any
 """An integer, or a polynomial in time (sweep.py): whatever has +, −, · among its kind and with integers."""

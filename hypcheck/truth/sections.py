@@ -23,7 +23,10 @@ counts the roots of Δ, Tarski's the others. Where c0 = 0 at all heights, Δ = c
 c2 alone decides. For an upright spheroid c2² − 4 c3 c1 is the quartic Q² − 4 R r² of docs/mathematics.md.
 
 All is done in integers. `upward` u need not be vertical or of length 1: with U = u·u the variable is w √U, and a height
-z is the number z √U. There is no λ of the pencil S + λH here, and no distance.
+z is the number z √U.
+
+`position` is the oracle of heights. There is no λ of the pencil S + λH here, and no distance: where the hyperboloid has
+no ends, nothing is shared with the other oracles. Where it ends, the exact decision asks `Sections` after the pencil.
 """
 
 from __future__ import annotations
@@ -34,8 +37,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from hypcheck.geometry.arithmetic import changes_of_sign, cross, dot, sign_with_root
-from hypcheck.geometry.pair import Lengths
+from hypcheck.geometry.arithmetic import changes_of_sign, cross, dot, root_of, sign_with_root
+from hypcheck.geometry.pair import Lengths, Pair, Position
 from hypcheck.truth.polynomials import (
     Polynomial,
     common_divisor,
@@ -50,7 +53,6 @@ from hypcheck.truth.polynomials import (
     squarefree,
     trimmed,
 )
-from hypcheck.truth.rationals import root_of
 
 Height = int | None
 """A height over √U; None is infinite: −∞ at the lower end, ∞ at the upper."""
@@ -218,6 +220,20 @@ class Sections:
         if height is None:
             return changes_of_sign(f[0] * (far if len(f) % 2 == 0 else 1) for f in chain)
         return changes_of_sign(self.sign(f, height) for f in chain)
+
+
+def position(pair: Pair) -> Position:
+    """The exact position of a pair: whether some horizontal plane cuts both surfaces where they meet."""
+    lengths = pair.lengths
+    sections, ends = Sections.of(lengths), [end for end in (lengths.low, lengths.high) if end is not None]
+    if not sections.wall_misses(lengths.low, lengths.high):
+        return Position.CONTACT
+    if lengths.solid and not all(sections.disc_misses(end) for end in ends):
+        return Position.CONTACT
+    R, p, s = lengths.x**2 + lengths.y**2, lengths.alpha**2, lengths.gamma**2
+    outside = R * s > p * (s + lengths.z**2)
+    between = (lengths.low is None or lengths.low <= lengths.z) and (lengths.high is None or lengths.z <= lengths.high)
+    return Position.INTERIOR if between and not outside else Position.EXTERIOR
 
 
 def discriminant(cubic: tuple[Polynomial, Polynomial, Polynomial, Polynomial]) -> Polynomial:

@@ -22,7 +22,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 
-from hypcheck.geometry.arithmetic import dot, sign_with_root
+from hypcheck.geometry.arithmetic import dot, shortened, sign_with_root
 from hypcheck.geometry.pair import Lengths, Position, Vector
 from hypcheck.truth import exact
 from hypcheck.truth.pencil import (
@@ -46,7 +46,6 @@ from hypcheck.truth.polynomials import (
     sign_at,
     value,
 )
-from hypcheck.truth.rationals import shortened
 
 
 def piece(pencil: Sequence[Polynomial], multiplier: Fraction) -> Polynomial:

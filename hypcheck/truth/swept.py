@@ -24,7 +24,7 @@ from fractions import Fraction
 
 from hypcheck.errors import InputError
 from hypcheck.float_environment import in_default_environment
-from hypcheck.geometry.arithmetic import rounded_toward
+from hypcheck.geometry.arithmetic import rounded_toward, shortened
 from hypcheck.geometry.pair import (
     AXIS,
     CENTER,
@@ -45,7 +45,6 @@ from hypcheck.messages import counted, escaped
 from hypcheck.truth import ended_sweeps
 from hypcheck.truth.ended_sweeps import EndedSweep, first_contact, grazes
 from hypcheck.truth.polynomials import Interval, Polynomial, narrowed, roots_from_0_to_1, value
-from hypcheck.truth.rationals import shortened
 from hypcheck.truth.sweep import StraightSweep, piece
 
 WIDTH_BITS = 60

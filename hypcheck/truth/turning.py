@@ -23,10 +23,10 @@ from mpmath import MPContext, MPIntervalContext
 from mpmath.ctx_iv import ivmpf
 
 from hypcheck.errors import InputError
+from hypcheck.geometry.arithmetic import fraction, root_of
 from hypcheck.geometry.pair import Lengths, Position
 from hypcheck.messages import escaped
 from hypcheck.truth import exact
-from hypcheck.truth.rationals import fraction, root_of
 from hypcheck.truth.swept import Rational, checked, checked_sequence, integers
 
 PRECISIONS = (128, 512, 2048)

@@ -16,6 +16,7 @@ from hypcheck.geometry.rows import (
     invalid,
     require_valid,
     scenes_of,
+    upright_mask,
     with_axis,
     within,
 )
@@ -154,3 +155,12 @@ def test_rows_of_one_scene_differ_in_their_centres_alone(place):
     rows[3, 9] = 2.0
     assert [part.tolist() for part in scenes_of(rows)] == [[0, 1, 2, 4], [3]]
     assert scenes_of(rows[:0]) == []
+
+
+def test_a_row_is_tilted_by_its_axis_and_unlike_semi_axes_wherever_its_centre_is():
+    b, d = 0.5, 0.25
+    rows = np.array(
+        [[2.0, 3.0, b, size, x, 0.0, 0.0, *axis] for axis in ((1, 0, 1), (0, 0, 1)) for size in (d, b) for x in (b, d)]
+    )
+    assert (~upright_mask(rows)).tolist() == [True, True, False, False, False, False, False, False]
+    assert upright_mask(rows[:, :7]).all()

@@ -147,14 +147,6 @@ def test_buffers_of_a_chunk_are_as_long_as_the_chunk():
         assert [len(part) for part in (*numbers, *truths)] == [rows] * 3
 
 
-def test_a_row_is_tilted_by_its_axis_and_unlike_semi_axes_wherever_its_centre_is():
-    b, d = 0.5, 0.25
-    rows = [
-        [2.0, 3.0, b, size, x, 0.0, 0.0, *axis] for axis in ((1, 0, 1), (0, 0, 1)) for size in (d, b) for x in (b, d)
-    ]
-    assert numpy_kernel.is_tilted(np.array(rows)).tolist() == [True, True, False, False, False, False, False, False]
-
-
 def test_a_scene_of_many_centres_is_written_into_the_given_memory_without_the_compiled_kernel(monkeypatch):
     """A unit ball before a wall at 1: it touches where its centre is at 2."""
     out = np.full(4, 9, np.int8)

@@ -5,7 +5,7 @@ What at most two test modules use they import themselves.
 
 from __future__ import annotations
 
-from hypcheck.geometry.arithmetic import sign_with_root
+from hypcheck.geometry.arithmetic import octave, shortened, sign_with_root
 from hypcheck.kernel import choice as kernel_choice
 from hypcheck.kernel import classify as kernel_classify
 from hypcheck.kernel import compiled_kernel, core, numpy_kernel, scene_index, scene_lines
@@ -83,7 +83,6 @@ from hypcheck.truth import (
     backward_error,
     exact,
     float_filter,
-    heights,
     least,
     nearest_rows,
     passage_error,
@@ -121,7 +120,6 @@ from hypcheck.truth.exact import Decision, decide, kind_of, position
 from hypcheck.truth.exact import cubic as exact_cubic
 from hypcheck.truth.exact import discriminant as exact_discriminant
 from hypcheck.truth.float_filter import filtered, lines_for_sizes, positions
-from hypcheck.truth.heights import position as heights_position
 from hypcheck.truth.kinds import Kind
 from hypcheck.truth.least import position as least_position
 from hypcheck.truth.mesh import MeshOutcome, availability, distance_to_mesh
@@ -141,9 +139,9 @@ from hypcheck.truth.passage_error import (
 from hypcheck.truth.pencil import cubic, quartic
 from hypcheck.truth.polynomials import _none_by_descartes, linear_factor, polynomial_product, sign_at, value
 from hypcheck.truth.prove import prove
-from hypcheck.truth.rationals import octave, shortened
 from hypcheck.truth.root_patterns import COMPLEX, KIND_OF, PATTERNS, RootPlace, admissible
 from hypcheck.truth.roots import Invariants, classify_by_roots, classify_invariants, coefficients, real_roots
+from hypcheck.truth.sections import position as heights_position
 from hypcheck.truth.sweep import Surd, piece, sign_at_root
 from hypcheck.truth.swept import WIDTH_BITS, by_roots, by_steps, passage, reach, steps, sweep_of
 
@@ -253,7 +251,6 @@ __all__ = [
     "generate",
     "goal_of",
     "header",
-    "heights",
     "heights_position",
     "hits_at_size",
     "integers_position",

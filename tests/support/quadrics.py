@@ -19,7 +19,7 @@ import math
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
-from hypcheck.geometry.arithmetic import changes_of_sign
+from hypcheck.geometry.arithmetic import changes_of_sign, power_near, power_of_two
 from hypcheck.geometry.pair import Position
 from hypcheck.truth.polynomials import (
     Interval,
@@ -31,7 +31,6 @@ from hypcheck.truth.polynomials import (
     sturm_chain,
     value,
 )
-from hypcheck.truth.rationals import power_near, power_of_two
 
 Matrix = Sequence[Sequence[Fraction | int]]
 

@@ -9,8 +9,8 @@ import pytest
 from mpmath import mp, mpf
 
 from hypcheck.geometry.pair import Pair, Position
-from hypcheck.truth import mesh_wall as wall
-from hypcheck.truth.mesh_wall import refine
+from hypcheck.truth import mesh_oracle as wall
+from hypcheck.truth.mesh_oracle import refine
 from tests.support.inside import MeshOutcome, availability, distance_to_mesh, verdict
 from tests.support.tilted_fractions import exact_position
 from tests.tools.oracle_agreement import main

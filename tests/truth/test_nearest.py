@@ -16,7 +16,7 @@ from mpmath import mp, mpf
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.geometry.rows import invalid
-from hypcheck.truth.dual import Dual
+from hypcheck.truth.nearest import Dual
 from hypcheck.vectors import frozen
 from tests.support.examples import examples
 from tests.support.inside import NearestStage, clearances, nearest

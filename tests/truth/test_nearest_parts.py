@@ -10,8 +10,7 @@ import mpmath
 import pytest
 
 from hypcheck.geometry.pair import Lengths, Pair, to_integers
-from hypcheck.truth import dual as dual_of
-from hypcheck.truth.dual import Dual
+from hypcheck.truth.nearest import Dual
 from tests.support.inside import Enclosure, ratio
 from tests.support.inside import truth_nearest as nearest
 
@@ -93,7 +92,7 @@ def test_the_general_dual_of_an_upright_pair_is_the_upright_one():
     for row in rows(40, 1, dice):
         alpha, gamma, b, d, x, y, z = to_integers(row)
         one = Dual.of(Lengths.of(row))
-        other = dual_of._general(Lengths(alpha, b, x, y, gamma, d, z))
+        other = nearest._general(Lengths(alpha, b, x, y, gamma, d, z))
         for part in (-0.5, -1e-3, 1e-6, 0.75):
             at = Fraction(part) * Fraction(min(row[0] / row[2], row[1] / row[3])) ** 2
             for slopes in (False, True):
