@@ -1,4 +1,10 @@
-"""C code that this machine's compiler compiles: the methods, and the programs compared with the compiled kernel."""
+"""C code that this machine's compiler compiles: the methods, and the programs compared with the compiled kernel.
+
+The methods are printed from the programs that numpy runs. Each method is two functions, for rows and for the centres of
+one scene, in a table. A driver calls them through the table the requested number of times, so that neither Python nor
+an optimiser affects the timing. What is no straight-line program is written by hand (templates/): the roots, and the
+search of the dual form.
+"""
 
 from __future__ import annotations
 
@@ -6,7 +12,7 @@ import ctypes
 import os
 import shutil
 import subprocess
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cache
@@ -18,19 +24,22 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck.bench import c_source
 from hypcheck.bench.contender import EmptyCall, LoadedMethod, PreparedWork
+from hypcheck.bench.procedures import CRAFT, MOVING, CraftPath, procedures_source
 from hypcheck.bench.workloads import scene_of
-from hypcheck.derivation.formulas import FORMULAS, REPAIRED
+from hypcheck.derivation.formulas import FORMULAS, REPAIRED, Formula
+from hypcheck.derivation.program import cut
 from hypcheck.errors import UnavailableError
 from hypcheck.geometry.pair import Sizes
 from hypcheck.geometry.rows import Columns, Positions, Rows
-from hypcheck.implementations.method import RECIPROCAL, Answers
-from hypcheck.implementations.procedures import CRAFT, MOVING, CraftPath
+from hypcheck.implementations.alternatives import DISTANCES
+from hypcheck.implementations.method import RECIPROCAL, Answers, parts
 from hypcheck.kernel import core
 from hypcheck.kernel.choice import choice
 from hypcheck.kernel.choice import compiled as compiled_kernel
 from hypcheck.kernel.compiled_kernel import in_parts
+from hypcheck.kernel.emission.dialects import filled
+from hypcheck.kernel.printing.languages import C_SUFFIXES, c_statements
 from hypcheck.record.measurements import CompilerLine
 from hypcheck.runs.timing import Clocked, clocked, clocked_in_c
 from hypcheck.vectors.random_pairs import BODY, TOWER
@@ -49,16 +58,108 @@ KERNEL_FLAGS = ("-O3", "-ffp-contract=fast", "-fPIC")
 """The flags of the package's own build (setup.py): the kernel selects its instruction set at run time, and its bounds
 allow FMA."""
 
+NUMBERS = {"float32": "float", "float64": "double", "longdouble": "long double"}
+"""The C type of each format."""
+
+DIGITS = {"float": "FLT_MANT_DIG", "double": "DBL_MANT_DIG", "long double": "LDBL_MANT_DIG"}
+LEAST = {"float": "FLT_MIN", "double": "DBL_MIN", "long double": "LDBL_MIN"}
+
+_TABLE_2 = FORMULAS["table-2"]
+_CUBIC = Formula("cubic", "the cubic of Table 2", "position", _TABLE_2.program, "delta", "Table 2")
+
+
+@dataclass(frozen=True)
+class CMethod:
+    """A method's name, and the code of its two functions: identifier(NAME) with _rows and _scene appended."""
+
+    name: str
+    code: str
+
+
+def identifier(name: str) -> str:
+    """A method's name as an identifier of C."""
+    return name.replace("-", "_").replace(".", "_")
+
+
+def of_formula(formula: Formula, format_name: str) -> CMethod:
+    """A formula's printed program; steps that depend only on sizes come before the loop."""
+    number = NUMBERS[format_name]
+    outside, inside = parts(formula)
+    known = tuple(step.name for step in outside.steps)
+    return _method(
+        f"{formula.name}-{format_name}",
+        number,
+        c_statements(outside, known, number=number),
+        c_statements(inside, (formula.answer,), number=number),
+        formula.answer,
+    )
+
+
+def trigonometric(format_name: str) -> CMethod:
+    """The roots of g by the trigonometric form, only if Δ > 0; decisions are as in implementations/alternatives.py."""
+    number = NUMBERS[format_name]
+    outside, inside = parts(_CUBIC)
+    known = tuple(step.name for step in outside.steps)
+    wanted = tuple(name for name in ("c0", "c1", "c2", "delta") if name not in known)
+    roots = _template("trigonometric", number=number, suffix=C_SUFFIXES[number])
+    statements = (*c_statements(inside, wanted, number=number), roots)
+    before = c_statements(outside, known, number=number)
+    return _method(f"trigonometric-{format_name}", number, before, statements, "side")
+
+
+def dual(format_name: str) -> CMethod:
+    """The dual form: the search of implementations/alternatives.py, step by step, then the rest of the program."""
+    number = NUMBERS[format_name]
+    program = cut(FORMULAS["dual"].program, DISTANCES, ("phi",))
+    search = _template("dual", number=number, suffix=C_SUFFIXES[number], digits=DIGITS[number], least=LEAST[number])
+    return _method(
+        f"dual-{format_name}",
+        number,
+        (),
+        (search, *c_statements(program, ("phi",), number=number)),
+        "phi > 0 ? (lambda_ > 0) - (lambda_ < 0) : 0",
+    )
+
+
+def _method(name: str, number: str, before: Sequence[str], within: Sequence[str], answer: str) -> CMethod:
+    """A method from its statements before the loop over centres and within it, and the expression of the answer.
+
+    `number` is the C type of its numbers.
+    """
+    lines = {"before": "\n".join(before), "within": "\n".join(within)}
+    return CMethod(name, _template("formula", name=identifier(name), number=number, answer=answer, **lines))
+
+
+def _template(name: str, /, **marks: str) -> str:
+    """The C code of that name in templates/, with its marks filled in."""
+    return filled("hypcheck.bench", f"{name}.c.tmpl", marks)
+
 
 @cache
-def bodies() -> tuple[c_source.CMethod, ...]:
-    """All methods in C; a method's place in the driver's table is its place here plus one."""
-    listed = [c_source.of_formula(FORMULAS[name], format_name) for name in LISTED for format_name in FORMATS]
-    roots = [c_source.trigonometric(format_name) for format_name in FORMATS]
-    others = [c_source.of_formula(FORMULAS["table-2"], "longdouble"), c_source.of_formula(RECIPROCAL, "float64")]
-    others.append(c_source.of_formula(REPAIRED["procedure-1-repaired"], "float64"))
-    duals = [c_source.dual(format_name) for format_name in FORMATS]
-    return (c_source.FAST, *listed, *others, *roots, *duals)
+def bodies() -> tuple[CMethod, ...]:
+    """All methods in C; a method's place in the driver's table is its place here plus one.
+
+    The first is the fast path as hypcheck.classify runs it if it was compiled.
+    """
+    fast = CMethod("fast", _template("fast"))
+    listed = [of_formula(FORMULAS[name], format_name) for name in LISTED for format_name in FORMATS]
+    roots = [trigonometric(format_name) for format_name in FORMATS]
+    others = [of_formula(_TABLE_2, "longdouble"), of_formula(RECIPROCAL, "float64")]
+    others.append(of_formula(REPAIRED["procedure-1-repaired"], "float64"))
+    duals = [dual(format_name) for format_name in FORMATS]
+    return (fast, *listed, *others, *roots, *duals)
+
+
+def methods_source() -> str:
+    """The file of all methods and procedures; the table of methods begins with one that does nothing."""
+    names = [identifier(method.name) for method in bodies()]
+    return _template(
+        "methods",
+        functions="\n".join(method.code for method in bodies()),
+        rows=", ".join(f"{name}_rows" for name in names),
+        scenes=", ".join(f"{name}_scene" for name in names),
+        procedures=procedures_source(),
+    )
 
 
 def place_of(name: str) -> int:
@@ -69,7 +170,7 @@ def place_of(name: str) -> int:
 def compiled(folder: Path) -> tuple[Path, CompilerLine]:
     """The library of the methods, compiled in a folder. Raises UnavailableError if no compiler can compile it."""
     code, methods, library = folder / "methods.c", folder / "methods.o", folder / "methods.so"
-    code.write_text(c_source.source(bodies()), encoding="ascii")
+    code.write_text(methods_source(), encoding="ascii")
     with ThreadPoolExecutor(1) as beside:
         kernel = beside.submit(_kernel, folder)
         compiler = compile_c(code, methods, "-c")
@@ -222,6 +323,19 @@ def _prepared(call: Callable[[int], object], filled: Answers) -> PreparedWork:
     return PreparedWork(len(filled), clocked_in_c(call, filled), answers)
 
 
+WORDS = 40
+"""32-bit words of the integers whose product measures exact decisions. 1280 bits have room for the discriminant of a
+row: it is of degree 24 in numbers of 53 bits that are alike in magnitude."""
+
+
+def baselines_source() -> str:
+    """The programs compared with the compiled kernel: reading its rows, long products, and the uncertified Table 2.
+
+    Other functions of the file call the kernel repeatedly.
+    """
+    return _template("baselines", words=str(WORDS), plain=of_formula(_TABLE_2, "float64").code)
+
+
 BASELINE_FLAGS = ("-O3", "-std=c99", "-ffp-contract=fast", "-fno-math-errno", "-fno-trapping-math", "-fPIC")
 
 LEVEL_FLAGS = {
@@ -265,9 +379,7 @@ class CBaseline:
 
     def product(self) -> Clocked:
         """A multiplication of two long integers, half of the product: exact decisions consist of such products."""
-        numbers = np.random.Generator(np.random.PCG64(1)).integers(
-            1 << 31, 1 << 32, (2, c_source.WORDS), dtype=np.uint32
-        )
+        numbers = np.random.Generator(np.random.PCG64(1)).integers(1 << 31, 1 << 32, (2, WORDS), dtype=np.uint32)
         no_answers = np.zeros(0, dtype=np.int8)
         return clocked_in_c(lambda times: self.library.products(times, *_pointers(numbers)), no_answers, thread_time_ns)
 
@@ -305,7 +417,7 @@ def c_baselines(folder: Path, level: str | None = None) -> list[CBaseline]:
     Raises UnavailableError if there is no compiler.
     """
     program, code = compiler_here(), folder / "baselines.c"
-    code.write_text(c_source.baselines_source(), encoding="ascii")
+    code.write_text(baselines_source(), encoding="ascii")
     baselines = []
     for number, flags in enumerate(LEVEL_FLAGS[level or str(choice().level)]):
         library = folder / f"baselines-{number}.so"

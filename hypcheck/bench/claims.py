@@ -12,12 +12,12 @@ import numpy as np
 from hypcheck.bench.c_library import InC, bodies_asked, place_of
 from hypcheck.bench.contender import InPython, PreparedWork, prepared
 from hypcheck.bench.plan import BenchPlan
+from hypcheck.bench.procedures import CRAFT, PROCEDURES, CraftPath, hull_programs, procedure_2b
 from hypcheck.bench.workloads import WORKLOADS
 from hypcheck.derivation.formulas import FORMULAS, REPAIRED, ROOTS_TRIGONOMETRIC, Formula, cost_of
 from hypcheck.derivation.program import Operations, count
 from hypcheck.implementations import alternatives
 from hypcheck.implementations.method import RECIPROCAL, by_rows, by_scene
-from hypcheck.implementations.procedures import CRAFT, PROCEDURES, CraftPath, hull_programs, procedure_2b
 from hypcheck.record.measurements import Compared, CostLine
 from hypcheck.runs.timing import Estimate, SampleTable, estimate, ratios
 from hypcheck.vectors.draw import Draw

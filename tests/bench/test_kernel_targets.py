@@ -11,8 +11,7 @@ import pytest
 
 import hypcheck
 from hypcheck.bench import call_targets, compiled_targets, targets
-from hypcheck.bench.c_library import LEVEL_FLAGS, TOWER_SIZES, c_baselines
-from hypcheck.bench.c_source import WORDS
+from hypcheck.bench.c_library import LEVEL_FLAGS, TOWER_SIZES, WORDS, c_baselines
 from hypcheck.bench.compiled_targets import KernelTarget, target, touching_columns, tower_rows, uniform_columns
 from hypcheck.geometry.pair import Pair
 from hypcheck.geometry.rows import tilted_rows

@@ -18,6 +18,21 @@ from hypcheck.kernel.printing.languages import statements_in
 _MARK = re.compile(r"^( *)\$\{(\w+)\}$|\$\{(\w+)\}", re.MULTILINE)
 
 
+def filled(package: str, name: str, parts: Mapping[str, str]) -> str:
+    """The template of a package with its marks filled in; text of a part that looks like a mark stays.
+
+    Raises KeyError for a mark that has no part.
+    """
+
+    def part(match: re.Match[str]) -> str:
+        indent, alone, within = match.groups()
+        if within:
+            return parts[within]
+        return "\n".join(f"{indent}{line}" if line else "" for line in parts[alone].splitlines())
+
+    return _MARK.sub(part, resources.files(package).joinpath("templates", name).read_text(encoding="utf-8"))
+
+
 @dataclass(frozen=True)
 class Dialect:
     """A language: its types of numbers, and its phrases.
@@ -59,19 +74,8 @@ class Dialect:
         return statements_in(self.name, program, wanted, number=self.number_of(precision))
 
     def filled(self, name: str, parts: Mapping[str, str]) -> str:
-        """The language's template of that name with its marks filled in; text of a part that looks like a mark stays.
-
-        Raises KeyError for a mark that has no part.
-        """
-        path = resources.files("hypcheck.kernel.emission").joinpath("templates", f"{name}.{self.templates}.tmpl")
-
-        def part(match: re.Match[str]) -> str:
-            indent, alone, within = match.groups()
-            if within:
-                return parts[within]
-            return "\n".join(f"{indent}{line}" if line else "" for line in parts[alone].splitlines())
-
-        return _MARK.sub(part, path.read_text(encoding="utf-8"))
+        """The language's template of that name with its marks filled in, as `filled` does. Raises KeyError."""
+        return filled("hypcheck.kernel.emission", f"{name}.{self.templates}.tmpl", parts)
 
     def say(self, phrase: str, **words: object) -> str:
         """A phrase with its words filled in; {place} is the setting's number and {number} the type of numbers."""

@@ -1,14 +1,15 @@
-"""The paper's procedures for a quadcopter, and a certified one: whether its body, or at least its four rotors, fit.
+"""The paper's procedures for a quadcopter, and a certified one, in numpy and in C: whether its body or its rotors fit.
 
 They are asked about positions of the body, with the cosine and the sine of its heading, in one tower. Procedure 2.a
 asks all four rotors. Procedure 2.b asks the bounding spheroid first, and the rotors only if Δ ≤ 0. The certified
 procedure asks the bounding spheroid by the certified path, and the rotors if it is in contact. Their answers differ:
-2.a never asks whether the body fits. Both procedures of the paper exist as printed and repaired.
+2.a never asks whether the body fits. Both procedures of the paper exist as printed and repaired. In C a procedure
+answers one position per call, as a craft does before each move.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache, partial
 from types import MappingProxyType
@@ -23,6 +24,8 @@ from hypcheck.derivation.program import Program, split
 from hypcheck.geometry.rows import Floats
 from hypcheck.implementations.method import Answers, in_chunks
 from hypcheck.kernel import numpy_kernel
+from hypcheck.kernel.emission.dialects import filled
+from hypcheck.kernel.printing.languages import c_statements
 
 CRAFT = ("alpha", "gamma", "b", "d", "b_s", "d_s", "l")
 """Numbers that are constant along a flight: the tower, the body, its rotors, and the length of its arms."""
@@ -149,3 +152,48 @@ PROCEDURES: Mapping[str, Callable[[CraftPath], Answers]] = MappingProxyType(
     }
 )
 """The procedures by name, in numpy."""
+
+
+def procedures_source() -> str:
+    """The procedures in C; hypcheck.h and math.h must be included before. templates/methods.c.tmpl has their driver."""
+    before = _before("hull", hull_programs()[0]) + _before("rotors", rotor_programs()[0])
+    return before + "".join(_both())
+
+
+def _both() -> Iterator[str]:
+    """The printed and the repaired procedures, which store the same numbers of a craft."""
+    for repaired, prefix in ((PRINTED, ""), (PUT_RIGHT, "repaired_")):
+        in_contact, inside = hull_steps(repaired)
+        (hull_before, hull), (rotor_before, rotors) = hull_programs(repaired), rotor_programs(repaired)
+        yield _asked(f"{prefix}rotors", rotor_before, rotors, ("valid",), "return valid;")
+        yield _asked(f"{prefix}hull", hull_before, hull, (in_contact, inside), f"return {in_contact} ? 2 : {inside};")
+        yield filled("hypcheck.bench", "procedures.c.tmpl", {"prefix": prefix})
+
+
+def _before(name: str, program: Program) -> str:
+    """The steps that depend only on the craft, stored in an array; a real program would store them in a structure."""
+    names = [step.name for step in program.steps]
+    stored = "\n".join(f"    k[{place}] = {name};" for place, name in enumerate(names))
+    statements = "\n".join(f"    {line}" for line in c_statements(program, tuple(names)))
+    return f"\nstatic void {name}_before(const double *craft, double *k)\n{{\n{_craft()}\n{statements}\n{stored}\n}}\n"
+
+
+def _asked(name: str, before: Program, program: Program, wanted: tuple[str, ...], end: str) -> str:
+    read = {name for step in program.steps for name in step.reads}
+    constants = "\n".join(
+        f"    const double {step.name} = k[{place}];" for place, step in enumerate(before.steps) if step.name in read
+    )
+    inputs = _craft(read)
+    statements = "\n".join(f"    {line}" for line in c_statements(program, wanted))
+    moving = ", ".join(f"double {name}" for name in MOVING)
+    unused = "".join(f"    (void){name};\n" for name in MOVING if name not in read)
+    return (
+        f"\nstatic int {name}_asked(const double *craft, const double *k, {moving})\n"
+        f"{{\n    (void)craft;\n{unused}{inputs}\n{constants}\n{statements}\n    {end}\n}}\n"
+    )
+
+
+def _craft(read: set[str] | None = None) -> str:
+    named = [(place, name) for place, name in enumerate(CRAFT) if read is None or name in read]
+    fields = "\n".join(f"    const double {name} = craft[{place}];" for place, name in named)
+    return fields + "".join(f"\n    (void){name};" for _, name in named)

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from hypcheck.bench.claims import flight_of
+from hypcheck.bench.procedures import PROCEDURES, rotors_at
 from hypcheck.derivation.evaluation import outputs
 from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS, REPAIRED
-from hypcheck.implementations.procedures import PROCEDURES, rotors_at
 
 
 @pytest.fixture(scope="module")
