@@ -10,17 +10,14 @@ code that found it. Loads no numpy, except for distances that are tilted or besi
 from __future__ import annotations
 
 import json
-import sys
-from array import array
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from typing import Any
 
 from hypcheck.errors import Exit, HypcheckError
-from hypcheck.geometry.pair import HEIGHTS, TILTED_COLUMNS, TILTED_SWEEP_COLUMNS, WITHOUT_ENDS, Pair, Position
-from hypcheck.kernel.choice import choice, compiled
-from hypcheck.kernel.precision import are_apart
+from hypcheck.geometry.pair import HEIGHTS, TILTED_COLUMNS, TILTED_SWEEP_COLUMNS, Pair, Position
+from hypcheck.kernel.scalar import distance_at_once
 from hypcheck.messages import counted
 from hypcheck.proof_text import is_rule, proof_as_json, proof_lines
 from hypcheck.tables.numbers import equals_text, exact_text, readable_text
@@ -30,7 +27,7 @@ from hypcheck.truth.exact import Decision
 from hypcheck.truth.kinds import Kind
 from hypcheck.truth.nearest import nearest
 from hypcheck.truth.prove import prove, prove_passage
-from hypcheck.truth.swept import Passage, passage
+from hypcheck.truth.swept import Passage, passage_of_row
 
 
 class DisagreementError(HypcheckError):
@@ -164,21 +161,9 @@ def _as_json(number: float) -> float | str:
 
 def distance_of(pair: Pair) -> tuple[float, float]:
     """Proved bounds of the Euclidean distance, in the unit of the lengths, of ten digits: 0 and 0 in contact."""
-    low, high = _distance_in_c(pair) or _distance_by_arrays(pair)
+    low, high = distance_at_once(pair) or _distance_by_arrays(pair)
     low, high = low if low >= 0 else 0.0, high if high >= 0 else float("inf")  # NaN is not known
     return _ten_digits(low, ROUND_FLOOR), _ten_digits(high, ROUND_CEILING)
-
-
-def _distance_in_c(pair: Pair) -> tuple[float, float] | None:
-    """The distance of an upright pair without ends, computed without numpy; None if C is missing or less precise."""
-    if choice().kernel == "numpy" or pair.has_ends or not pair.is_upright:
-        return None
-    position, numbers = array("b", [0]), array("d", [0.0] * 11)
-    compiled().clearance(array("d", pair.upright.row), position, numbers)
-    _, _, touch_error, low, high, *_ = numbers
-    if touch_error == sys.float_info.max or are_apart(low, high, max(pair.b, pair.d)):
-        return None
-    return low, high
 
 
 def _distance_by_arrays(pair: Pair) -> tuple[float, float]:
@@ -268,19 +253,13 @@ def sweep_answer(row: Sequence[float]) -> SweepAnswer:
     try:
         sweep, first, certificate = prove_passage(row)
     except ValueError:  # an irrational time has no certificate
-        sweep = passage(row[:4], row[4:7], row[7:10], row[10:] or None)
+        sweep = passage_of_row(row)
         return SweepAnswer(tuple(row), sweep, (sweep.first_lower, sweep.first_upper), None)
     if not check_passage(row, certificate, first):
         raise DisagreementError(
             f"the proof found for the sweep {tuple(row)} does not hold; please report this, it is a fault of hypcheck"
         )
     return SweepAnswer(tuple(row), sweep, first, certificate)
-
-
-def passage_of_row(row: Sequence[float]) -> Passage:
-    """The decision of a sweep: sizes, two centres, perhaps an axis, perhaps heights. Raises InputError."""
-    axis, (z_min, z_max, solid) = row[10 : len(TILTED_SWEEP_COLUMNS)], _heights_of(row) or WITHOUT_ENDS
-    return passage(row[:4], row[4:7], row[7:10], axis or None, z_min=z_min, z_max=z_max, solid=solid)
 
 
 def _heights_of(row: Sequence[float]) -> Sequence[float]:

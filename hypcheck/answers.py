@@ -10,10 +10,12 @@ from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, closing, contextmanager
 from dataclasses import replace
 from functools import partial
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
-from hypcheck.answer import ended_clearance_of, passage_of_row, require_agreement
+from hypcheck.answer import ended_clearance_of, require_agreement
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import COLUMNS, REFUSED, TILTED_COLUMNS, Pair
 from hypcheck.geometry.rows import PAIRS, Mask, Positions, Rows, require_valid, upright_mask
@@ -27,6 +29,7 @@ from hypcheck.tables.npy_table import read_npy, write_npy
 from hypcheck.tables.streams import Route, open_input, replace_output, same_file
 from hypcheck.truth import exact, float_filter, nearest_rows
 from hypcheck.truth.nearest import NearestStage
+from hypcheck.truth.swept import passage_of_row
 
 
 def answers(rows: Rows) -> TableAnswers:
@@ -155,35 +158,28 @@ def _answer_chunk(
 
 def _sweeps_of_chunk(chunk: TableChunk) -> SweepAnswers:
     """The answers about a chunk of sweeps, straight motions, 127 for its refused rows."""
-    count = len(chunk.rows)
-    hits = np.full(count, REFUSED, dtype=np.int8)
-    lower, upper = np.full(count, np.nan), np.full(count, np.nan)
-    for index in np.flatnonzero(~chunk.refused).tolist():
-        sweep = passage_of_row(chunk.rows[index].tolist())
-        hits[index], lower[index], upper[index] = sweep.hit, sweep.first_lower, sweep.first_upper
-    return SweepAnswers(hits, lower, upper)
+    sweeps = [passage_of_row(row) for row in chunk.rows[~chunk.refused].tolist()]
+    return SweepAnswers(
+        _spread(chunk, [sweep.hit for sweep in sweeps], np.int8(REFUSED)),
+        _spread(chunk, [sweep.first_lower for sweep in sweeps], np.nan),
+        _spread(chunk, [sweep.first_upper for sweep in sweeps], np.nan),
+    )
 
 
 def _answers_of_chunk(chunk: TableChunk, margin: float | None) -> TableAnswers:
     """The answers about a chunk of a table, 127 for its refused rows. Raises DisagreementError as answers()."""
-    answered = _without_margin(chunk)
-    if margin is None:
-        return answered
-    kept = np.full(len(chunk.rows), REFUSED, np.int8)
-    kept[~chunk.refused] = classify(chunk.rows[~chunk.refused], margin=margin)
-    return replace(answered, with_margin=kept)
-
-
-def _without_margin(chunk: TableChunk) -> TableAnswers:
-    if not chunk.refused.any():
-        return answers(chunk.rows)
-    valid = ~chunk.refused
-    valid_answers, count = answers(chunk.rows[valid]), len(chunk.rows)
-    positions, tangent = np.full(count, REFUSED, dtype=np.int8), np.zeros(count, dtype=np.bool_)
-    clearance = np.full(count, np.nan)
-    positions[valid], tangent[valid], clearance[valid] = (
-        valid_answers.positions,
-        valid_answers.tangent,
-        valid_answers.clearance,
+    rows = chunk.rows[~chunk.refused]
+    valid = answers(rows)
+    return TableAnswers(
+        _spread(chunk, valid.positions, np.int8(REFUSED)),
+        _spread(chunk, valid.tangent, np.False_),
+        _spread(chunk, valid.clearance, np.nan),
+        None if margin is None else _spread(chunk, classify(rows, margin=margin), np.int8(REFUSED)),
     )
-    return TableAnswers(positions, tangent, clearance)
+
+
+def _spread(chunk: TableChunk, values: ArrayLike, otherwise: ArrayLike) -> NDArray[Any]:
+    """The values of the valid rows of a chunk in their places, and another value for its refused rows, (n,)."""
+    spread = np.full(len(chunk.rows), otherwise)
+    spread[~chunk.refused] = values
+    return spread

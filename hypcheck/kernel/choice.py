@@ -1,4 +1,4 @@
-"""The kernel in use: compiled, or numpy with the same answers; and the functions that a kernel has.
+"""The kernel in use, compiled or numpy, with the same answers; what a call may ask of it; and the accuracy it promises.
 
 The compiled kernel answers if it was built and loads, otherwise numpy. Environment variables, read when a kernel is
 first asked for:
@@ -16,10 +16,14 @@ from functools import cache
 from importlib import import_module
 from operator import index
 from types import ModuleType
-from typing import Literal
+from typing import TYPE_CHECKING, Literal, TypeVar
 
 from hypcheck.errors import InputError
+from hypcheck.geometry.pair import REFUSED
 from hypcheck.scene.model import QUESTIONS
+
+if TYPE_CHECKING:  # it loads numpy, and one pair does without
+    from hypcheck.geometry.rows import Positions
 
 EXTENSION = "hypcheck.kernel._compiled"
 KERNELS = ("compiled", "numpy")
@@ -92,6 +96,15 @@ POSITION_OF = {"exterior": 1, "interior": -1, "contact": 0}
 """The position to which a question is answered yes."""
 
 
+def answers_to(question: str, positions: Positions) -> Positions:
+    """The answers to a question from positions, int8 (n,); 127, of an invalid row, stays."""
+    if question == "position":
+        return positions
+    answers: Positions = (positions == POSITION_OF[question]).astype(positions.dtype)
+    answers[positions == REFUSED] = REFUSED
+    return answers
+
+
 def required(question: str, threads: int | None, on_invalid: str) -> int | None:
     """The number of threads, when all three make sense."""
     if not isinstance(on_invalid, str) or on_invalid not in ("raise", "flag"):
@@ -107,3 +120,14 @@ def required(question: str, threads: int | None, on_invalid: str) -> int | None:
     if number < 1:
         raise InputError(f"threads is {threads!r}; it must be a whole number greater than 0")
     return number
+
+
+_PROMISED = 2.0**-29
+"""How far apart the bounds of a distance are at most, in units of the distance and the spheroid's longer semi-axis."""
+
+Number = TypeVar("Number")
+
+
+def are_apart(low: Number, high: Number, longer: Number) -> Number:
+    """Whether bounds of distances are farther apart than promised, of numbers or of arrays, or the upper is inf."""
+    return high - low > _PROMISED * (low + longer)  # type: ignore[operator, no-any-return]

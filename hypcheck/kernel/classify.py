@@ -1,9 +1,15 @@
-"""The public functions: validated input, exact positions, and no output unless all of it is right."""
+"""The public functions: validated input, exact positions, and no output unless all of it is right.
+
+C answers ordinary calls without these functions: calls with numbers, lists and numpy's arrays of any strides and most
+types of numbers, all rows valid, no heights and no margin, and no more rows than one thread answers. C passes any other
+call to them. They convert other types, or raise an error that says what is wrong. Without the compiled kernel they take
+all calls.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import InitVar, dataclass, field
 from typing import Any, Literal, overload
 
@@ -25,7 +31,8 @@ from hypcheck.geometry.rows import (
     require_valid,
     tilted_rows,
 )
-from hypcheck.kernel.choice import Question, required
+from hypcheck.kernel.choice import Question, choice, required
+from hypcheck.kernel.compiled_kernel import extension
 from hypcheck.kernel.in_use import kernel, positions_of_rows
 from hypcheck.messages import escaped
 
@@ -358,3 +365,16 @@ def _into(out: Positions | None, result: Positions) -> Positions:
         return result
     out[:] = result
     return out
+
+
+def _at_once() -> tuple[Callable[..., Answers], Callable[..., Answers]]:
+    """classify and classify_scene of the kernel in use: those of C, which know these here, or these."""
+    if choice().kernel == "numpy":
+        return classify, classify_scene
+    module = extension()
+    module.set_slow_calls(classify, classify_scene, Prepared)
+    return module.classify, module.classify_scene
+
+
+classify_at_once, classify_scene_at_once = _at_once()
+"""The public functions, hypcheck.classify and hypcheck.classify_scene."""

@@ -32,10 +32,9 @@ from hypcheck.geometry.arithmetic import rounded_toward
 from hypcheck.geometry.forms import Argument, questions_of
 from hypcheck.geometry.pair import REFUSED, TILTED_COLUMNS, Pair, Position, trouble_with
 from hypcheck.geometry.rows import PAIRS, Floats, Indices, Mask, Positions, Rows, invalid, upright_mask, with_heights
-from hypcheck.kernel.choice import POSITION_OF, Question, required
+from hypcheck.kernel.choice import Question, answers_to, are_apart, required
 from hypcheck.kernel.clearance_bounds import Clearance, clearances_without_ends
 from hypcheck.kernel.in_use import positions_of_rows
-from hypcheck.kernel.precision import are_apart
 from hypcheck.kernel.scene_gaps import gaps, gaps_at
 
 _ROUNDED = 2.0**-47
@@ -238,11 +237,7 @@ def with_margin(rows: Rows, positions: Positions, margin: float, question: Quest
     if len(left):
         near = clearances(np.ascontiguousarray(rows[left]), threads)
         result[left[~(near.distance_lower >= margin)]] = 0
-    if question == "position":
-        return result
-    yes: Positions = (result == POSITION_OF[question]).astype(np.int8)
-    yes[positions == REFUSED] = REFUSED
-    return yes
+    return answers_to(question, result)
 
 
 def _by_growing(rows: Rows, positions: Positions, margin: float, threads: int | None) -> Mask:

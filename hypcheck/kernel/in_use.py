@@ -7,10 +7,10 @@ from typing import Protocol
 
 import numpy as np
 
-from hypcheck.geometry.pair import REFUSED, Axis, Lengths, Position, Sizes
+from hypcheck.geometry.pair import REFUSED, Axis, Lengths, Sizes
 from hypcheck.geometry.rows import CANNOT_SAY, PAIRS, Columns, Floats, Positions, Rows
 from hypcheck.kernel import compiled_kernel
-from hypcheck.kernel.choice import Question, choice
+from hypcheck.kernel.choice import Question, answers_to, choice
 
 
 class Kernel(Protocol):
@@ -76,6 +76,4 @@ def positions_of_rows(rows: Rows, question: Question, threads: int | None = None
 
         positions[left] = [exact.position(Lengths.of(row)) for row in rows[left].tolist()]
     refused = positions == REFUSED
-    if question != "position":
-        positions = np.where(refused, REFUSED, positions == Position[question.upper()]).astype(np.int8)
-    return positions, int(refused.sum())
+    return answers_to(question, positions), int(refused.sum())

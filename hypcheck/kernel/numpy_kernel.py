@@ -34,7 +34,7 @@ from hypcheck.geometry.rows import (
     upright_mask,
 )
 from hypcheck.kernel import integers, scene_lines
-from hypcheck.kernel.choice import POSITION_OF, Question
+from hypcheck.kernel.choice import Question, answers_to
 from hypcheck.kernel.printed import chunks, tilted
 from hypcheck.kernel.programs.certified import CONSTANTS
 from hypcheck.kernel.programs.lines import CAP
@@ -179,13 +179,7 @@ def answer_sweeps(rows: Rows) -> tuple[Positions, Floats]:
 
 
 def _answers(known: Positions, question: Question) -> tuple[Positions, int]:
-    refused = int(np.count_nonzero(known == REFUSED))
-    if question == "position":
-        return known, refused
-    yes = (known == POSITION_OF[question]).astype(np.int8)
-    if refused:
-        yes[known == REFUSED] = REFUSED
-    return yes, refused
+    return answers_to(question, known), int(np.count_nonzero(known == REFUSED))
 
 
 class Buffers(Generic[Number]):

@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike
 from hypcheck.float_environment import in_default_environment
 from hypcheck.geometry.arithmetic import rounded_toward
 from hypcheck.geometry.forms import SWEEP, Argument, questions_of
-from hypcheck.geometry.pair import REFUSED, WITHOUT_ENDS
+from hypcheck.geometry.pair import REFUSED
 from hypcheck.geometry.rows import (
     CANNOT_SAY,
     SWEEPS,
@@ -28,7 +28,7 @@ from hypcheck.geometry.rows import (
     Rows,
 )
 from hypcheck.kernel.in_use import kernel
-from hypcheck.truth import swept
+from hypcheck.truth.swept import passage_of_row
 
 First = tuple[tuple[Fraction, Fraction], int]
 """The time of the first contact, in an open interval or as one number twice; and the hyperboloid's number."""
@@ -108,18 +108,12 @@ def _hits(rows: Rows) -> Mask:
         answers = np.where(sure, answers, CANNOT_SAY)
     hits = np.asarray(answers == 1)
     for sweep in np.flatnonzero((answers == CANNOT_SAY) | (answers == REFUSED)).tolist():
-        hits[sweep] = _passage_of(rows[sweep].tolist()).hit
+        hits[sweep] = passage_of_row(rows[sweep].tolist()).hit
     return hits
 
 
-def _passage_of(row: Sequence[float]) -> swept.Passage:
-    (*sizes, x, y, z, x1, y1, z1), axis, heights = SWEEPS.split(row)
-    low, high, solid = heights or WITHOUT_ENDS
-    return swept.passage(sizes, (x, y, z), (x1, y1, z1), axis or None, z_min=low, z_max=high, solid=solid)
-
-
 def _interval(row: Sequence[float]) -> tuple[Fraction, Fraction]:
-    first = _passage_of(row).first
+    first = passage_of_row(row).first
     if first is None:
         raise AssertionError(f"the exact decision about a sweep contradicts its bounds: {row}")
     return first

@@ -1,10 +1,14 @@
-"""One pair, without numpy: hypcheck.position, the compiled function where there is one and plain Python otherwise."""
+"""One pair, without numpy: hypcheck.position, the compiled function where there is one and plain Python otherwise.
+
+And bounds of its distance by the compiled kernel, with the accuracy that hypcheck.clearance promises.
+"""
 
 from __future__ import annotations
 
 import math
 import reprlib
 import sys
+from array import array
 from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING, Protocol, overload
 
@@ -21,7 +25,7 @@ from hypcheck.geometry.pair import (
     trouble_with_row,
 )
 from hypcheck.kernel import integers
-from hypcheck.kernel.choice import choice, compiled
+from hypcheck.kernel.choice import are_apart, choice, compiled
 from hypcheck.kernel.printed.scalars import FARTHEST, GREATEST, LEAST, SLACK, single
 from hypcheck.messages import escaped
 
@@ -131,6 +135,21 @@ def _valid_row(numbers: Sequence[float], axis: object) -> list[float]:
     return [float(number) for number in row]
 
 
+def distance_at_once(pair: Pair) -> tuple[float, float] | None:
+    """The distance of an upright pair without ends; None if C is missing or its bounds are farther apart than promised.
+
+    All other pairs have None too: kernel/clearance.py answers them.
+    """
+    if choice().kernel == "numpy" or pair.has_ends or not pair.is_upright:
+        return None
+    position, numbers = array("b", [0]), array("d", [0.0] * 11)
+    compiled().clearance(array("d", pair.upright.row), position, numbers)
+    _, _, touch_error, low, high, *_ = numbers
+    if touch_error == sys.float_info.max or are_apart(low, high, max(pair.b, pair.d)):
+        return None
+    return low, high
+
+
 def _plain(number: Argument) -> Argument:
     """A scalar of numpy as a number of Python; other values are unchanged. Afterwards C knows numpy's scalar types."""
     numpy = sys.modules.get("numpy")  # until something imports it, nothing can be one
@@ -172,9 +191,9 @@ def _looked_at(
     numbers, heights = tuple(map(_plain, pairs)), tuple(map(_plain, (z_min, z_max, solid)))
     one = len(numbers) == len(COLUMNS) and _are_numbers((*numbers, *heights)) and not columns and not margin
     if not one or len(getattr(axis, "shape", ())) > 1:
-        from hypcheck.kernel import at_once  # noqa: PLC0415 - it loads numpy, and one pair does without
+        from hypcheck.kernel.classify import classify_at_once  # noqa: PLC0415 - it loads numpy
 
-        return at_once.classify(*pairs, axis=axis, z_min=z_min, z_max=z_max, solid=solid, margin=margin, **columns)
+        return classify_at_once(*pairs, axis=axis, z_min=z_min, z_max=z_max, solid=solid, margin=margin, **columns)
     exactly = compiled().position if choice().kernel == "compiled" else exact_position
     if heights[0] != -math.inf or heights[1] != math.inf or heights[2]:
         return _ended_position(numbers, axis, heights, exactly)

@@ -22,7 +22,7 @@ from hypcheck.geometry.forms import Answers, points_or_columns
 from hypcheck.geometry.pair import AXIS, CENTER, trouble_with_axis
 from hypcheck.geometry.rows import Floats, Indices, Positions, as_numbers
 from hypcheck.kernel import scene_nearest, scene_pairs, scene_queries
-from hypcheck.kernel.choice import POSITION_OF
+from hypcheck.kernel.choice import POSITION_OF, answers_to
 from hypcheck.kernel.clearance import checked_margin
 from hypcheck.kernel.passages import First, Passages
 from hypcheck.kernel.scene_ends import position_with_ends, positions_with_ends
@@ -97,7 +97,7 @@ class Scene(PreparedScene):
         positions = self._positions(center, heading, axis)
         if margin:
             positions = self._kept_apart(positions, center, heading, axis, margin)
-        answers = self._answers(positions)
+        answers = answers_to(self.model.question, positions)
         return int(answers[0]) if scene_queries.are_one(center, heading, axis) else answers
 
     def _positions(self, center: Sequence[ArrayLike], heading: ArrayLike, axis: ArrayLike | None) -> Positions:
@@ -432,12 +432,6 @@ class Scene(PreparedScene):
                 return CONTACT
             common = reply
         return common
-
-    def _answers(self, positions: Positions) -> Positions:
-        question = self.model.question
-        if question == "position":
-            return positions
-        return np.asarray(positions == POSITION_OF[question], np.int8)
 
 
 def _combined(replies: Positions, query: Indices, count: int) -> Positions:

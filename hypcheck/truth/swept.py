@@ -31,6 +31,7 @@ from hypcheck.geometry.pair import (
     COLUMNS,
     NO_DIRECTION,
     SIZES,
+    TILTED_SWEEP_COLUMNS,
     UPRIGHT,
     WITHOUT_ENDS,
     Lengths,
@@ -208,6 +209,13 @@ def passage(
     number not 4, 3, 3, 3 and 3.
     """
     return passage_on(sweep_of(sizes, start, end, axis, upward, (z_min, z_max, solid)))
+
+
+def passage_of_row(row: Sequence[float]) -> Passage:
+    """The exact decision about a row: sizes, two centres, perhaps an axis, perhaps heights. Raises InputError."""
+    axis, heights = row[10 : len(TILTED_SWEEP_COLUMNS)], row[len(TILTED_SWEEP_COLUMNS) :]
+    z_min, z_max, solid = heights or WITHOUT_ENDS
+    return passage(row[:4], row[4:7], row[7:10], axis or None, z_min=z_min, z_max=z_max, solid=solid)
 
 
 def passage_on(sweep: StraightSweep) -> Passage:
