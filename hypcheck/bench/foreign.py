@@ -10,7 +10,8 @@ from functools import partial
 import numpy as np
 
 from hypcheck.bench.contender import Contender, EmptyCall, LoadedMethod, PreparedWork, of_method
-from hypcheck.bench.workloads import NEAR_SCENES, SWEEP_WORKLOADS, WORKLOADS, scene_of
+from hypcheck.bench.plan import PASSAGE
+from hypcheck.bench.workloads import NEAR_SCENES, WORKLOADS, listed, scene_of
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import PAIRS, Layout, Rows
 from hypcheck.implementations.builtin import builtin
@@ -72,7 +73,7 @@ def foreign_method(
 def _seconds_a_row(implementation: Implementation) -> float:
     """The seconds per row of a batch; batches grow until one takes long enough to measure."""
     layout = implementation.description.asked.layout
-    some = (SWEEP_WORKLOADS["tower"] if layout.has_end else WORKLOADS["uniform"]).rows(1, _TRIED)
+    some = (listed(PASSAGE)["tower"] if layout.has_end else WORKLOADS["uniform"]).rows(1, _TRIED)
     inside = some[implementation.description.domain.holds(some, layout=layout)]
     usual = [*NEAR_SCENES[0], 1.0, 0.5, 2.0, 1.0, 0.5, -2.0][: len(layout.upright)]
     some = inside if len(inside) else np.array([usual])

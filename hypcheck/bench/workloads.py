@@ -1,5 +1,6 @@
 """The workloads of a benchmark: rows on which methods are compared, of upright and tilted spheroids and of sweeps.
 
+workloads.toml lists them; the rows that are of no family are made here, and so are the workloads of a scene.
 Some are timed and judged, the others only judged. A workload's rows depend only on its name, the seed and their place:
 a call for fewer rows returns the first rows of a call for more (vectors/draw.py). Pairs of tilted spheroids whose
 nearest point is not unique are in none of them, because there the estimated error, which rests on derivatives, is too
@@ -8,7 +9,7 @@ large.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, partial
 from math import radians, tan
@@ -16,10 +17,12 @@ from typing import Any
 
 import numpy as np
 
-from hypcheck.bench.plan import PASSAGE, BenchPlan
+from hypcheck import toml
+from hypcheck.bench.plan import POSITION, BenchPlan
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import SIZES
-from hypcheck.geometry.rows import PAIRS, SWEEPS, Floats, Layout, Rows, tilted_rows
+from hypcheck.geometry.rows import PAIRS, Floats, Layout, Rows, tilted_rows
+from hypcheck.implementations.description import QUESTIONS
 from hypcheck.kernel.specialise.settings import REACH, Setting, settings_of
 from hypcheck.scene.model import FREE, SceneModel, is_tilted
 from hypcheck.scene.reading import read_scene
@@ -46,6 +49,12 @@ NEAR_GAPS = (-57, -2)
 
 _Rows = Callable[[int, int], Rows]
 """The first rows for a seed, as many as are asked for."""
+
+SWEEP_SHARE = 6
+"""A sweep takes about a millisecond to decide, so a sixth of the rows of other workloads is judged."""
+
+TILTED_SHARE = 4
+"""To estimate a row's distance to another position takes ten milliseconds: a quarter of the rows is judged."""
 
 
 @dataclass(frozen=True)
@@ -99,11 +108,6 @@ def _families(*names: str) -> _Block:
     return lambda draw, n, _before: make(draw, n)
 
 
-def _in_turn(stream: str, *names: str) -> _Rows:
-    """As _families, with random numbers from the stream of that name."""
-    return _in_blocks(_families(*names), len(family_of(names[0]).columns), stream, *names)
-
-
 def _in_cycle(values: Sequence[Any], n: int, before: int) -> Floats:
     """The values of `n` rows that take these values or tuples in turn, after `before` earlier rows."""
     return np.array(values)[(before + np.arange(n)) % len(values)]
@@ -124,120 +128,16 @@ def near(draw: Draw, size: Sizes, gaps: tuple[int, int]) -> Rows:
     return centred(draw, size, *beside_surface(size.a, size.c, height, side * (1 + gap)))
 
 
-def _by_name(*workloads: Workload) -> dict[str, Workload]:
-    return {workload.name: workload for workload in workloads}
-
-
-WORKLOADS = _by_name(
-    Workload(
-        "uniform",
-        "uniform around the tower",
-        "A quadcopter's body, uniform in the box |x|, |y| ≤ 4 m, |z| ≤ 17.8 m about the paper's cooling tower.",
-        FAMILIES["tower-body"].rows,
-    ),
-    Workload(
-        "flight",
-        "along random flights",
-        "Positions asked for along the paper's random flights in the tower, 32 consecutive rows a flight, so that "
-        "neighbours resemble each other.",
-        FAMILIES["flight"].rows,
-    ),
-    Workload(
-        "near-contact",
-        "near contact",
-        "Six pairs of bodies in turn, at distances from touching that are log-uniform from 1e-17 to 0.5 spheroid "
-        "radii, apart and overlapping, outside and inside; sizes differ from row to row.",
-        _in_blocks(_near_contact, 7, "bench-near-contact"),
-    ),
-    Workload(
-        "ring",
-        "on the ring and next to it",
-        "Half clear positions where Δ = 0 exactly, half within 1e-12 to 1e-2 radii of such (docs/mathematics.md).",
-        _in_turn("bench", "ring", "ring-neighbourhood"),
-        timed=False,
-    ),
-    Workload(
-        "zero-coefficient",
-        "where c1 or c2 is 0",
-        "Positions at which one of the coefficients vanishes exactly, which the paper's Proposition 5 forgets.",
-        FAMILIES["coefficient-zero"].rows,
-        timed=False,
-    ),
-    Workload(
-        "ladder",
-        "a ladder of ulps beside tangency",
-        "Exact tangencies of many sizes with one length moved by 1, 2, 4 … 2⁴⁰ ulp, both ways.",
-        FAMILIES["tangent-ladder"].rows,
-        timed=False,
-    ),
-)
-"""Those of upright spheroids, by name, in the order of the record."""
-
-SWEEP_SHARE = 6
-"""A sweep takes about a millisecond to decide, so a sixth of the rows of other workloads is judged."""
-
-
-def _frozen_sweeps(_seed: int, count: int, *, tilted: bool) -> Rows:
-    return frozen_sweeps(tilted)[:count].copy()
-
-
 @cache
-def frozen_sweeps(tilted: bool) -> Rows:
-    """The frozen sweeps of upright or of tilted spheroids, all families in turn."""
-    groups = frozenset({"end", "axis"} if tilted else {"end"})
+def frozen_sweeps(groups: frozenset[str]) -> Rows:
+    """The frozen sweeps of the families whose rows have these groups of columns, all families in turn."""
     families = [frozen.load(name).rows for name in frozen.SWEEP_NAMES if SWEEP_FAMILIES[name].groups == groups]
     places = np.concatenate([np.arange(len(rows)) for rows in families])
     return np.concatenate(families)[np.argsort(places, kind="stable")]
 
 
-def _sweep_workload(name: str, title: str, text: str, rows: _Rows, *, timed: bool = False) -> Workload:
-    return Workload(name, title, text, rows, timed, SWEEP_SHARE, SWEEPS)
-
-
-SWEEP_WORKLOADS = _by_name(
-    _sweep_workload(
-        "tower",
-        "down through the tower's waist",
-        "A quadcopter's body straight down through the waist of the paper's cooling tower and out, about as near "
-        "to the wall as it may come (the family way-tower).",
-        _in_turn("bench-ways", "way-tower"),
-        timed=True,
-    ),
-    _sweep_workload(
-        "anywhere",
-        "anywhere about the waist",
-        "Both ends uniform in a box about the waist; sizes differ from row to row (the family way-anywhere).",
-        _in_turn("bench-ways", "way-anywhere"),
-        timed=True,
-    ),
-    _sweep_workload(
-        "tunnelling",
-        "steps that are too long",
-        "Straight through a wall, through the whole waist, past the surface from far away: both ends are mostly "
-        "clear and contact is between (the families way-tunnelling, way-across and way-long).",
-        _in_turn("bench-ways", "way-tunnelling", "way-across", "way-long"),
-    ),
-    _sweep_workload(
-        "grazing",
-        "grazing or nearly so",
-        "Tangent at one instant or at an end, or by 2⁻⁵⁰ to 2⁻³ of the size from it (the families way-near-graze, "
-        "way-grazing and way-end).",
-        _in_turn("bench-ways", "way-near-graze", "way-grazing", "way-end"),
-    ),
-    _sweep_workload(
-        "frozen",
-        "the frozen sweeps",
-        "The certified vectors of sweeps of upright spheroids, all 19 families in turn (cases/way-*.json).",
-        partial(_frozen_sweeps, tilted=False),
-    ),
-)
-"""Those of sweeps of upright spheroids, by name, in the order of the record."""
-
 PITCH = 20.0
 """Degrees by which the quadcopter is tilted along x in the workload of one axis."""
-
-TILTED_SHARE = 4
-"""To estimate a row's distance to another position takes ten milliseconds: a quarter of the rows is judged."""
 
 
 def _one_axis(draw: Draw, n: int, _before: int) -> Rows:
@@ -278,51 +178,7 @@ def _tilted_near(draw: Draw, sizes: Floats, axis: Vectors) -> Rows:
     return beside(draw, Sizes(*sizes.T), height, axis, draw.signs(n) * (1 + gap))
 
 
-def _tilted_workload(name: str, title: str, text: str, make: _Block, *, timed: bool = True) -> Workload:
-    return Workload(name, title, text, _in_blocks(make, 10, "bench-tilted", name), timed, TILTED_SHARE)
-
-
-TILTED_WORKLOADS = _by_name(
-    _tilted_workload(
-        "one-axis",
-        "tilted one way around the tower",
-        f"A quadcopter's body that is tilted by {PITCH:g}° along x, uniform in the box |x|, |y| ≤ 4 m, |z| ≤ 17.8 m "
-        "about the paper's cooling tower.",
-        _one_axis,
-    ),
-    _tilted_workload(
-        "an-axis-each",
-        "an axis each around the tower",
-        "The same body in the same box; each row is tilted to any side, by up to 45°.",
-        _an_axis_each,
-    ),
-    _tilted_workload(
-        "near-contact",
-        "near contact",
-        "Six pairs of bodies in turn, axes in all directions, at distances from touching that are log-uniform from "
-        "1e-17 to 0.5 spheroid radii, apart and overlapping, outside and inside.",
-        _tilted_near_contact,
-    ),
-    _tilted_workload(
-        "all-sizes",
-        "near contact, of all sizes",
-        "From 2⁻⁵² to 2⁻⁴ radii off contact, sizes of all four regimes (the family tilted-near-contact).",
-        _families("tilted-near-contact"),
-        timed=False,
-    ),
-    _tilted_workload(
-        "stiff",
-        "of very different sizes",
-        "Near contact with ratios of sizes up to 1e8, and axes that are almost vertical or horizontal "
-        "(the families tilted-stiff and tilted-slight).",
-        _families("tilted-stiff", "tilted-slight"),
-        timed=False,
-    ),
-)
-"""Those of tilted spheroids, by name, in the order of the record."""
-
-
-def _pitched(names: Sequence[str]) -> _Block:
+def _pitched(*names: str) -> _Block:
     """Sweeps of these families in turn, each with an axis that is tilted to any side, by up to 45°."""
     make = _families(*names)
 
@@ -332,49 +188,44 @@ def _pitched(names: Sequence[str]) -> _Block:
     return rows
 
 
-def _tilted_sweep_workload(name: str, title: str, text: str, make: _Block, *, timed: bool = False) -> Workload:
-    return _sweep_workload(name, title, text, _in_blocks(make, 13, "bench-tilted-sweeps", name), timed=timed)
+_MADE: Mapping[str, _Block] = {
+    "near contact": _near_contact,
+    "tilted near contact": _tilted_near_contact,
+    "one axis": _one_axis,
+    "an axis each": _an_axis_each,
+}
+"""The rows that are of no family, by the names that workloads.toml has for them."""
 
 
-TILTED_SWEEP_WORKLOADS = _by_name(
-    _tilted_sweep_workload(
-        "tower",
-        "down through the tower's waist, tilted",
-        "A quadcopter's body straight down through the waist of the paper's cooling tower and out, tilted to any side "
-        "by up to 45° (the family way-tower with an axis).",
-        _pitched(["way-tower"]),
-        timed=True,
-    ),
-    _tilted_sweep_workload(
-        "anywhere",
-        "anywhere about the waist, tilted",
-        "Both ends about the waist, axes in all directions; sizes differ from row to row (the family "
-        "tilted-way-uniform).",
-        _families("tilted-way-uniform"),
-        timed=True,
-    ),
-    _tilted_sweep_workload(
-        "tunnelling",
-        "steps that are too long, tilted",
-        "Straight through a wall, through the whole waist, past the surface from far away, tilted to any side by up to "
-        "45° (the families way-tunnelling, way-across and way-long with an axis).",
-        _pitched(["way-tunnelling", "way-across", "way-long"]),
-    ),
-    _tilted_sweep_workload(
-        "grazing",
-        "grazing or nearly so, tilted",
-        "Sweeps that end in a tangency, or whose centre passes a clear place where Δ = 0 (the families tilted-way-end "
-        "and tilted-way-ring).",
-        _families("tilted-way-end", "tilted-way-ring"),
-    ),
-    _sweep_workload(
-        "frozen",
-        "the frozen sweeps of tilted spheroids",
-        "The certified vectors of sweeps of tilted spheroids, all 5 families in turn (cases/tilted-way-*.json).",
-        partial(_frozen_sweeps, tilted=True),
-    ),
-)
-"""Those of sweeps of tilted spheroids, by name, in the order of the record."""
+@cache
+def listed(question: str, *, tilted: bool = False) -> dict[str, Workload]:
+    """The workloads that workloads.toml lists for a question, by name, in the order of the record."""
+    entries = toml.shipped("hypcheck.bench", "workloads.toml")[f"tilted {question}" if tilted else question]
+    layout = QUESTIONS[question].layout
+    width = len(layout.tilted if tilted else layout.upright)
+    share = SWEEP_SHARE if layout.has_end else TILTED_SHARE if tilted else 1
+    return {
+        name: Workload(name, entry["title"], entry["text"], _rows_of(entry, width), entry["timed"], share, layout)
+        for name, entry in entries.items()
+    }
+
+
+def _rows_of(entry: Mapping[str, Any], width: int) -> _Rows:
+    """The rows of an entry of workloads.toml, which have `width` numbers."""
+    if "family" in entry:
+        return FAMILIES[entry["family"]].rows
+    if "frozen" in entry:
+        groups = frozenset(entry["frozen"])
+        return lambda _seed, count: frozen_sweeps(groups)[:count].copy()
+    if "rows" in entry:
+        make = _MADE[entry["rows"]]
+    else:
+        make = _pitched(*entry["pitched"]) if "pitched" in entry else _families(*entry["families"])
+    return _in_blocks(make, width, *entry["stream"])
+
+
+WORKLOADS = listed(POSITION)
+"""The workloads of positions of upright spheroids."""
 
 
 def tilted_scenes(names: tuple[str, ...]) -> list[str]:
@@ -398,20 +249,24 @@ def scene_workloads(name: str) -> dict[str, Workload]:
     settings = settings_of(scene)
     if not settings:
         raise InputError(f"the scene {scene.name!r} is not measured: no hyperboloid's height meets its region")
-    region, near = partial(_in_region, scene, settings), partial(_near_in_scene, scene, settings)
     axis = "an axis each, in all directions" if scene.mover.axis == FREE else "the mover's axis"
-    return _by_name(
-        _tilted_workload(
-            "region", f"in the scene {scene.name}", f"Centres uniform in the scene's region, {axis}.", region
+    gaps = "at distances from touching that are log-uniform from 1e-17 to 0.5 spheroid radii"
+    described: dict[str, tuple[str, str, _Block]] = {
+        "region": (
+            f"in the scene {scene.name}",
+            f"Centres uniform in the scene's region, {axis}.",
+            partial(_in_region, scene, settings),
         ),
-        _tilted_workload(
-            "near-contact",
+        "near-contact": (
             "near contact",
-            f"The scene's bodies, {axis}, at distances from touching that are log-uniform from 1e-17 to 0.5 spheroid "
-            "radii.",
-            near,
+            f"The scene's bodies, {axis}, {gaps}.",
+            partial(_near_in_scene, scene, settings),
         ),
-    )
+    }
+    return {
+        name: Workload(name, title, text, _in_blocks(make, 10, "bench-tilted", name), share=TILTED_SHARE)
+        for name, (title, text, make) in described.items()
+    }
 
 
 def _axes_of(scene: SceneModel, draw: Draw, n: int) -> Vectors:
@@ -446,6 +301,4 @@ def workloads_of(plan: BenchPlan) -> dict[str, Workload]:
     """The workloads that the plan can choose from, by name."""
     if plan.scenes:
         return scene_workloads(*plan.scenes)
-    if plan.question == PASSAGE:
-        return TILTED_SWEEP_WORKLOADS if plan.tilted else SWEEP_WORKLOADS
-    return TILTED_WORKLOADS if plan.tilted else WORKLOADS
+    return listed(plan.question, tilted=plan.tilted)

@@ -11,7 +11,7 @@ from hypcheck.bench import foreign
 from hypcheck.bench.accuracy import WorkloadTruth, workload_truths
 from hypcheck.bench.contenders import contenders
 from hypcheck.bench.plan import PASSAGE, PASSAGE_REFERENCE, QUICK, BenchPlan
-from hypcheck.bench.workloads import SWEEP_WORKLOADS, TILTED_SWEEP_WORKLOADS, frozen_sweeps, scene_of
+from hypcheck.bench.workloads import listed, scene_of
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import SWEEPS, first_trouble
 from hypcheck.implementations.builtin import passage_methods
@@ -24,11 +24,13 @@ from tests.support.inside import size_error
 from tests.support.records import violations
 from tests.tools.miniatures import NOT_ISOLATED, command
 
+SWEEPS_UPRIGHT, SWEEPS_TILTED = listed(PASSAGE), listed(PASSAGE, tilted=True)
 
-@pytest.mark.parametrize(("workloads", "width"), [(SWEEP_WORKLOADS, 10), (TILTED_SWEEP_WORKLOADS, 13)])
-@pytest.mark.parametrize("name", SWEEP_WORKLOADS)
+
+@pytest.mark.parametrize(("workloads", "width"), [(SWEEPS_UPRIGHT, 10), (SWEEPS_TILTED, 13)])
+@pytest.mark.parametrize("name", SWEEPS_UPRIGHT)
 def test_sweep_workload_rows_are_valid_and_fewer_rows_are_the_first_of_more(workloads, width, name):
-    assert list(workloads) == list(SWEEP_WORKLOADS)
+    assert list(workloads) == list(SWEEPS_UPRIGHT)
     rows = workloads[name].rows(3, 240)
     assert rows.shape == (240, width)
     assert first_trouble(rows, layout=SWEEPS) is None
@@ -40,7 +42,7 @@ def test_sweep_workload_rows_are_valid_and_fewer_rows_are_the_first_of_more(work
 @pytest.mark.parametrize(("tilted", "count"), [(False, 1500), (True, 200)])
 def test_the_frozen_sweeps_come_from_all_families_of_their_kind_in_turn(tilted, count):
     families = [family for family in SWEEP_FAMILIES.values() if family.frozen and ("axis" in family.groups) == tilted]
-    rows = frozen_sweeps(tilted)
+    rows = listed(PASSAGE, tilted=tilted)["frozen"].rows(1, 100_000)
     assert len(rows) > count
     assert len(np.unique(rows[: 4 * len(families)], axis=0)) == 4 * len(families)
 

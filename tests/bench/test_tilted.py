@@ -11,8 +11,8 @@ import hypcheck
 from hypcheck.bench import foreign
 from hypcheck.bench.contender import InPython
 from hypcheck.bench.contenders import contenders
-from hypcheck.bench.plan import TILTED_REFERENCE, BenchPlan
-from hypcheck.bench.workloads import TILTED_WORKLOADS, scene_of, scene_workloads
+from hypcheck.bench.plan import POSITION, TILTED_REFERENCE, BenchPlan
+from hypcheck.bench.workloads import listed, scene_of, scene_workloads
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import first_trouble
 from hypcheck.implementations.meshes import COAL
@@ -49,6 +49,9 @@ def scene(folder, axis, tilted=""):
     path = folder / "scene.toml"
     path.write_text(SCENE.format(axis=axis, tilted=tilted), encoding="utf-8")
     return str(path)
+
+
+TILTED_WORKLOADS = listed(POSITION, tilted=True)
 
 
 @pytest.mark.parametrize("name", TILTED_WORKLOADS)
