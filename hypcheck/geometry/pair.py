@@ -67,6 +67,8 @@ Heights = tuple[float, float, float]
 
 Vector = tuple[int, int, int]
 
+_VERTICAL: tuple[Vector, Vector] = ((0, 0, 1), (0, 0, 1))
+
 
 class Position(IntEnum):
     """The relative position: outside the hyperboloid, in contact with it (tangency included), or inside."""
@@ -198,23 +200,38 @@ class Lengths:
     @classmethod
     def of(cls, row: Sequence[float | Fraction], upward: Sequence[float | Fraction] = UPRIGHT) -> Lengths:
         """The integers of seven valid numbers, float64 or rational; an axis may follow them, and then heights."""
-        alpha, gamma, b, d, x, y, z, *others = row
-        direction, ends = others[:3], [height for height in others[3:5] if abs(height) != math.inf]
-        radial, axial = (alpha, b, x, y), (gamma, d, z, *ends)
-        if upward[0] == upward[1] == 0 and (not direction or direction[0] == direction[1] == 0 or b == d):
-            (a, b, x, y), (g, d, z, *ends), axis, along = to_integers(radial), to_integers(axial), (0, 0, 1), (0, 0, 1)
+        (lengths,) = cls.at_centers(row[:4], (row[4:7],), row[7:10] or UPRIGHT, upward, row[10:] or WITHOUT_ENDS)
+        return lengths
+
+    @classmethod
+    def at_centers(
+        cls,
+        sizes: Sequence[float | Fraction],
+        centers: Sequence[Sequence[float | Fraction]],
+        axis: Sequence[float | Fraction],
+        upward: Sequence[float | Fraction],
+        heights: Sequence[float | Fraction],
+    ) -> list[Lengths]:
+        """The integers of valid numbers about one spheroid at some centres, all in the same units."""
+        alpha, gamma, b, d = sizes
+        radial, axial = [alpha, b], [gamma, d]
+        for x, y, z in centers:
+            radial += (x, y)
+            axial.append(z)
+        axial += [end for end in heights[:2] if end not in (-math.inf, math.inf)]
+        if upward[0] == upward[1] == 0 and (axis[0] == axis[1] == 0 or b == d):
+            (p, q, *across), (s, t, *along), axes = to_integers(radial), to_integers(axial), _VERTICAL
         else:
-            (a, b, x, y, g, d, z, *ends), axis = (
-                reduced(radial + axial),
-                reduced(direction or UPRIGHT),
-            )
-            along = reduced(upward)
-        if not ends:
-            return cls(a, b, x, y, g, d, z, axis, along)
-        low = None if others[3] == -math.inf else ends[0]
-        high = None if others[4] == math.inf else ends[-1]
-        low, high = counted_along(along, upward, low, high)
-        return cls(a, b, x, y, g, d, z, axis, along, low=low, high=high, solid=bool(others[5]))
+            together, axes = reduced(radial + axial), (reduced(axis), reduced(upward))
+            (p, q, *across), (s, t, *along) = together[: len(radial)], together[len(radial) :]
+        ends, low, high = along[len(centers) :], None, None
+        if ends:
+            low = None if heights[0] == -math.inf else ends[0]
+            high = None if heights[1] == math.inf else ends[-1]
+            low, high = counted_along(axes[1], upward, low, high)
+        solid = bool(ends and heights[2])
+        places = zip(across[::2], across[1::2], along, strict=False)  # the ends are behind the heights of centres
+        return [cls(p, q, x, y, s, t, z, *axes, low, high, solid) for x, y, z in places]
 
     @property
     def has_ends(self) -> bool:

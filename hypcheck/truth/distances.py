@@ -23,6 +23,7 @@ Lengths lie in 2^±100 or are 0, so that nothing overflows and no underflow matt
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -34,7 +35,7 @@ from hypcheck.truth.double_double import DoubleDouble
 
 _RANGE = (2.0**-100, 2.0**100)
 _U = 2.0**-53
-_TURNS, _STEPS = 60, 3
+_STEPS = 3
 _LEAST_SQUARE = 2.0**-10
 """Nearer to the hyperboloid, in squares of radii, a bound of φ says too little of √(1 + φ)."""
 
@@ -101,7 +102,7 @@ class _Pairs:
 
 def _decided(rows: Rows) -> tuple[Floats, Positions, Mask]:
     pairs = _Pairs.of(rows)
-    X, at = _polished(pairs, *_start(rows, pairs))
+    X, at = _polished(pairs, *_start(pairs))
     L, below, above = _enclosed(pairs, X, at)
     clear, contact = L[0] - 1.001 * below > 0, L[0] + 1.001 * above < 0
     position = np.where(clear, np.sign(at), 0).astype(np.int8)
@@ -109,45 +110,75 @@ def _decided(rows: Rows) -> tuple[Floats, Positions, Mask]:
     divisor = double_double.add_float(double_double.square_root(squared), 1.0)
     high, low = double_double.divide(L, divisor)
     error = np.maximum(below, above) / np.sqrt(squared[0]) + 8 * double_double.ERROR * np.abs(high)
-    reach = 1.001 * error + 2.0**-104 * np.abs(high)  # 2⁻¹⁰⁴ for the rounding of low ± reach
-    rounds_alike = (high + (low + reach) == high) & (high + (low - reach) == high)
-    return high, position, (clear | contact) & rounds_alike & (squared[0] > _LEAST_SQUARE)
+    certain = (clear | contact) & double_double.rounds_to_high((high, low), error)
+    return high, position, certain & (squared[0] > _LEAST_SQUARE)
 
 
-def _start(rows: Rows, pairs: _Pairs) -> tuple[Triple, Floats]:
-    """X and λ by eigenvectors and bisection: a hint without a proof."""
-    b, d = (pairs.sizes[k][:, None, None] for k in (2, 3))
-    unit = np.stack(pairs.axis, axis=1)
-    unit /= np.linalg.norm(unit, axis=1, keepdims=True)
-    along = unit[:, :, None] * unit[:, None, :]
-    root = b * np.eye(3) + (d - b) * along
-    values, vectors = np.linalg.eigh(root @ (np.stack(pairs.D, axis=1)[:, :, None] * root))
-    inverse = np.eye(3) / b + (1 / d - 1 / b) * along
-    own = (np.swapaxes(vectors, 1, 2) @ (inverse @ rows[:, 4:7, None]))[:, :, 0]
-    poles, squares = 1 / values.T, (own * own).T
-    low, high = -poles[2], -poles[0]
-    for _ in range(_TURNS):
-        middle = (low + high) / 2
-        rising = sum(pole * square / (pole + middle) ** 2 for pole, square in zip(poles, squares, strict=True)) > 1
-        low, high = np.where(rising, middle, low), np.where(rising, high, middle)
-    at = (low + high) / 2
-    near = own * (poles / (poles + at)).T
-    x, y, z = (root @ (vectors @ near[:, :, None]))[:, :, 0].T
+def _start(pairs: _Pairs) -> tuple[Triple, Floats]:
+    """X and λ, a hint without a proof: r = 0 at this λ."""
+    at = multipliers(pairs.sizes, pairs.centre, pairs.axis)
+    adjugate, determinant = _adjugate(_matrix(pairs, at))
+    zero = np.zeros_like(at)
+    residual, _ = _residual(pairs, (zero, zero, zero), at)
+    x, y, z = (-part / determinant for part in _times(adjugate, residual))
     return (x, y, z), at
+
+
+def multipliers(sizes: Floats, centre: Iterable[Floats], axis: Iterable[Floats]) -> Floats:
+    """Approximately the λ at which φ is largest, (n,): the root of φ's slope, found by bisection between its poles.
+
+    A hint without a proof, from sizes (4, n) and the columns of centres and axes.
+    """
+    (alpha, gamma, b, d), (x, y, z), (v_x, v_y, v_z) = sizes, centre, axis
+    horizontal = np.hypot(v_x, v_y)
+    length = np.hypot(horizontal, v_z)
+    safe = np.where(horizontal == 0, 1.0, horizontal)
+    ahead, aside = np.where(horizontal == 0, (x, y), ((x * v_x + y * v_y) / safe, (y * v_x - x * v_y) / safe))
+    sine, cosine, radial, axial = horizontal / length, v_z / length, 1 / alpha**2, 1 / gamma**2
+    e, g = d**2 * (sine**2 * radial - cosine**2 * axial), b**2 * (cosine**2 * radial - sine**2 * axial)
+    f = b * d * sine * cosine * (radial + axial)
+    half, trace = (e - g) / 2, (e + g) / 2
+    root, minus_det = np.hypot(half, f), (b * d / (alpha * gamma)) ** 2
+    size = np.sqrt(trace**2 + minus_det)
+    positive = np.where(trace > 0, trace + size, minus_det / (size - trace))
+    one, two = np.where(half > 0, (root + half, f), (f, root - half))
+    one = np.where((one == 0) & (two == 0), 1.0, one)
+    along, across_it = (ahead * sine + z * cosine) / d, (ahead * cosine - z * sine) / b
+    square = one**2 + two**2
+    P1, P2, Q = (
+        (aside / b) ** 2,
+        (along * one + across_it * two) ** 2 / square,
+        (across_it * one - along * two) ** 2 / square,
+    )
+    return _root((alpha / b) ** 2, 1 / positive, positive / minus_det, P1, P2, Q)
+
+
+def _root(A1: Floats, A2: Floats, B: Floats, P1: Floats, P2: Floats, Q: Floats) -> Floats:
+    """The root of A1 P1/(A1 + λ)² + A2 P2/(A2 + λ)² − B Q/(B − λ)² − 1 between −min(A1, A2) and B, by bisection."""
+    least = np.minimum(A1, A2)
+    outside = P1 / A1 + P2 / A2 - Q / B - 1 > 0
+    end = np.where(outside, B, least)
+    low, high = np.full(len(A1), -300.0), np.full(len(A1), 60.0)
+    for _ in range(40):
+        middle = (low + high) / 2
+        odds = np.exp2(middle)
+        left = end / (1 + odds)
+        gone = left * odds
+        one, two, three = np.where(
+            outside, (A1 + gone, A2 + gone, left), (A1 - least + left, A2 - least + left, B + gone)
+        )
+        reached = (A1 * P1 / one**2 + A2 * P2 / two**2 - B * Q / three**2 - 1 > 0) != outside
+        low, high = np.where(reached, low, middle), np.where(reached, middle, high)
+    odds = np.exp2(low)
+    return np.asarray(np.where(outside, B, -least) * odds / (1 + odds))
 
 
 def _polished(pairs: _Pairs, X: Triple, at: Floats) -> tuple[Triple, Floats]:
     """Newton's steps for r = 0 and h = 0 in float64, from a hint to a better one."""
     for _ in range(_STEPS):
         residual, n = _residual(pairs, X, at)
-        (a00, a01, a02, a11, a12, a22), determinant = _adjugate(_matrix(pairs, at))
-
-        def solved(q: Triple, a: tuple[Floats, ...] = (a00, a01, a02, a11, a12, a22)) -> Triple:
-            p0 = a[0] * q[0] + a[1] * q[1] + a[2] * q[2]
-            p1 = a[1] * q[0] + a[3] * q[1] + a[4] * q[2]
-            return p0, p1, a[2] * q[0] + a[4] * q[1] + a[5] * q[2]
-
-        of_n, of_r = solved(n), solved(residual)
+        adjugate, determinant = _adjugate(_matrix(pairs, at))
+        of_n, of_r = _times(adjugate, n), _times(adjugate, residual)
         height = _height(pairs, X)[0][0]
         step = (determinant * height / 2 - dot(n, of_r)) / dot(n, of_n)
         x, y, z = (x - (r + step * k) / determinant for x, r, k in zip(X, of_r, of_n, strict=True))
@@ -220,6 +251,12 @@ def _adjugate(matrix: tuple[Floats, ...]) -> tuple[tuple[Floats, ...], Floats]:
     a00, a01, a02 = g11 * g22 - g12 * g12, g02 * g12 - g01 * g22, g01 * g12 - g02 * g11
     adjugate = (a00, a01, a02, g00 * g22 - g02 * g02, g01 * g02 - g00 * g12, g00 * g11 - g01 * g01)
     return adjugate, g00 * a00 + g01 * a01 + g02 * a02
+
+
+def _times(matrix: tuple[Floats, ...], q: Triple) -> Triple:
+    """The product of a symmetric matrix, given by its upper half, and a vector."""
+    m00, m01, m02, m11, m12, m22 = matrix
+    return dot((m00, m01, m02), q), dot((m01, m11, m12), q), dot((m02, m12, m22), q)
 
 
 def _residual(pairs: _Pairs, X: Triple, at: Floats) -> tuple[Triple, Triple]:

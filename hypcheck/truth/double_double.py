@@ -115,6 +115,13 @@ def square_root(value: DoubleDouble) -> DoubleDouble:
     return two_sum(root, remainder / np.where(root > 0.0, 2.0 * root, 1.0))
 
 
+def rounds_to_high(value: DoubleDouble, error: Floats) -> Mask:
+    """Whether every number that is off the value by `error` at most rounds to the value's high part."""
+    high, low = value
+    reach = 1.001 * error + 2.0**-104 * np.abs(high)  # 2⁻¹⁰⁴ for the rounding of low ± reach
+    return np.asarray((high + (low + reach) == high) & (high + (low - reach) == high))
+
+
 def where(condition: Mask, first: DoubleDouble, second: DoubleDouble) -> DoubleDouble:
     """Elementwise choice."""
     return np.where(condition, first[0], second[0]), np.where(condition, first[1], second[1])

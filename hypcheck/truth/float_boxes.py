@@ -21,6 +21,7 @@ from hypcheck.geometry.arithmetic import dot
 from hypcheck.geometry.pair import COLUMNS, SIZES
 from hypcheck.geometry.rows import Floats, Mask, Rows
 from hypcheck.truth.box_proofs import BoxKind, Form, Goal, Place, stays_clear, stays_off
+from hypcheck.truth.distances import multipliers
 
 LEAST = -46
 """Changes below 2^LEAST are not tried: there float64 intervals tell nothing."""
@@ -252,7 +253,7 @@ class _Margin:
     def __init__(self, sizes: Floats, rest: Floats, side: Floats) -> None:
         self.form, self.side = Form(list(sizes), np.sqrt), side
         self.C, self.v = rest[:3], list(rest[3:])
-        hint, self.at, self.X = _multiplier(sizes, rest), np.zeros(len(side)), self.C
+        hint, self.at, self.X = multipliers(sizes, self.C, rest[3:]), np.zeros(len(side)), self.C
         for share in _SHARES:
             M, adjugate, minors = self.form.pencil(hint * share, self.v)
             definite = (self.at == 0) & (hint * side > 0) & (np.min(minors, axis=0) > 0)
@@ -264,53 +265,6 @@ class _Margin:
         n, factor = self.form.gradient(list(self.X)), 2 * np.where(self.at == 0, self.side, self.at)
         by_axis = self.form.by_axis(self.v, n, n)
         return [*(factor * part for part in n), *(-(self.at**2) * part for part in by_axis)]
-
-
-def _multiplier(sizes: Floats, rest: Floats) -> Floats:
-    """Approximately the λ at which φ is largest, (n,): the root of φ's slope, found by bisection between its poles."""
-    alpha, gamma, b, d = sizes
-    x, y, z, v_x, v_y, v_z = rest
-    horizontal = np.hypot(v_x, v_y)
-    length = np.hypot(horizontal, v_z)
-    safe = np.where(horizontal == 0, 1.0, horizontal)
-    ahead, aside = np.where(horizontal == 0, (x, y), ((x * v_x + y * v_y) / safe, (y * v_x - x * v_y) / safe))
-    sine, cosine, radial, axial = horizontal / length, v_z / length, 1 / alpha**2, 1 / gamma**2
-    e, g = d**2 * (sine**2 * radial - cosine**2 * axial), b**2 * (cosine**2 * radial - sine**2 * axial)
-    f = b * d * sine * cosine * (radial + axial)
-    half, trace = (e - g) / 2, (e + g) / 2
-    root, minus_det = np.hypot(half, f), (b * d / (alpha * gamma)) ** 2
-    size = np.sqrt(trace**2 + minus_det)
-    positive = np.where(trace > 0, trace + size, minus_det / (size - trace))
-    one, two = np.where(half > 0, (root + half, f), (f, root - half))
-    one = np.where((one == 0) & (two == 0), 1.0, one)
-    along, across_it = (ahead * sine + z * cosine) / d, (ahead * cosine - z * sine) / b
-    square = one**2 + two**2
-    P1, P2, Q = (
-        (aside / b) ** 2,
-        (along * one + across_it * two) ** 2 / square,
-        (across_it * one - along * two) ** 2 / square,
-    )
-    return _root((alpha / b) ** 2, 1 / positive, positive / minus_det, P1, P2, Q)
-
-
-def _root(A1: Floats, A2: Floats, B: Floats, P1: Floats, P2: Floats, Q: Floats) -> Floats:
-    """The root of A1 P1/(A1 + λ)² + A2 P2/(A2 + λ)² − B Q/(B − λ)² − 1 between −min(A1, A2) and B, by bisection."""
-    least = np.minimum(A1, A2)
-    outside = P1 / A1 + P2 / A2 - Q / B - 1 > 0
-    end = np.where(outside, B, least)
-    low, high = np.full(len(A1), -300.0), np.full(len(A1), 60.0)
-    for _ in range(40):
-        middle = (low + high) / 2
-        odds = np.exp2(middle)
-        left = end / (1 + odds)
-        gone = left * odds
-        one, two, three = np.where(
-            outside, (A1 + gone, A2 + gone, left), (A1 - least + left, A2 - least + left, B + gone)
-        )
-        reached = (A1 * P1 / one**2 + A2 * P2 / two**2 - B * Q / three**2 - 1 > 0) != outside
-        low, high = np.where(reached, low, middle), np.where(reached, middle, high)
-    odds = np.exp2(low)
-    return np.asarray(np.where(outside, B, -least) * odds / (1 + odds))
 
 
 def _proved(boxes: Boxes, at: Floats, X: Floats, C: Floats) -> Mask:

@@ -36,9 +36,6 @@ from hypcheck.geometry.pair import (
     WITHOUT_ENDS,
     Lengths,
     Position,
-    Vector,
-    counted_along,
-    over_one_denominator,
     trouble_with,
     trouble_with_heights,
 )
@@ -306,25 +303,10 @@ def sweep_of(
     trouble = trouble_with_heights(heights)
     if trouble is not None:
         raise InputError(trouble)
-    ends = [height for height in heights[:2] if math.isfinite(height)]
-    alpha, gamma, b, d, x0, y0, z0 = _required(sizes, start)
-    x1, y1, z1 = _required(sizes, end)[len(SIZES) :]
+    centers = [_required(sizes, center)[len(SIZES) :] for center in (start, end)]
     direction, tower = (checked_axis(UPRIGHT if vector is None else vector) for vector in (axis, upward))
-    if (any(direction[:2]) and b != d) or any(tower[:2]):
-        a, c, w, h, x, x1, y, y1, z, z1, *ended = integers(alpha, gamma, b, d, x0, x1, y0, y1, z0, z1, *ends)
-        axes = _three(direction), _three(tower)
-    else:
-        a, w, x, x1, y, y1 = integers(alpha, b, x0, x1, y0, y1)
-        c, h, z, z1, *ended = integers(gamma, d, z0, z1, *ends)
-        axes = (0, 0, 1), (0, 0, 1)
-    low, high = ended[0] if math.isfinite(heights[0]) else None, ended[-1] if math.isfinite(heights[1]) else None
-    low, high = counted_along(axes[1], tower, low, high)
-    return StraightSweep(Lengths(a, w, x, y, c, h, z, *axes, low, high, bool(heights[2])), (x1 - x, y1 - y, z1 - z))
-
-
-def _three(axis: Sequence[Fraction]) -> Vector:
-    x, y, z = integers(*axis)
-    return x, y, z
+    here, there = Lengths.at_centers(tuple(sizes), centers, direction, tower, heights)
+    return StraightSweep(here, (there.x - here.x, there.y - here.y, there.z - here.z))
 
 
 def checked(sizes: Sequence[Rational], center: Sequence[Rational]) -> tuple[Fraction, ...]:
@@ -369,8 +351,3 @@ def _require(name: str, number: Rational) -> None:
             raise InputError(f"{name} is {number}; a semi-axis must be greater than 0")
     elif (trouble := trouble_with(name, number)) is not None:
         raise InputError(trouble)
-
-
-def integers(*numbers: Rational) -> tuple[int, ...]:
-    """The numbers multiplied by one positive number that makes each an integer."""
-    return tuple(over_one_denominator(numbers)[0])

@@ -24,10 +24,10 @@ from mpmath.ctx_iv import ivmpf
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.arithmetic import fraction, root_of
-from hypcheck.geometry.pair import Lengths, Position
+from hypcheck.geometry.pair import Lengths, Position, to_integers
 from hypcheck.messages import escaped
 from hypcheck.truth import exact
-from hypcheck.truth.swept import Rational, checked, checked_sequence, integers
+from hypcheck.truth.swept import Rational, checked, checked_sequence
 
 PRECISIONS = (128, 512, 2048)
 """Bits with which enclosures are made, each tried where the one before does not tell."""
@@ -162,8 +162,8 @@ def _all_along(rationals: tuple[Fraction, ...], least: Enclosure, largest: Enclo
 def _position(rationals: tuple[Fraction, ...], radius: Fraction) -> Position:
     """The exact position at this distance from the axis."""
     alpha, gamma, b, d, _, _, z = rationals
-    wide, thick, far = integers(alpha, b, radius)
-    tall, thin, high = integers(gamma, d, z)
+    wide, thick, far = to_integers((alpha, b, radius))
+    tall, thin, high = to_integers((gamma, d, z))
     return exact.position(Lengths(wide, thick, far, 0, tall, thin, high))
 
 

@@ -11,7 +11,7 @@ from mpmath import mp, mpf
 
 from hypcheck.derivation.float_arithmetic import two_sum
 from hypcheck.geometry.pair import Pair
-from hypcheck.truth import double_double, upright_distances
+from hypcheck.truth import double_double, nearest_rows
 from tests.support.inside import NearestStage, clearances, nearest
 from tests.support.inside import truth_nearest as oracle
 from tests.truth.nearest_reference import mismatches, mixed_rows, reference
@@ -62,13 +62,13 @@ def test_each_double_double_operation_is_within_its_bound(seed):
 def test_the_bound_of_the_float_stage_covers_its_error(factor):
     """At the λ that the solver finds, and at others, whose distance to the nearer pole is off by a factor."""
     rows = mixed_rows(800, seed=8, span=20)
-    scaled = upright_distances._scale(rows)
+    scaled = nearest_rows._scale(rows)
     with np.errstate(all="ignore"):
-        tau, sigma = upright_distances._solve(scaled)
+        tau, sigma = nearest_rows._solve(scaled)
         tau, sigma = np.where(tau < sigma, tau * factor, tau), np.where(tau < sigma, sigma, sigma * factor)
-        dual = upright_distances._evaluate(scaled, tau, sigma)
+        dual = nearest_rows._evaluate(scaled, tau, sigma)
         squared = double_double.add_float(dual.value, dual.gap)
-        clearance, error = upright_distances._clearance(squared, dual.error + dual.gap_error)
+        clearance, error = nearest_rows._clearance(squared, dual.error + dual.gap_error)
     known = np.flatnonzero(scaled.inside & np.isfinite(error))
     assert len(known) > (30 if abs(factor - 1) > 0.1 else 500)
     truths = [reference(row)[0] for row in rows[known].tolist()]
@@ -83,11 +83,11 @@ def test_the_bound_of_the_float_stage_covers_its_error(factor):
 def test_the_bound_of_the_dual_is_at_least_what_its_derivation_says(factor):
     """64η(|λ|(u + C)(near + far) + |λ|T + (u + C)|F|), in rationals from the row and the u that was chosen."""
     rows = mixed_rows(300, seed=21, span=20)
-    scaled = upright_distances._scale(rows)
+    scaled = nearest_rows._scale(rows)
     with np.errstate(all="ignore"):
-        tau, sigma = upright_distances._solve(scaled)
+        tau, sigma = nearest_rows._solve(scaled)
         tau, sigma = np.where(tau <= sigma, tau * factor, tau), np.where(tau <= sigma, sigma, sigma * factor)
-        error = upright_distances._evaluate(scaled, tau, sigma).error
+        error = nearest_rows._evaluate(scaled, tau, sigma).error
     eta, seen = Fraction(double_double.ERROR), 0
     for row, near_A, near_B, bound in zip(rows.tolist(), tau.tolist(), sigma.tolist(), error.tolist(), strict=True):
         alpha, gamma, b, d, x, y, z = map(Fraction, row)
@@ -109,11 +109,11 @@ def test_the_bound_of_the_dual_is_at_least_what_its_derivation_says(factor):
 
 def test_float_stage_claims_no_position_from_a_multiplier_beyond_the_poles():
     """The dual is no bound there; a solver that strays must not be believed."""
-    scaled = upright_distances._scale(mixed_rows(300, seed=13))
+    scaled = nearest_rows._scale(mixed_rows(300, seed=13))
     with np.errstate(all="ignore"):
-        tau, sigma = upright_distances._solve(scaled)
+        tau, sigma = nearest_rows._solve(scaled)
         for strayed in ((-tau, sigma), (tau, -sigma), (np.full_like(tau, np.nan), sigma)):
-            decided = upright_distances._judge(scaled.inside, upright_distances._evaluate(scaled, *strayed))
+            decided = nearest_rows._judge(scaled.inside, nearest_rows._evaluate(scaled, *strayed))
             assert not (decided.position_certain & (tau > 0) & (sigma > 0)).any()
 
 
@@ -125,10 +125,10 @@ def test_float_stage_takes_the_interval_end_as_the_maximum_only_where_that_is_ce
     rows = np.stack((a, c, *np.ones((2, 500)), r, *np.zeros((2, 500))), axis=1)
     exact = [[Fraction(value) for value in row] for row in rows.tolist()]
     beyond = np.array([row[0] * row[4] >= row[0] ** 2 + row[1] ** 2 for row in exact])
-    scaled = upright_distances._scale(rows)
+    scaled = nearest_rows._scale(rows)
     with np.errstate(all="ignore"):
-        tau, sigma = upright_distances._solve(scaled)
-        sure = upright_distances._evaluate(scaled, tau, sigma).gap_error == 0
+        tau, sigma = nearest_rows._solve(scaled)
+        sure = nearest_rows._evaluate(scaled, tau, sigma).gap_error == 0
     ended = sigma == 0
     assert (ended & ~beyond).any()
     assert not (ended & ~beyond & sure).any()
@@ -181,7 +181,7 @@ def test_the_gap_is_within_its_bound_where_nothing_but_roundings_is_left():
     """With the poles far away the gap is F²/(2|F′|), which float64 rounds."""
     rng = np.random.default_rng(22)
     slope, curvature = 2.0 ** rng.uniform(-60, 5, (2, 500))
-    found, error = upright_distances._gap(slope, np.zeros(500), curvature, np.full(500, 2.0**300))
+    found, error = nearest_rows._gap(slope, np.zeros(500), curvature, np.full(500, 2.0**300))
     exact = [Fraction(each) ** 2 / (2 * Fraction(bend)) for each, bend in zip(slope, curvature, strict=True)]
     assert (np.abs(exactly(found) - exact) <= exactly(error)).all()
     assert (exactly(found) != exact).any()
@@ -193,7 +193,7 @@ def test_the_clearance_of_an_exactly_known_squared_distance_is_within_its_bound(
     rng = np.random.default_rng(23)
     high = 2.0**order * rng.uniform(1, 4, 300)
     squared = two_sum(high, high * 2.0**-53 * rng.uniform(-1, 1, 300))
-    (first, second), error = upright_distances._clearance(squared, np.zeros(300))
+    (first, second), error = nearest_rows._clearance(squared, np.zeros(300))
     with mp.workprec(400):
         for s, low, one, two, bound in zip(*squared, first, second, error, strict=True):
             assert abs(mpf(one) + mpf(two) - (mp.sqrt(mpf(s) + mpf(low)) - 1)) <= bound
