@@ -18,9 +18,7 @@ from typing import Any
 from hypcheck.errors import Exit, HypcheckError
 from hypcheck.geometry.pair import HEIGHTS, TILTED_COLUMNS, TILTED_SWEEP_COLUMNS, Pair, Position
 from hypcheck.kernel.scalar import distance_at_once
-from hypcheck.messages import counted
-from hypcheck.proof_text import is_rule, proof_as_json, proof_lines
-from hypcheck.tables.numbers import equals_text, exact_text, readable_text
+from hypcheck.proof_text import is_rule, passage_proof_as_json, passage_proof_lines, proof_as_json, proof_lines
 from hypcheck.truth import exact
 from hypcheck.truth.certificate import Certificate, PassageCertificate, check_certificate, check_passage
 from hypcheck.truth.exact import Decision
@@ -276,23 +274,13 @@ def sweep_as_json(answer: SweepAnswer) -> str:
             "first": answer.first,
             "start": answer.passage.start.label,
             "end": answer.passage.end.label,
-            "proof": None if answer.certificate is None else _passage_proof_as_json(answer.certificate),
+            "proof": None if answer.certificate is None else passage_proof_as_json(answer.certificate),
         }
     )
 
 
 def _hit_label(answer: SweepAnswer) -> str:
     return "contact" if answer.passage.hit else "clear"
-
-
-def _passage_proof_as_json(certificate: PassageCertificate) -> dict[str, Any]:
-    time, root = certificate.time, certificate.double_root
-    return {
-        "pieces": [list(map(exact_text, piece)) for piece in certificate.pieces],
-        "time": None if time is None else exact_text(time),
-        "points": [list(map(exact_text, point)) for point in certificate.points],
-        "double_root": None if root is None else exact_text(root),
-    }
 
 
 def sweep_as_text(answer: SweepAnswer) -> str:
@@ -303,31 +291,5 @@ def sweep_as_text(answer: SweepAnswer) -> str:
         lower, upper = answer.first
         lines.append(f"first      contact between the times {lower!r} and {upper!r}; 0 is the start, 1 the end")
     lines.append(f"ends       {sweep.start.label} at the start, {sweep.end.label} at the end")
-    proof = [_BESIDE_ENDS] if _heights_of(answer.row) else list(_passage_proof_lines(answer.certificate))
+    proof = list(passage_proof_lines(answer.certificate, ended=bool(_heights_of(answer.row))))
     return "\n".join([*lines, f"proof      {proof[0]}", *(f"{'':11}{line}" for line in proof[1:])])
-
-
-_BESIDE_ENDS = "none is written if the hyperboloid ends: the times are decided in integers (docs/motion.md)."
-
-_MOST_PIECES = 4
-"""The text shows so many pieces of a proof."""
-
-
-def _passage_proof_lines(certificate: PassageCertificate | None) -> Iterator[str]:
-    if certificate is None:
-        yield "none in rational numbers: the surfaces touch only at an irrational time"
-        return
-    for at, end in certificate.pieces[:_MOST_PIECES]:
-        yield f"λ {equals_text(at)} proves the sweep clear up to the time {readable_text(end)};"
-    if more := len(certificate.pieces[_MOST_PIECES:]):
-        until = readable_text(certificate.pieces[-1][1])
-        yield f"{counted(more, 'piece')} more up to the time {until} (--json has all);"
-    if certificate.time is None:
-        yield "so it is clear all along: det(S + λH) > 0 on the piece of each λ (docs/motion.md)."
-        return
-    time = readable_text(certificate.time)
-    if certificate.double_root is not None:
-        yield f"at the time {time} the surfaces touch: m {equals_text(certificate.double_root)} is a double root."
-        return
-    yield f"at the time {time} the spheroid has these points, on both sides of the hyperboloid or on it:"
-    yield ", ".join(f"({', '.join(map(readable_text, point))})" for point in certificate.points) + "."

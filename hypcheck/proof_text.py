@@ -1,11 +1,11 @@
-"""A certificate about a pair as JSON and as lines of text, with the numbers that check it by hand.
+"""A certificate about a pair, or a sweep, as JSON and as lines of text, with the numbers that check it by hand.
 
 docs/mathematics.md, "A certificate for every answer", explains the numbers.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -13,7 +13,7 @@ from typing import Any
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.messages import counted
 from hypcheck.tables.numbers import equals_text, exact_text, readable_text
-from hypcheck.truth.certificate import Certificate, Piece, Point, pivots, surfaces
+from hypcheck.truth.certificate import Certificate, PassageCertificate, Piece, Point, pivots, surfaces
 from hypcheck.truth.pencil import quartic
 
 
@@ -34,7 +34,7 @@ class PairSquares:
     @classmethod
     def of(cls, pair: Pair) -> PairSquares:
         """The four numbers of a pair, exact."""
-        alpha, gamma, b, d, x, y, z = map(Fraction, pair.row)
+        alpha, gamma, b, d, x, y, z = map(Fraction, pair.row[:7])
         return cls((alpha / b) ** 2, (gamma / d) ** 2, (x * x + y * y) / (b * b), (z / d) ** 2)
 
     def g(self, at: Fraction) -> Fraction:
@@ -304,3 +304,42 @@ def _point_lines(pair: Pair, points: Sequence[Point]) -> list[str]:
         f"{equals_text(height_of_point(pair, point))},"
         for point in points
     ]
+
+
+def passage_proof_as_json(certificate: PassageCertificate) -> dict[str, Any]:
+    """A certificate about a sweep as values for JSON."""
+    time, root = certificate.time, certificate.double_root
+    return {
+        "pieces": [list(map(exact_text, piece)) for piece in certificate.pieces],
+        "time": None if time is None else exact_text(time),
+        "points": [list(map(exact_text, point)) for point in certificate.points],
+        "double_root": None if root is None else exact_text(root),
+    }
+
+
+_MOST_PIECES = 4
+"""The text shows so many pieces of a proof."""
+
+
+def passage_proof_lines(certificate: PassageCertificate | None, *, ended: bool = False) -> Iterator[str]:
+    """A certificate about a sweep as lines of text; there is none if the hyperboloid ends."""
+    if ended:
+        yield "none is written if the hyperboloid ends: the times are decided in integers (docs/motion.md)."
+        return
+    if certificate is None:
+        yield "none in rational numbers: the surfaces touch only at an irrational time"
+        return
+    for at, end in certificate.pieces[:_MOST_PIECES]:
+        yield f"λ {equals_text(at)} proves the sweep clear up to the time {readable_text(end)};"
+    if more := len(certificate.pieces[_MOST_PIECES:]):
+        until = readable_text(certificate.pieces[-1][1])
+        yield f"{counted(more, 'piece')} more up to the time {until} (--json has all);"
+    if certificate.time is None:
+        yield "so it is clear all along: det(S + λH) > 0 on the piece of each λ (docs/motion.md)."
+        return
+    time = readable_text(certificate.time)
+    if certificate.double_root is not None:
+        yield f"at the time {time} the surfaces touch: m {equals_text(certificate.double_root)} is a double root."
+        return
+    yield f"at the time {time} the spheroid has these points, on both sides of the hyperboloid or on it:"
+    yield ", ".join(f"({', '.join(map(readable_text, point))})" for point in certificate.points) + "."

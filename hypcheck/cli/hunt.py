@@ -228,15 +228,11 @@ Ends with 0 if the simplest row is shown, 2 if the answer to CASE is not wrong, 
 @about_one_implementation
 def minimise(spec: str, case: str, **subject: Any) -> None:  # noqa: ANN401
     """Simplify, and print the result."""
-    from hypcheck.answer import answer, answer_as_text
-    from hypcheck.geometry.rows import SWEEPS
+    from hypcheck.answer import answer, answer_as_text, sweep_answer, sweep_as_text
     from hypcheck.runs.minimise import minimise as simplify
     from hypcheck.runs.minimise import minimised_lines
     from hypcheck.runs.replay import case_of
     from hypcheck.vectors.families import is_extreme
-    from hypcheck.vectors.format import content_with
-    from hypcheck.vectors.labels import labelled
-    from hypcheck.vectors.showing import sweep_answer_lines
 
     start = case_of(case)
     with _target(spec, **subject) as target:
@@ -244,12 +240,9 @@ def minimise(spec: str, case: str, **subject: Any) -> None:  # noqa: ANN401
     for line in minimised_lines(run):
         click.echo(printable(line))
     row = run.last.case.row
-    if run.target.layout.has_end:
-        click.echo("\nthe right answer")
-        content = content_with(SWEEPS.groups(row))
-        click.echo("\n".join(sweep_answer_lines(*labelled(content, [("", row)]))))
-    else:
-        click.echo(f"\nthe right answer: {answer_as_text(answer(Pair.from_row(row)))}")
+    is_sweep = run.target.layout.has_end
+    right = sweep_as_text(sweep_answer(row)) if is_sweep else answer_as_text(answer(Pair.from_row(row)))
+    click.echo(f"\nthe right answer: {right}")
 
 
 _REPLAY_HELP = """\

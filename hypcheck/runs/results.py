@@ -34,7 +34,6 @@ from hypcheck.runs.tally import STATUS_CODES, counts_of
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import is_extreme
 from hypcheck.vectors.format import CaseFile
-from hypcheck.vectors.invalid_rows import InvalidRow
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,13 +150,13 @@ class InvalidRows:
         return len(self.file.cases)
 
     @property
-    def file(self) -> CaseFile[InvalidRow]:
+    def file(self) -> CaseFile:
         """The rows."""
         return frozen.load(self.family)
 
     def name(self, index: int) -> str:
         """The id of a case."""
-        return self.file.cases[index].id
+        return self.file.ids[index]
 
     def place(self, index: int) -> Place:
         """The place of a case among the invalid rows."""

@@ -6,10 +6,10 @@ file, and invalid_rows.py has the rows that must be refused.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Any, cast
+from typing import Any
 
 from hypcheck import strict
 from hypcheck.geometry.pair import Position
@@ -27,8 +27,6 @@ from hypcheck.vectors.format import (
     Content,
     a_number,
     a_rational,
-    a_text,
-    check_hex,
     content_of,
     document_text,
     file_of,
@@ -67,35 +65,56 @@ class StoredCertificate:
 
 @dataclass(frozen=True, slots=True)
 class Vector:
-    """A case about a position: a valid row (a given −0.0 is kept), its labels, and their proof.
+    """A case with an answer about a pair or a sweep: a valid row (a given −0.0 is kept), its labels, and their proof.
 
-    `kind` is None for a tilted spheroid. `clearance` is in spheroid radii, to within an ulp, inf beyond float64.
-    `flips` has the distance to each other position as a bracket; for upright spheroids both ends are the distance that
-    truth/backward_error.py measures. If the hyperboloid ends, `kind`, `clearance` and `flips` are missing. `flags` are
-    names out of flags.FLAGS or flags.TILTED_FLAGS.
+    `answer`: of a pair its position, of a sweep 1 for contact somewhere on it, its ends included, and 0 for none.
+    `flags` are names out of the file's. Other labels are None, False or empty if the file has no such field.
+
+    Of a pair: `kind` is not that of a tilted spheroid. `clearance` is in spheroid radii, to within an ulp, inf beyond
+    float64. `flips` has the distance to each other position as a bracket; for upright spheroids both ends are the
+    distance that truth/backward_error.py measures. If the hyperboloid ends, all three are missing.
+
+    Of a sweep: `first` are bounds of the time of first contact: two neighbouring float64 numbers, or 0 twice; None if
+    the sweep is clear. If the hyperboloid ends, they need not be neighbours, and only the exact decision proves them.
     """
 
     id: str
     row: Row
-    position: Position
-    tangent: bool
-    witness: StoredCertificate
+    answer: int
+    witness: StoredCertificate = StoredCertificate()
+    tangent: bool = False
     kind: Kind | None = None
     clearance: float | None = None
     flips: Mapping[Position, Bracket] = field(default_factory=dict)
+    first: Bounds | None = None
     flags: tuple[str, ...] = ()
 
     @property
-    def answer(self) -> int:
-        """The position as a number."""
-        return int(self.position)
+    def position(self) -> Position:
+        """The answer about a pair."""
+        return Position(self.answer)
+
+    @property
+    def hit(self) -> bool:
+        """The answer about a sweep."""
+        return bool(self.answer)
 
     @property
     def certificate(self) -> Certificate:
-        """The certificate of the position, with points in the caller's coordinates."""
+        """The certificate of the position of a pair, with points in the caller's coordinates."""
         points = tuple(point_at(self.row, offset) for offset in self.witness.offsets)
         witness = self.witness
         return Certificate(self.position, witness.multiplier, points, witness.double_root, witness.pieces)
+
+    @property
+    def passage_certificate(self) -> PassageCertificate:
+        """The certificate of the answer about a sweep, with points in the caller's coordinates."""
+        witness = self.witness
+        if witness.time is None:
+            return PassageCertificate(witness.steps)
+        here = row_at(self.row, witness.time)
+        points = tuple(point_at(here, offset) for offset in witness.offsets)
+        return PassageCertificate(witness.steps, witness.time, points, witness.double_root)
 
 
 def row_at(row: Row, time: Fraction) -> ExactRow:
@@ -124,44 +143,6 @@ def offset_to(row: ExactRow, point: Offset) -> Offset:
     return s, t, w
 
 
-@dataclass(frozen=True, slots=True)
-class SweepVector:
-    """A case about a sweep: a valid row of ten, thirteen or sixteen numbers, its answer, and the proof.
-
-    `first` are bounds of the time of first contact: two neighbouring float64 numbers, or 0 twice; None if the sweep is
-    clear. If the hyperboloid ends, they need not be neighbours, and only the exact decision proves the answer.
-    """
-
-    id: str
-    row: Row
-    first: Bounds | None
-    witness: StoredCertificate
-    flags: tuple[str, ...] = ()
-
-    @property
-    def hit(self) -> bool:
-        """Whether there is contact somewhere on the sweep, its ends included."""
-        return self.first is not None
-
-    @property
-    def answer(self) -> int:
-        """1 for contact on the sweep, 0 for none."""
-        return int(self.hit)
-
-    @property
-    def certificate(self) -> PassageCertificate:
-        """The certificate of the answer, with points in the caller's coordinates."""
-        witness = self.witness
-        if witness.time is None:
-            return PassageCertificate(witness.steps)
-        here = row_at(self.row, witness.time)
-        points = tuple(point_at(here, offset) for offset in witness.offsets)
-        return PassageCertificate(witness.steps, witness.time, points, witness.double_root)
-
-
-AnyVector = Vector | SweepVector
-"""A case with an answer."""
-
 _CERTIFICATES = ("multiplier", "points", "double_root")
 _PASSAGE_FIELDS = ("pieces", "time", "points", "double_root")
 _KINDS = {kind.value: kind for kind in Kind}
@@ -178,7 +159,7 @@ def case_fields(content: Content) -> tuple[str, ...]:
     return (*head, "position", "tangent", *measures, "certificate", "flags")
 
 
-def read_cases(path: str, content: Content | None = None) -> CaseFile[Any]:
+def read_cases(path: str, content: Content | None = None) -> CaseFile:
     """The vector file at `path`, with that content, if one is given.
 
     Raises InputError if it does not conform to the schema.
@@ -186,7 +167,7 @@ def read_cases(path: str, content: Content | None = None) -> CaseFile[Any]:
     return cases_of(read_document(path), content)
 
 
-def cases_of(document: JsonDocument, content: Content | None = None) -> CaseFile[Any]:
+def cases_of(document: JsonDocument, content: Content | None = None) -> CaseFile:
     """The vector file that a document is, as read_cases reads it. Raises InputError."""
     actual = content_of(document)
     if content is not None and content is not actual:
@@ -194,32 +175,36 @@ def cases_of(document: JsonDocument, content: Content | None = None) -> CaseFile
         document.refuse(("content",), f"content is {actual.name!r}; here it must be {wanted}")
     if actual.refused:
         return invalid_rows_of(document)
-    return file_of(document, case_fields(actual), _sweep_case if actual.about_sweeps else _position_case)
+    return file_of(document, case_fields(actual), _case)
 
 
-def _position_case(name: str, table: StrictTable, content: Content, flags: Mapping[str, FlagFacts]) -> Vector:
-    fields, position = case_fields(content), table.required("position", _position)
-    clearance = None
-    if "clearance" in fields:
-        clearance = table.required("clearance", _measure)
-        check_hex(table, "clearance_hex", table.required("clearance_hex", a_text), clearance)
+def _case(name: str, table: StrictTable, content: Content, flags: Mapping[str, FlagFacts]) -> Vector:
+    fields = case_fields(content)
+    labels = {key: table.required(key, check) for key, check in _CHECKS.items() if key in fields}
+    for key, (other, derived) in _DERIVED.items():
+        if key in fields:
+            table.required(key, _equal_to(derived(labels[other]), other))
+    position = labels.pop("position", None)
+    if "flips" in fields:
+        labels["flips"] = _flips(table, Position(position), _bracket if content.tilted else _distance)
+    if "certificate" in fields:
+        witness = _passage(table) if content.about_sweeps else _certificate(table, ended=content.ended)
+    else:
+        witness = StoredCertificate()
     return Vector(
         id=name,
         row=row_of(table, content),
-        position=position,
-        tangent=table.required("tangent", strict.truth),
-        kind=table.required("kind", _kind) if "kind" in fields else None,
-        clearance=clearance,
-        flips=_flips(table, position, _bracket if content.tilted else _distance) if "flips" in fields else {},
-        witness=_certificate(table, ended=content.ended),
+        answer=int(labels["first"] is not None) if position is None else position,
+        witness=witness,
         flags=flags_of_case(table, flags) if "flags" in fields else (),
+        **labels,
     )
 
 
-def _position(value: object) -> Position:
+def _position(value: object) -> int:
     if not is_integer(value) or value not in (-1, 0, 1):
         raise ValueError("1, 0 or -1")
-    return Position(value)
+    return Position(value).value
 
 
 def _kind(value: object) -> Kind:
@@ -235,6 +220,44 @@ _number_or_inf = strict.or_word("inf", a_number)
 def _measure(value: object) -> float:
     """A number, or inf."""
     return float(_number_or_inf(value))
+
+
+def _first(value: object) -> Bounds | None:
+    if value is None:
+        return None
+    wanted = "null, or two times from 0 to 1, the lower first"
+    lower, upper = strict.list_of(a_number, wanted, 2, 2)(value)
+    if not 0 <= lower <= upper <= 1:
+        raise ValueError(wanted)
+    return lower, upper
+
+
+_CHECKS: Mapping[str, Check[Any]] = {
+    "position": _position,
+    "tangent": strict.truth,
+    "kind": _kind,
+    "clearance": _measure,
+    "first": _first,
+}
+"""The checks of fields that hold a label."""
+
+_DERIVED: Mapping[str, tuple[str, Callable[[Any], object]]] = {
+    "clearance_hex": ("clearance", hex_of),
+    "hit": ("first", lambda first: first is not None),
+    "first_hex": ("first", lambda first: None if first is None else list(map(hex_of, first))),
+}
+"""The fields that follow from another: which one, and how."""
+
+
+def _equal_to(right: object, other: str) -> Check[object]:
+    """A check for what follows from another field."""
+
+    def check(value: object) -> object:
+        if value != right or type(value) is not type(right):
+            raise ValueError(f"{json_text(right)}, which follows from the field {other}")
+        return value
+
+    return check
 
 
 def _flips(table: StrictTable, position: Position, read: Check[Bracket]) -> Mapping[Position, Bracket]:
@@ -296,37 +319,6 @@ def _offset(value: object) -> Offset:
     return s, t, w
 
 
-def _sweep_case(name: str, table: StrictTable, content: Content, flags: Mapping[str, FlagFacts]) -> SweepVector:
-    row, first = row_of(table, content), table.required("first", _first)
-    wanted = {"hit": first is not None, "first_hex": None if first is None else list(map(hex_of, first))}
-    for key, right in wanted.items():
-        table.required(key, _equal_to(right))
-    if content.ended:
-        return SweepVector(name, row, first, StoredCertificate())
-    return SweepVector(name, row, first, _passage(table), flags_of_case(table, flags))
-
-
-def _equal_to(right: object) -> Check[object]:
-    """A check for what follows from the other fields."""
-
-    def check(value: object) -> object:
-        if value != right or type(value) is not type(right):
-            raise ValueError(f"{json_text(right)}, which follows from the field first")
-        return value
-
-    return check
-
-
-def _first(value: object) -> Bounds | None:
-    if value is None:
-        return None
-    wanted = "null, or two times from 0 to 1, the lower first"
-    lower, upper = strict.list_of(a_number, wanted, 2, 2)(value)
-    if not 0 <= lower <= upper <= 1:
-        raise ValueError(wanted)
-    return lower, upper
-
-
 def _passage(table: StrictTable) -> StoredCertificate:
     proof = table.required_table("certificate", _PASSAGE_FIELDS)
     steps = proof.required("pieces", strict.list_of(_step, "a list of pieces"))
@@ -346,53 +338,46 @@ def _rational_or_null(value: object) -> Fraction | None:
     return None if value is None else a_rational(value)
 
 
-def cases_text(file: CaseFile[Any]) -> str:
+def cases_text(file: CaseFile) -> str:
     """The whole document."""
     return document_text(file, (case_text(case, file.content) for case in file.cases))
 
 
-def case_text(case: AnyVector | InvalidRow, content: Content) -> str:
+def case_text(case: Vector | InvalidRow, content: Content) -> str:
     """One case of a file with that content, an object on one line."""
-    if content.refused:
-        return invalid_row_text(cast("InvalidRow", case))
-    members = _sweep_members if content.about_sweeps else _position_members
-    held = {
-        "id": json_text(case.id),
-        "row": numbers_text(case.row),
-        "hex": json_text([hex_of(value) for value in case.row]),
-        **members(cast("Any", case), content),
-    }
-    return object_text({name: held[name] for name in case_fields(content)})
+    if isinstance(case, InvalidRow):
+        return invalid_row_text(case)
+    return object_text({name: _TEXTS[name](case, content) for name in case_fields(content)})
 
 
-def _position_members(case: Vector, content: Content) -> dict[str, str]:
-    members = {
-        "position": str(case.answer),
-        "tangent": json_text(case.tangent),
-        "certificate": json_text(_certificate_members(case.witness)),
-        "flags": json_text(case.flags),
-    }
-    if case.kind is not None:
-        members["kind"] = json_text(case.kind.value)
-    if case.clearance is not None:
-        members |= {"clearance": decimal_of(case.clearance), "clearance_hex": json_text(hex_of(case.clearance))}
-    flips = {
-        other.label: numbers_text((flip.lower, flip.upper)) if content.tilted else decimal_of(flip.upper)
-        for other, flip in case.flips.items()
-    }
-    return members | {"flips": object_text(flips)}
+def _flips_text(case: Vector, content: Content) -> str:
+    return object_text(
+        {
+            other.label: numbers_text((flip.lower, flip.upper)) if content.tilted else decimal_of(flip.upper)
+            for other, flip in case.flips.items()
+        }
+    )
 
 
-def _certificate_members(witness: StoredCertificate) -> dict[str, Any]:
+def _certificate_text(case: Vector, content: Content) -> str:
+    witness = case.witness
+    points = [list(map(exact_text, point)) for point in witness.offsets]
+    if content.about_sweeps:
+        return json_text(
+            {
+                "pieces": [list(map(exact_text, step)) for step in witness.steps],
+                "time": None if witness.time is None else exact_text(witness.time),
+                "points": points,
+                "double_root": None if witness.double_root is None else exact_text(witness.double_root),
+            }
+        )
     if witness.multiplier is not None:
-        return {"multiplier": exact_text(witness.multiplier)}
+        return json_text({"multiplier": exact_text(witness.multiplier)})
     if witness.double_root is not None:
-        return {"double_root": exact_text(witness.double_root)}
+        return json_text({"double_root": exact_text(witness.double_root)})
     if witness.pieces:
-        return {"pieces": [_piece_members(piece) for piece in witness.pieces]}
-    if not witness.offsets:
-        return {"rule": "height"}
-    return {"points": [list(map(exact_text, point)) for point in witness.offsets]}
+        return json_text({"pieces": [_piece_members(piece) for piece in witness.pieces]})
+    return json_text({"points": points} if points else {"rule": "height"})
 
 
 def _piece_members(piece: Piece) -> list[str]:
@@ -401,18 +386,23 @@ def _piece_members(piece: Piece) -> list[str]:
     return [low, high, exact_text(piece.multiplier), exact_text(piece.plane)]
 
 
-def _sweep_members(case: SweepVector, _content: Content) -> dict[str, str]:
-    first, witness = case.first, case.witness
-    proof = {
-        "pieces": [list(map(exact_text, step)) for step in witness.steps],
-        "time": None if witness.time is None else exact_text(witness.time),
-        "points": [list(map(exact_text, point)) for point in witness.offsets],
-        "double_root": None if witness.double_root is None else exact_text(witness.double_root),
-    }
-    return {
-        "hit": json_text(case.hit),
-        "first": "null" if first is None else numbers_text(first),
-        "first_hex": json_text(None if first is None else list(map(hex_of, first))),
-        "certificate": json_text(proof),
-        "flags": json_text(case.flags),
-    }
+def _derived_text(name: str) -> Callable[[Any, Content], str]:
+    other, derived = _DERIVED[name]
+    return lambda case, _: json_text(derived(getattr(case, other)))
+
+
+_TEXTS: Mapping[str, Callable[[Any, Content], str]] = {
+    "id": lambda case, _: json_text(case.id),
+    "row": lambda case, _: numbers_text(case.row),
+    "hex": lambda case, _: json_text(list(map(hex_of, case.row))),
+    "position": lambda case, _: str(case.answer),
+    "tangent": lambda case, _: json_text(case.tangent),
+    "kind": lambda case, _: json_text(case.kind.value),
+    "clearance": lambda case, _: decimal_of(case.clearance),
+    "flips": _flips_text,
+    "first": lambda case, _: "null" if case.first is None else numbers_text(case.first),
+    **{name: _derived_text(name) for name in _DERIVED},
+    "certificate": _certificate_text,
+    "flags": lambda case, _: json_text(case.flags),
+}
+"""The JSON text of each field of a case."""

@@ -18,7 +18,6 @@ import json
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from itertools import chain
-from typing import Any
 
 from hypcheck.errors import NothingJudgedError
 from hypcheck.geometry.pair import Pair, Position
@@ -34,9 +33,7 @@ from hypcheck.truth.passage_error import scaled_passage
 from hypcheck.truth.roots import classify_by_roots
 from hypcheck.vectors import frozen
 from hypcheck.vectors.cases import (
-    AnyVector,
     StoredCertificate,
-    SweepVector,
     Vector,
     cases_of,
 )
@@ -56,7 +53,7 @@ class LabelFault:
     sentence: str
 
 
-def faults_of(file: CaseFile[Any]) -> list[LabelFault]:
+def faults_of(file: CaseFile) -> list[LabelFault]:
     """Every wrong label of a file of cases, in order; for rows to refuse, each wrong claim about the faulty columns."""
     sentences_of_cases: Iterable[Iterator[str]]
     if file.content.refused:
@@ -77,7 +74,7 @@ def _wrong_columns(case: InvalidRow, columns: tuple[str, ...]) -> Iterator[str]:
         yield f"{claim}, but {', '.join(actual) or 'none'} is"
 
 
-def _of_positions(file: CaseFile[Any]) -> Iterator[Iterator[str]]:
+def _of_positions(file: CaseFile) -> Iterator[Iterator[str]]:
     content, cases = file.content, file.cases
     pairs = [Pair.from_row(case.row) for case in cases]
     truths = [exact.decide(pair.lengths) for pair in pairs]
@@ -164,20 +161,20 @@ def _proved_lower_ends(cases: Sequence[Vector]) -> list[set[Position]]:
     return proved
 
 
-def _of_sweeps(file: CaseFile[Any]) -> Iterator[Iterator[str]]:
+def _of_sweeps(file: CaseFile) -> Iterator[Iterator[str]]:
     return map(_ended_sweep_sentences if file.content.ended else _sweep_sentences, file.cases)
 
 
-def _sweep_sentences(case: SweepVector) -> Iterator[str]:
-    if not check_passage(case.row, case.certificate, case.first):
+def _sweep_sentences(case: Vector) -> Iterator[str]:
+    if not check_passage(case.row, case.passage_certificate, case.first):
         if case.first is None:
             yield "the certificate does not prove that the sweep is clear"
-        elif contact_at(case.row, case.certificate) is None:
+        elif contact_at(case.row, case.passage_certificate) is None:
             yield "the certificate does not prove contact at its time"
         else:
             times_text = f"{decimal_of(case.first[0])} … {decimal_of(case.first[1])}"
             yield f"the certificate does not prove that the first contact is at {times_text}"
-    yield from _wrong_flags(case, sweep_flags(case.row, case.first, case.certificate))
+    yield from _wrong_flags(case, sweep_flags(case.row, case.first, case.passage_certificate))
 
 
 _TIMES = 16
@@ -187,7 +184,7 @@ _SLACK = 2.0**-30
 """The test uses a spheroid that is smaller or larger by this part, so that a rounded centre does not matter."""
 
 
-def _ended_sweep_sentences(case: SweepVector) -> Iterator[str]:
+def _ended_sweep_sentences(case: Vector) -> Iterator[str]:
     """For a sweep if the hyperboloid ends: compare with a new exact decision and with the least value."""
     truth = scaled_passage(case.row)
     first = (truth.first_lower, truth.first_upper) if truth.hit else None
@@ -212,7 +209,7 @@ def _least_at(row: Row, time: float, scale: float) -> Position | None:
     return least.position(Pair.from_row((alpha, gamma, b * scale, d * scale, *centre, *others[6:])))
 
 
-def _wrong_flags(case: AnyVector, flags: Sequence[str]) -> Iterator[str]:
+def _wrong_flags(case: Vector, flags: Sequence[str]) -> Iterator[str]:
     if set(flags) != set(case.flags):
         yield f"flags are {', '.join(case.flags) or 'none'}; they are {', '.join(flags) or 'none'}"
 

@@ -11,7 +11,7 @@ import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict, dataclass, field
 from fractions import Fraction
-from typing import Any, Generic, Protocol, TypeVar
+from typing import Any
 
 import numpy as np
 
@@ -117,32 +117,17 @@ def content_with(groups: Groups = NO_GROUPS, *, refused: bool = False) -> Conten
     return match
 
 
-class AnyCase(Protocol):
-    """The common attributes of all cases: the permanent `id`, the numbers of the row, the right answer."""
-
-    @property
-    def id(self) -> str: ...  # noqa: D102
-
-    @property
-    def row(self) -> Row: ...  # noqa: D102
-
-    @property
-    def answer(self) -> int: ...  # noqa: D102
-
-
-Case = TypeVar("Case", bound=AnyCase)
-
-
 @dataclass(frozen=True)
-class CaseFile(Generic[Case]):
-    """A file of cases. `lines` are the line numbers of its cases, for messages; 0 if the file was not read.
+class CaseFile:
+    """A file of cases, each of which has an `id`, the numbers of a `row`, and the right `answer` as a number.
 
-    `flags` has the meanings of the flags of its cases.
+    `flags` has the meanings of the flags of its cases. `lines` are the line numbers of its cases, for messages; 0 if
+    the file was not read.
     """
 
     head: Metadata
     content: Content
-    cases: tuple[Case, ...]
+    cases: tuple[Any, ...]
     flags: Mapping[str, FlagFacts] = field(default_factory=dict)
     lines: tuple[int, ...] = field(default=(), compare=False, repr=False)
 
@@ -161,7 +146,7 @@ class CaseFile(Generic[Case]):
         """The right answers, int8 (n,): positions, hits on sweeps, or REFUSED."""
         return np.asarray([case.answer for case in self.cases], dtype=np.int8)
 
-    def numbered_cases(self) -> Iterable[tuple[int, Case]]:
+    def numbered_cases(self) -> Iterable[tuple[int, Any]]:
         """Pairs of a line number and its case."""
         return zip(self.lines or (0,) * len(self.cases), self.cases, strict=True)
 
@@ -235,11 +220,11 @@ def _flags(table: StrictTable) -> Mapping[str, FlagFacts]:
     }
 
 
-ReadCase = Callable[[str, StrictTable, Content, Mapping[str, FlagFacts]], Case]
+ReadCase = Callable[[str, StrictTable, Content, Mapping[str, FlagFacts]], Any]
 """What makes a case of its id and its fields. Raises InputError."""
 
 
-def file_of(document: JsonDocument, names: tuple[str, ...], read: ReadCase[Case]) -> CaseFile[Case]:
+def file_of(document: JsonDocument, names: tuple[str, ...], read: ReadCase) -> CaseFile:
     """The file of a document whose cases have these fields. Raises InputError."""
     content = content_of(document)
     head, flags = read_metadata(document)
@@ -340,7 +325,7 @@ def is_integer(value: Any) -> bool:  # noqa: ANN401 - JSON
     return isinstance(value, int) and not isinstance(value, bool)
 
 
-def document_text(file: CaseFile[Case], cases: Iterable[str]) -> str:
+def document_text(file: CaseFile, cases: Iterable[str]) -> str:
     """The whole document, ASCII except for the descriptions, with an end of line after every case; these are text."""
     lines = list(cases)
     described = []

@@ -13,7 +13,6 @@ import struct
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 from hypcheck.answer import DisagreementError
 from hypcheck.errors import InputError
@@ -21,7 +20,7 @@ from hypcheck.geometry.pair import Groups
 from hypcheck.geometry.rows import Rows
 from hypcheck.tables.streams import replace_output
 from hypcheck.vectors import cancellation
-from hypcheck.vectors.cases import AnyVector, cases_text, read_cases
+from hypcheck.vectors.cases import Vector, cases_text, read_cases
 from hypcheck.vectors.checking import faults_of
 from hypcheck.vectors.families import ALL, case_id, parse_case_id
 from hypcheck.vectors.family import Family, Metadata, Row, described
@@ -57,7 +56,7 @@ def freeze(names: Iterable[str], folder: Path, done: Progress = lambda _: None) 
         done(name)
 
 
-def _earlier(name: str, path: Path) -> CaseFile[Any] | None:
+def _earlier(name: str, path: Path) -> CaseFile | None:
     """The existing file of that name. Raises InputError if it is not valid."""
     before = read_cases(str(path), _content_of(name)) if path.exists() else None
     if before is not None and before.head.name != name:
@@ -65,7 +64,7 @@ def _earlier(name: str, path: Path) -> CaseFile[Any] | None:
     return before
 
 
-def _text(name: str, before: CaseFile[Any] | None) -> str:
+def _text(name: str, before: CaseFile | None) -> str:
     file = frozen_invalid_rows(name, before) if name in INVALID_CONTENTS else frozen(name, before)
     for fault in faults_of(file):
         raise DisagreementError(
@@ -87,7 +86,7 @@ def content_of_family(family: Family) -> Content:
     return content_with(family.groups)
 
 
-def frozen(name: str, before: CaseFile[Any] | None = None) -> CaseFile[Any]:
+def frozen(name: str, before: CaseFile | None = None) -> CaseFile:
     """The file of that name. Cases of an earlier file keep their ids and places, and labels that are slow to make.
 
     Labels of positions of upright spheroids are fast: all of them are made again.
@@ -99,14 +98,14 @@ def frozen(name: str, before: CaseFile[Any] | None = None) -> CaseFile[Any]:
     return assembled(head_of(name), content, (*kept_cases, *labelled(content, cases[len(kept_cases) :])))
 
 
-def assembled(head: Metadata, content: Content, cases: Sequence[AnyVector]) -> CaseFile[Any]:
+def assembled(head: Metadata, content: Content, cases: Sequence[Vector]) -> CaseFile:
     """A file of these cases, with the meaning of the flags that they have."""
     used = {flag for case in cases for flag in case.flags}
     flags = {name: facts for name, facts in content.flags.items() if name in used}
     return CaseFile(head, content, tuple(cases), flags)
 
 
-def _named(cases: Iterable[AnyVector]) -> list[tuple[str, Row]]:
+def _named(cases: Iterable[Vector]) -> list[tuple[str, Row]]:
     return [(case.id, case.row) for case in cases]
 
 
@@ -134,7 +133,7 @@ def _next_number(ids: Iterable[str]) -> int:
     return 1 + max((int(match.group(1)) for match in matches if match), default=-1)
 
 
-def generated_case(name: str) -> tuple[AnyVector, Content]:
+def generated_case(name: str) -> tuple[Vector, Content]:
     """The generated case of that id, labelled and proved, and the content of its file. Raises InputError."""
     case = parse_case_id(name)
     content = content_of_family(case.family)
@@ -151,7 +150,7 @@ def generated_text(family: Family, seed: int, count: int) -> str:
     return cases_text(assembled(head, content, labelled(content, named)))
 
 
-def frozen_invalid_rows(name: str, before: CaseFile[Any] | None = None) -> InvalidRowFile:
+def frozen_invalid_rows(name: str, before: CaseFile | None = None) -> InvalidRowFile:
     """The file of rows that must be refused; rows of an earlier file keep their ids and places."""
     old_cases: tuple[InvalidRow, ...] = before.cases if before else ()
     known = {case.bits for case in old_cases}
@@ -186,7 +185,7 @@ def keep_rows(path: str, rows: Sequence[Row], made_by: str, groups: Groups) -> i
     """
     content = content_with(groups)
     there = Path(path).exists()
-    before = read_cases(path, content) if there else CaseFile[Any](described("found", made_by), content, ())
+    before = read_cases(path, content) if there else CaseFile(described("found", made_by), content, ())
     known = _named(before.cases)
     added = labelled(content, extended(before.head.name, known, rows)[len(known) :])
     with replace_output(path) as writer:

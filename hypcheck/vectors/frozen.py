@@ -10,7 +10,6 @@ import re
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
-from typing import Any
 
 from hypcheck.errors import InputError
 from hypcheck.messages import suggestion
@@ -100,6 +99,6 @@ def count_of(name: str) -> int:
 
 
 @cache
-def load(name: str) -> CaseFile[Any]:
+def load(name: str) -> CaseFile:
     """The frozen cases of that name. Raises InputError if there are none, or their file is not valid."""
     return read_cases(str(path_of(name)))

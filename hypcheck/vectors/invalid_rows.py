@@ -80,7 +80,7 @@ class InvalidRow:
         return REFUSED
 
 
-class InvalidRowFile(CaseFile[InvalidRow]):
+class InvalidRowFile(CaseFile):
     """The file of such rows."""
 
     @property

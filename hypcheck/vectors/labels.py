@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from itertools import chain, count
-from typing import Any
 
 from hypcheck.geometry.arithmetic import sign_of
 from hypcheck.geometry.pair import Pair, Position
@@ -26,7 +25,6 @@ from hypcheck.truth.prove import prove, prove_passage
 from hypcheck.vectors.cases import (
     Offset,
     StoredCertificate,
-    SweepVector,
     Vector,
     case_fields,
     offset_to,
@@ -40,7 +38,7 @@ from hypcheck.vectors.format import Content
 _MOST_BITS = 1 << 14
 
 
-def labelled(content: Content, cases: Iterable[tuple[str, Row]]) -> list[Any]:
+def labelled(content: Content, cases: Iterable[tuple[str, Row]]) -> list[Vector]:
     """Cases for a file of that content, with all labels and flags, from ids and valid rows.
 
     Raises ValueError as prove_passage does.
@@ -57,7 +55,7 @@ def _positions(content: Content, cases: Sequence[tuple[str, Row]]) -> list[Vecto
         Vector(
             id=name,
             row=row,
-            position=decision.position,
+            answer=decision.position.value,
             tangent=decision.tangent,
             kind=decision.kind if "kind" in fields else None,
             clearance=nearest(pair).clearance if "clearance" in fields else None,
@@ -69,21 +67,22 @@ def _positions(content: Content, cases: Sequence[tuple[str, Row]]) -> list[Vecto
     ]
 
 
-def _sweeps(content: Content, cases: Sequence[tuple[str, Row]]) -> list[SweepVector]:
+def _sweeps(content: Content, cases: Sequence[tuple[str, Row]]) -> list[Vector]:
     return [(_without_proof if content.ended else _with_proof)(*case) for case in cases]
 
 
-def _with_proof(name: str, row: Row) -> SweepVector:
+def _with_proof(name: str, row: Row) -> Vector:
     _, first, proof = prove_passage(row)
     here = row if proof.time is None else row_at(row, proof.time)
     offsets = tuple(offset_to(here, point) for point in proof.points)
     witness = StoredCertificate(offsets=offsets, double_root=proof.double_root, steps=proof.pieces, time=proof.time)
-    return SweepVector(name, row, first, witness, sweep_flags(row, first, proof))
+    return Vector(name, row, int(first is not None), witness, first=first, flags=sweep_flags(row, first, proof))
 
 
-def _without_proof(name: str, row: Row) -> SweepVector:
+def _without_proof(name: str, row: Row) -> Vector:
     truth = scaled_passage(row)
-    return SweepVector(name, row, (truth.first_lower, truth.first_upper) if truth.hit else None, StoredCertificate())
+    first = (truth.first_lower, truth.first_upper) if truth.hit else None
+    return Vector(name, row, int(truth.hit), first=first)
 
 
 def flips(content: Content, pair: Pair, truth: Decision) -> Mapping[Position, Bracket]:

@@ -6,19 +6,21 @@ import io
 import textwrap
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
-from typing import cast
+from itertools import chain, repeat
 
 import numpy as np
 
+from hypcheck.answer import kind_as_text
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import Position
-from hypcheck.messages import counted, suggestion
-from hypcheck.tables.numbers import equals_text, hex_of, readable_text
+from hypcheck.geometry.pair import Pair
+from hypcheck.messages import suggestion
+from hypcheck.proof_text import passage_proof_lines, proof_lines
+from hypcheck.tables.numbers import hex_of
 from hypcheck.tables.streams import open_input, replace_output
 from hypcheck.tables.strict_json import read_document
 from hypcheck.truth.backward_error import Bracket
 from hypcheck.vectors import frozen
-from hypcheck.vectors.cases import AnyVector, SweepVector, Vector, case_text
+from hypcheck.vectors.cases import Vector, case_text
 from hypcheck.vectors.families import ALL, EXTREME, case_id, family_of, select
 from hypcheck.vectors.family import Family, Metadata
 from hypcheck.vectors.format import Content, read_metadata
@@ -64,58 +66,51 @@ def family_lines(name: str) -> Iterator[str]:
         yield from _titled("flag", f"{flag}, {count} times: {facts.meaning} ({facts.bug_type})")
 
 
-def case_lines(case: AnyVector | InvalidRow, content: Content) -> Iterator[str]:
+def case_lines(case: Vector | InvalidRow, content: Content) -> Iterator[str]:
     """A case of a file with that content, with its labels and its proof."""
     yield case.id
-    if content.refused:
-        yield from _invalid_row_lines(cast("InvalidRow", case), content)
+    if isinstance(case, InvalidRow):
+        for name, value, bits in zip(content.columns, case.row, case.bits, strict=True):
+            yield f"{name:{_LABEL}}{value!r:24}{bits:016x}{'  at fault' if name in case.columns else ''}"
+        yield from _titled("expected", EXPECTED)
         return
     for name, value in zip(content.columns, case.row, strict=True):
         yield f"{name:{_LABEL}}{value!r:24}{hex_of(value)}"
-    if content.about_sweeps:
-        yield from sweep_answer_lines(cast("SweepVector", case))
-    else:
-        yield from _position_lines(cast("Vector", case), content)
-    for flag in cast("AnyVector", case).flags:
+    yield from (_sweep_lines if content.about_sweeps else _position_lines)(case)
+    for label, line in zip(chain(["proof"], repeat("")), _proof(case, content), strict=False):
+        yield f"{label:{_LABEL}}{line}"
+    for flag in case.flags:
         yield from _titled("flag", f"{flag}: {content.flags[flag].meaning}")
 
 
-def _invalid_row_lines(case: InvalidRow, content: Content) -> Iterator[str]:
-    for name, value, bits in zip(content.columns, case.row, case.bits, strict=True):
-        yield f"{name:{_LABEL}}{value!r:24}{bits:016x}{'  at fault' if name in case.columns else ''}"
-    yield from _titled("expected", EXPECTED)
-
-
-def _position_lines(case: Vector, content: Content) -> Iterator[str]:
+def _position_lines(case: Vector) -> Iterator[str]:
     yield from _titled("position", f"{case.position.label}, tangent" if case.tangent else case.position.label)
     if case.kind is not None:
-        yield from _titled("kind", f"{case.kind.value}: {case.kind.description}")
+        yield from _titled("kind", kind_as_text(case.kind))
     if case.clearance is not None:
         yield from _titled("clearance", f"{case.clearance!r} spheroid radii ({hex_of(case.clearance)})")
     for position, distance in case.flips.items():
         yield from _titled("flip", f"{position.label} if each number may change by a relative {_distance(distance)}")
-    yield from _titled("proof", (_ended_proof if content.ended else _proof)(case))
 
 
-def sweep_answer_lines(case: SweepVector) -> Iterator[str]:
-    """The answer about a sweep, and its proof."""
+def _sweep_lines(case: Vector) -> Iterator[str]:
     yield from _titled("answer", "contact on the sweep" if case.hit else "clear all along")
     if case.first is not None:
         yield from _titled("first", f"contact at t from {case.first[0]!r} to {case.first[1]!r}")
-    pieces = case.witness.steps
-    if pieces:
-        until = equals_text(pieces[-1][1])
-        yield from _titled("proof", f"clear up to t {until}, by {counted(len(pieces), 'multiplier')}")
-    if case.witness.time is not None:
-        proof = "a double root" if case.witness.double_root is not None else "points"
-        yield from _titled("proof", f"contact at t {equals_text(case.witness.time)}, by {proof}")
+
+
+def _proof(case: Vector, content: Content) -> Iterable[str]:
+    """The proof as `hypcheck classify` prints it."""
+    if not content.about_sweeps:
+        return proof_lines(Pair.from_row(case.row), case.certificate)
+    return passage_proof_lines(None if content.ended else case.passage_certificate, ended=content.ended)
 
 
 def _distance(distance: Bracket) -> str:
     return repr(distance.upper) if distance.lower == distance.upper else f"{distance.lower!r} … {distance.upper!r}"
 
 
-def case_named(name: str) -> tuple[AnyVector | InvalidRow, Content]:
+def case_named(name: str) -> tuple[Vector | InvalidRow, Content]:
     """The case with that id, frozen or generated, and the content of its file. Raises InputError if there is none."""
     if "/" in name:
         return generated_case(name)
@@ -154,41 +149,6 @@ def _metadata_lines(head: Metadata) -> Iterator[str]:
         ("made by", head.made_by),
     ):
         yield from _titled(label, text)
-
-
-def _proof(case: Vector) -> str:
-    witness, tilted = case.witness, case.kind is None
-    if witness.multiplier is not None:
-        at = f"at λ {equals_text(witness.multiplier)}"
-        if tilted:
-            return f"S + λH is positive definite {at}"
-        return f"g(λ) > 0 {at} in {'(0, c²)' if case.position is Position.EXTERIOR else '(−a², 0)'}"
-    if witness.double_root is not None:
-        root = equals_text(witness.double_root)
-        return (
-            f"det(S + λH) has the double root λ {root}, M + λD ≥ 0 there"
-            if tilted
-            else f"g has the double root m {root}"
-        )
-    points = " and ".join(f"({', '.join(map(readable_text, point))})" for point in witness.offsets)
-    where = "on the surface" if len(witness.offsets) == 1 else "on both sides of the surface"
-    step = "b (s, t, w)" if tilted else "(b s, b t, d w)"
-    return f"in the spheroid and {where}: the centre + {step} for (s, t, w) = {points}"
-
-
-def _ended_proof(case: Vector) -> str:
-    witness = case.witness
-    if witness.multiplier is not None:
-        return f"S + λH is positive definite at λ {equals_text(witness.multiplier)}, with or without ends"
-    if witness.pieces:
-        pieces = counted(len(witness.pieces), "piece")
-        return f"S + λH + μZ is positive definite in each of {pieces} of the heights"
-    if witness.offsets:
-        points = " and ".join(f"({', '.join(map(readable_text, point))})" for point in witness.offsets)
-        return (
-            f"two points of the spheroid on both sides of the border: the centre + b (s, t, w) for (s, t, w) = {points}"
-        )
-    return "the exact rule in the height"
 
 
 def _counted(names: Iterable[str]) -> str:

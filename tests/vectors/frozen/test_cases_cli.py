@@ -61,13 +61,13 @@ def test_cases_show_prints_a_case_with_its_proof(capsys):
     text = " ".join(" ".join(lines).split())
     assert "position exterior kind exterior-ring: " in text
     assert f"clearance {case.clearance!r} spheroid radii" in text
-    assert "proof g(λ) > 0 at λ = 1/8 in (0, c²)" in text
+    assert "proof λ = 1/8 lies in (0, B) and g(λ) = " in text
     touching = printed(capsys, "show", "tangent-0000")
     assert "position    contact, tangent" in touching
-    assert "g has the double root m" in touching
+    assert "is a double root of g" in touching
     crossing = " ".join(printed(capsys, "show", "osculation-0000").split())
-    assert "on both sides of the surface: the centre + (b s, b t, d w) for (s, t, w) = (0, 0, 0) and (" in crossing
-    assert "on the surface: the centre" in printed(capsys, "show", "on-surface-0000")
+    assert "two points of the spheroid (s ≤ 1) lie on different sides of the hyperboloid" in crossing
+    assert "lies on the hyperboloid (h = 0)" in printed(capsys, "show", "on-surface-0000")
     assert printed(capsys, "show", "invalid-0003").splitlines()[1].endswith("at fault")
 
 

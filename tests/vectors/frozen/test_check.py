@@ -60,7 +60,7 @@ def test_certificate_alone_finds_a_wrong_position_of_a_case(case, position):
     if position is case.position:
         return
     flips = {other: 0.5 for other in Position if other is not position}
-    assert any("the certificate" in sentence for sentence in sentences(case, position=position, flips=flips))
+    assert any("the certificate" in sentence for sentence in sentences(case, answer=int(position), flips=flips))
 
 
 @every_sample

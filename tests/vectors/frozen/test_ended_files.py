@@ -119,10 +119,10 @@ def test_shown_cases_that_end_say_their_heights_and_what_proves_them(capsys):
 @pytest.mark.parametrize(
     ("proved", "sentence"),
     [
-        (lambda witness: witness.multiplier is not None, r"S \+ λH is positive definite at λ .*, with or without ends"),
-        (lambda witness: witness.pieces, r"S \+ λH \+ μZ is positive definite in each of \d+ pieces? of the heights"),
-        (lambda witness: witness.offsets, "two points of the spheroid on both sides of the border: .* = .* and "),
-        (lambda witness: witness == StoredCertificate(), "the exact rule in the height"),
+        (lambda witness: witness.multiplier is not None, r"makes S \+ λH positive definite.*, with or without ends"),
+        (lambda witness: witness.pieces, r"cut into \d+ pieces?, each .* S \+ λH \+ μZ is positive"),
+        (lambda witness: witness.offsets, "two points of the spheroid .*, so that they meet:"),
+        (lambda witness: witness == StoredCertificate(), "rule in the height decides it"),
     ],
 )
 def test_a_shown_case_that_ends_has_a_sentence_for_each_kind_of_its_proof(proved, sentence, capsys):

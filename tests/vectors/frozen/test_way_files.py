@@ -156,7 +156,7 @@ def test_cases_commands_accept_sweeps(tmp_path, capsys):
     assert main(["cases", "show", "way-grazing-0001"]) == 0
     shown = capsys.readouterr().out
     assert "contact on the sweep" in shown
-    assert "by a double root" in shown
+    assert "is a double root." in shown
     assert main(["cases", "show", next(case.id for case in frozen.load("way-uniform").cases if not case.hit)]) == 0
     shown = capsys.readouterr().out
     assert "clear all along" in shown
