@@ -28,7 +28,7 @@ from hypcheck.bench.compiled_targets import KernelTarget, listed, target, tower_
 from hypcheck.errors import UnavailableError
 from hypcheck.geometry.pair import Sizes
 from hypcheck.geometry.rows import CANNOT_SAY, Columns, Floats, Positions, Rows
-from hypcheck.implementations.alternatives import numpy_roots
+from hypcheck.implementations.alternatives import delta_with_powers, numpy_roots
 from hypcheck.implementations.meshes import FCL, SceneMesh, height_of, scene_mesh
 from hypcheck.kernel import numpy_kernel
 from hypcheck.kernel.choice import choice
@@ -102,13 +102,7 @@ def _open_share(name: str) -> float:
 
 def with_powers(sizes: Sizes, x: Floats, y: Floats, z: Floats) -> NDArray[np.int8]:
     """Whether each centre is exterior, with `**2` and `**3` as in the paper's formula; it is not certified."""
-    alpha, gamma, b, d = sizes
-    A, B = (alpha / b) ** 2, (gamma / d) ** 2
-    c0 = -A * B
-    P, Q = (x**2 + y**2) / b**2, (z / d) ** 2
-    c1 = c0 + A - B + B * P - A * Q
-    c2 = A - B + 1 - P - Q
-    delta = -4 * c2**3 * c0 + (c2 * c1) ** 2 + 18 * c2 * c1 * c0 - 4 * c1**3 - 27 * c0**2
+    delta, c1, c2 = delta_with_powers(sizes, x, y, z)
     return np.asarray((delta > 0) & (c2 < 0) & (c1 > 0)).view(np.int8)
 
 

@@ -139,7 +139,7 @@ def _self_check(values: Mapping[str, Any], title: str, settings: SettingsPart | 
     )
     outcome = RunOutcome()
     with recording(values["out"], run.options(plan), title, Provenance(settings=settings)) as running:
-        run_stages(run.stages(plan, running.recorder, outcome))
+        run_stages(run.SelfCheck(plan, running.recorder, outcome).stages())
         running.exit_code = outcome.exit_code
     return outcome.exit_code
 

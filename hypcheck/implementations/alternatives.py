@@ -144,6 +144,21 @@ def _root_sides(A: Any, B: Any, c0: Any, c1: Any, c2: Any, delta: NDArray[Any]) 
     return np.asarray(exterior.astype(np.int8) - interior.astype(np.int8))
 
 
+def delta_with_powers(sizes: Sizes, x: Floats, y: Floats, z: Floats) -> tuple[Floats, Floats, Floats]:
+    """Δ, c1 and c2 (n,) each of many centres, with `**2` and `**3` as equations (13) and (14) of the paper have them.
+
+    This is the formula as one writes it in numpy, and is not certified.
+    """
+    alpha, gamma, b, d = sizes
+    A, B = (alpha / b) ** 2, (gamma / d) ** 2
+    c0 = -A * B
+    P, Q = (x**2 + y**2) / b**2, (z / d) ** 2
+    c1 = c0 + A - B + B * P - A * Q
+    c2 = A - B + 1 - P - Q
+    delta = -4 * c2**3 * c0 + (c2 * c1) ** 2 + 18 * c2 * c1 * c0 - 4 * c1**3 - 27 * c0**2
+    return delta, c1, c2
+
+
 def numpy_roots(rows: Rows) -> Answers:
     """Positions (n,) by numpy.roots; a root is real if its imaginary part is 0."""
     A, B, c0, c1, c2 = _COEFFICIENTS(dict(zip(COLUMNS, rows.T, strict=True)))

@@ -15,6 +15,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -23,14 +24,14 @@ from hypcheck.derivation.evaluation import EXACT
 from hypcheck.derivation.formulas import FORMULAS, Formula, answering
 from hypcheck.geometry.pair import COLUMNS, Pair
 from hypcheck.geometry.rows import Positions, Rows
-from hypcheck.implementations import domain
-from hypcheck.implementations.domain import EVERYWHERE, claimed
+from hypcheck.implementations.domain import EVERYWHERE
 from hypcheck.implementations.method import Method
 from hypcheck.implementations.session import Answered
 from hypcheck.record.lines import FindingLine, GroupLine, MapLine
 from hypcheck.record.progress import Place
 from hypcheck.runs import judge, tally
 from hypcheck.runs.judge import DEFAULT_TOLERANCE, Criterion
+from hypcheck.runs.results import JudgingRules
 from hypcheck.runs.score import score
 from hypcheck.truth import exact, float_filter
 from hypcheck.truth.exact import Decision
@@ -38,8 +39,6 @@ from hypcheck.truth.kinds import Kind
 from hypcheck.truth.pencil import cubic
 from hypcheck.vectors.families import case_id
 from hypcheck.vectors.family import Family
-
-ALL_BUT_EXTREME: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +52,7 @@ class SelfCheckPlan:
     evaluate the oracles; 1 means this process.
     """
 
-    families: tuple[str, ...] = ALL_BUT_EXTREME
+    families: tuple[str, ...] = ()
     oracles: tuple[str, ...] = ("exact", "nearest", "roots", "heights", "mesh")
     count: int = 400
     judged: int = 400
@@ -155,24 +154,14 @@ def method_group(method: Method, batch: Batch, exponents: NDArray[np.float64], p
     """The record's line about one method and one family; `exponents` as in Score.tally, of all the batch's rows."""
     tolerance = Fraction(0) if method.exact else plan.tolerance
     criterion = Criterion(method.question, method.precision, tolerance)
-    inside = claimed(batch.rows, method.domain, method.precision, extreme=batch.family.extreme)
+    inside, left_out = JudgingRules(criterion, method.domain).asked_of(batch.family.name, batch.rows)
     places = inside[: method.max_rows]
     rows = batch.rows[places]
     scored = score(rows, batch.positions[places], Answered.of(method.answer(rows)), criterion)
-    left_out = domain.reasons(
-        np.delete(batch.rows, inside, axis=0),
-        method.domain,
-        method.precision,
-        extreme=batch.family.extreme,
-        subnormal=False,
-    )
     tallied = scored.tally(batch, places, exponents[places], left_out=left_out)
     return tally.group_line(
         tallied, batch.family.name, criterion, method=method.name, title=method.title, exact=method.exact
     )
-
-
-KNOWN_FINDINGS_FILE = "known_findings.toml"
 
 
 @dataclass(frozen=True, slots=True)
@@ -187,10 +176,7 @@ class KnownFinding:
 
 def known_findings() -> tuple[KnownFinding, ...]:
     """The known findings in the list that hypcheck installs."""
-    entries = toml.shipped("hypcheck.runs", KNOWN_FINDINGS_FILE)["finding"]
-    return tuple(
-        KnownFinding(entry["formula"], entry["cause"], tuple(entry["families"]), entry["reason"]) for entry in entries
-    )
+    return msgspec.convert(toml.shipped("hypcheck.runs", "known_findings.toml")["finding"], tuple[KnownFinding, ...])
 
 
 def reason_for(finding: FindingLine, known: Iterable[KnownFinding]) -> str | None:

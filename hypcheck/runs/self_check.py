@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import closing
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, field, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -17,8 +17,9 @@ import msgspec
 import numpy as np
 
 from hypcheck.errors import Exit, RunOutcome
-from hypcheck.geometry.rows import CANNOT_SAY, Rows
-from hypcheck.implementations.alternatives import numpy_roots
+from hypcheck.geometry.pair import Sizes
+from hypcheck.geometry.rows import CANNOT_SAY, Columns, Rows
+from hypcheck.implementations.alternatives import delta_with_powers, numpy_roots
 from hypcheck.implementations.builtin import builtin, builtin_methods, fast_scene, methods_without_meshes
 from hypcheck.implementations.meshes import naive_fcl, shared_meshes
 from hypcheck.implementations.method import Answers, Method
@@ -97,23 +98,22 @@ def timing_line(method: Method, timing: Samples) -> TimingLine:
     )
 
 
+def _scene(rows: Rows) -> tuple[Sizes, Columns]:
+    """The sizes of rows that share them, and the columns of their centres."""
+    alpha, gamma, b, d = rows[0, :4].tolist()
+    return (alpha, gamma, b, d), (rows[:, 4], rows[:, 5], rows[:, 6])
+
+
 def _fast(rows: Rows) -> Answers:
-    sizes = tuple(rows[0, :4].tolist())
-    return fast_scene((sizes[0], sizes[1], sizes[2], sizes[3]), rows[:, 4], rows[:, 5], rows[:, 6])
+    sizes, center = _scene(rows)
+    return fast_scene(sizes, *center)
 
 
 def _plain(rows: Rows) -> Answers:
     """Procedure 1 and the repaired interior condition: the paper's Table 2 in numpy."""
-    alpha, gamma, b, d = rows[0, :4].tolist()
-    x, y, z = rows[:, 4], rows[:, 5], rows[:, 6]
-    A, B = (alpha / b) ** 2, (gamma / d) ** 2
-    c0 = -A * B
-    P, Q = (x**2 + y**2) / b**2, (z / d) ** 2
-    c1 = c0 + A - B + B * P - A * Q
-    c2 = A - B + 1 - P - Q
-    delta = -4 * c2**3 * c0 + (c2 * c1) ** 2 + 18 * c2 * c1 * c0 - 4 * c1**3 - 27 * c0**2
-    clear, outside = delta > 0, (c2 < 0) & (c1 > 0)
-    return np.where(clear, np.where(outside, 1, -1), 0).astype(np.int8)
+    sizes, center = _scene(rows)
+    delta, c1, c2 = delta_with_powers(sizes, *center)
+    return np.where(delta > 0, np.where((c2 < 0) & (c1 > 0), 1, -1), 0).astype(np.int8)
 
 
 def _mesh(rows: Rows) -> Answers:
@@ -207,34 +207,24 @@ def methods_of(plan: SelfCheckPlan) -> tuple[Method, ...]:
     return tuple(method for method in available.values() if not method.measured)
 
 
-def stages(
-    plan: SelfCheckPlan,
-    recorder: Recorder,
-    outcome: RunOutcome,
-    derive: Callable[[], Derivation] = derivation,
-    known: Sequence[KnownFinding] | None = None,
-) -> tuple[Stage, ...]:
-    """The stages of the run in order. Raises InputError naming a family that does not exist.
-
-    `derive` derives the formulas, and `known` are the known findings; None: those that the package lists.
-    """
-    return _SelfCheck(
-        plan, recorder, outcome, derive, findings.known_findings() if known is None else tuple(known)
-    ).stages()
-
-
 @dataclass
-class _SelfCheck:
-    """One self-check: its plan, the record that it writes, and its outcome."""
+class SelfCheck:
+    """One self-check: its plan, the record that it writes, and its outcome.
+
+    `derive` derives the formulas, and `known` are the known findings.
+    """
 
     plan: SelfCheckPlan
     recorder: Recorder
     outcome: RunOutcome
-    derive: Callable[[], Derivation]
-    known: tuple[KnownFinding, ...]
+    derive: Callable[[], Derivation] = derivation
+    known: Sequence[KnownFinding] = field(default_factory=findings.known_findings)
 
     def stages(self) -> tuple[Stage, ...]:
-        """The stages of the run in order; the record says which oracles are not available."""
+        """The stages of the run in order; the record says which oracles are not available.
+
+        Raises InputError naming a family that does not exist.
+        """
         tasks = [self.derive, *family_tasks(self._with_available_oracles())]
         return (
             Stage("deriving, asking, judging", len(tasks), lambda advance: self._perform(tasks, advance)),

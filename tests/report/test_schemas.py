@@ -94,7 +94,7 @@ def really_recorded():
     plan = SelfCheckPlan(("ring", "tower-body"), count=6, roots=8, meshes=8, exact_formulas=6, workers=1)
     stream = GrowingText()
     recorder, outcome = Recorder(stream, self_check.options(plan)), RunOutcome()
-    for stage in self_check.stages(plan, recorder, outcome, derive=lambda: ((), ())):
+    for stage in self_check.SelfCheck(plan, recorder, outcome, derive=lambda: ((), ())).stages():
         if stage.title != "timing":
             stage.run(lambda steps: None)
     recorder.close(outcome.exit_code)

@@ -39,7 +39,7 @@ def checked(oracles=("exact", "nearest", "roots"), proof=PROVED, first=400, **pa
     )
     outcome = RunOutcome()
     recorder = Recorder(GrowingText(), self_check.options(plan))
-    first, *_ = self_check.stages(plan, recorder, outcome, derive=lambda: ((), (proof,)), **parts)
+    first, *_ = self_check.SelfCheck(plan, recorder, outcome, derive=lambda: ((), (proof,)), **parts).stages()
     first.run(lambda steps: None)
     return outcome.exit_code, recorder.lines
 
