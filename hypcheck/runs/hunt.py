@@ -22,7 +22,7 @@ from hypcheck.messages import counted
 from hypcheck.record.fields import row_of
 from hypcheck.record.progress import UnansweredCase
 from hypcheck.runs import judge
-from hypcheck.runs.hunt_place import RowPlace, place_of_row
+from hypcheck.runs.hunt_surfaces import RowPlace, place_of_row
 from hypcheck.runs.judge import DEFAULT_TOLERANCE, Criterion, Mistake, Status, WrongCase
 from hypcheck.runs.score import Score, score, unanswered_case
 from hypcheck.runs.tally import STATUSES, counts_of

@@ -1,14 +1,4 @@
-"""The search of a hunt: first rows of thin strata, then local search and further strata rows in turn.
-
-A stratum is a thin set of rows on which a case distinction about the pair changes. Each family of vectors is a stratum:
-tangencies and other double roots (Δ = 0), the ring, vanishing coefficients, the axis, the waist, the borders of the
-regimes, long ratios. The other strata are the crossings of four surfaces, z = 0, r = 0, a = 1 and c² = a, with each
-other and with the border of contact: rows on them and very close to them. An implementation with fixed sizes is tested
-only with their families; one that takes heights first with hyperboloids that end.
-
-Rows are brought to the border of contact by bisection on exact positions. The position is monotone in every input
-(docs/mathematics.md, "Monotone in every input"), so it changes at most twice along a factor on one length, or on x and
-y together.
+"""The search of a hunt: first rows of all strata (hunt_surfaces.py), then local search and further rows in turn.
 
 Local search goes from a wrong answer to worse ones, as a pattern search with halving steps. The neighbours of a row
 have one of the six unknowns multiplied by 1 ± step (the search space is logarithmic), or lie exactly on a surface.
@@ -22,225 +12,23 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import combinations
 
 import numpy as np
-from numpy.typing import NDArray
 
-from hypcheck.geometry.pair import COLUMNS, HEIGHTS, NO_GROUPS, Groups
-from hypcheck.geometry.rows import (
-    PAIRS,
-    SWEEPS,
-    FixedSizes,
-    Floats,
-    Layout,
-    Mask,
-    Positions,
-    Rows,
-    as_wide,
-    fits,
-    invalid,
-)
+from hypcheck.geometry.pair import Groups
+from hypcheck.geometry.rows import PAIRS, SWEEPS, Floats, Layout, Mask, Rows, as_wide, invalid
 from hypcheck.runs.hunt import ClusterKey, Hunt
-from hypcheck.runs.judge import truth_of
-from hypcheck.vectors.draw import Draw, Integers, ldexp, stepped
-from hypcheck.vectors.families import ENDED_FAMILIES, ENDED_SWEEP_FAMILIES, FAMILIES, SWEEP_FAMILIES, TILTED_FAMILIES
-from hypcheck.vectors.family import Family
-from hypcheck.vectors.fixed_sizes import families_for
-from hypcheck.vectors.random_pairs import Sizes, centred, heights, offsets
-
-MOVERS: dict[str, tuple[int, ...]] = {
-    "radius": (4, 5),
-    "height": (6,),
-    "alpha": (0,),
-    "gamma": (1,),
-    "b": (2,),
-    "d": (3,),
-}
-"""The unknowns of a pair with their columns; multiplied by one factor, each can reach the border of contact."""
-
-END_MOVERS: dict[str, tuple[int, ...]] = {"lower end": (10,), "upper end": (11,)}
-"""The same of the heights between which a hyperboloid ends."""
-
-SIZE = (2, 3)
-"""The columns of b and d, which are the size of the spheroid together."""
-
-REACH = 2.0**12
-"""Factors from 1/REACH to REACH are tried."""
-
-EXPONENTS = 46
-"""Rows are moved up to 2^(EXPONENTS − 1) ulp of the factor away from the border."""
-
-RUNGS = 4 ** np.arange(EXPONENTS // 2, dtype=np.int64)
-"""The rungs of a ladder, in ulp of the factor."""
-
-
-def columns_of(movers: NDArray[np.str_], columns: Sequence[str] = COLUMNS) -> Mask:
-    """The columns that the named movers multiply, as a mask (n, len(columns))."""
-    mask = np.zeros((len(movers), len(columns)), dtype=np.bool_)
-    for name, places in _movers_of(columns).items():
-        mask[np.ix_(movers == name, places)] = True
-    return mask
-
-
-def _movers_of(columns: Sequence[str]) -> dict[str, tuple[int, ...]]:
-    """The movers of rows with these columns: the unknowns that can be changed."""
-    return MOVERS if set(HEIGHTS).isdisjoint(columns) else MOVERS | END_MOVERS
-
-
-def moved(rows: Rows, mask: Mask, factor: Floats) -> Rows:
-    """The rows with the masked columns multiplied by each row's factor; numbers beyond float64 become infinite."""
-    with np.errstate(all="ignore"):
-        return np.where(mask, rows * factor[:, None], rows)
-
-
-def border_factors(rows: Rows, mask: Mask, far: Mask, layout: Layout = PAIRS) -> Floats:
-    """The factor just before the position changes or contact on a sweep begins, (n,); NaN if none within REACH.
-
-    If there are two changes, the rows in `far` take the one with the greater factor.
-    """
-    low, high = np.full(len(rows), 1 / REACH), np.full(len(rows), REACH)
-    at_low, at_high = _truths(moved(rows, mask, low), layout), _truths(moved(rows, mask, high), layout)
-    changes = (at_low != at_high) & (at_low != UNUSABLE) & (at_high != UNUSABLE)
-    rows, mask, far = rows[changes], mask[changes], far[changes]
-    at_low, at_high = at_low[changes], at_high[changes]
-    # Bisection of bit patterns bisects the logarithm at first, and the factor itself at the end.
-    below, above = low[changes].view(np.int64), high[changes].view(np.int64)
-    while (above - below).max(initial=0) > 1:
-        middle = below + (above - below) // 2
-        position = _truths(moved(rows, mask, middle.view(np.float64)), layout)
-        before = np.where(far, position != at_high, position == at_low)
-        below, above = np.where(before, middle, below), np.where(before, above, middle)
-    factors = np.full(len(changes), np.nan)
-    factors[changes] = below.view(np.float64)
-    return factors
-
-
-UNUSABLE = 3
-
-
-def _truths(rows: Rows, layout: Layout) -> Positions:
-    """Exact positions, or hits of sweeps; UNUSABLE if a length is outside the range of float64."""
-    usable = ~invalid(rows, layout)
-    truths = np.full(len(rows), UNUSABLE, dtype=np.int8)
-    truths[usable] = truth_of(rows[usable], layout)
-    return truths
-
-
-def beside_border(draw: Draw, rows: Rows, movers: NDArray[np.str_]) -> Rows:
-    """The rows, each moved to a border by its mover, then away by a random rung; rows without a border are left out."""
-    mask = columns_of(movers)
-    factors = border_factors(rows, mask, draw.signs(len(rows)) > 0)
-    rungs = ldexp(draw.signs(len(rows)), draw.integers(len(rows), 0, EXPONENTS - 1)).astype(np.int64)
-    finite = np.isfinite(factors)
-    return moved(rows[finite], mask[finite], stepped(factors[finite], rungs[finite]))
-
-
-def ladders(rows: Rows, mask: Mask, factors: Floats) -> tuple[Rows, Integers]:
-    """The rungs of all rows that have a border, and for each rung the number of its ladder.
-
-    Ladder 2i leads outwards from the border of row i, ladder 2i + 1 inwards; rungs are ordered away from the border.
-    """
-    owners = np.repeat(np.flatnonzero(np.isfinite(factors)), 2 * len(RUNGS))
-    steps = np.tile(np.concatenate([RUNGS, -RUNGS]), len(owners) // (2 * len(RUNGS)))
-    side = np.arange(len(owners)) // len(RUNGS) % 2
-    return moved(rows[owners], mask[owners], stepped(factors[owners], steps)), 2 * owners + side
-
-
-SURFACES = {"z = 0": "height", "r = 0": "radius", "a = 1": "alpha", "c² = a": "alpha"}
-"""The four surfaces, each with the mover that would leave it."""
-
-CROSSING_BLOCK = 96
-"""Rows of a crossing that are made at a time: to reach the border costs more than a question."""
-
-SWEEPS_TOGETHER = 24
-"""The number of sweeps of a family that are tested at a time: one takes milliseconds to decide."""
-
-VERSION = 1
-"""The version of the generator of crossings, part of its seed."""
-
-
-@dataclass(frozen=True, slots=True)
-class HuntStratum:
-    """A set of rows: `rows(seed, number)` is its block with that number, of valid rows."""
-
-    name: str
-    rows: Callable[[int, int], Rows]
-
-
-_FAMILIES = ENDED_SWEEP_FAMILIES | SWEEP_FAMILIES | ENDED_FAMILIES | TILTED_FAMILIES | FAMILIES
-
-
-def strata(settings: tuple[FixedSizes, ...] = (), taken: Groups = NO_GROUPS) -> tuple[HuntStratum, ...]:
-    """All strata where these groups are taken, families of vectors first.
-
-    For fixed sizes and for sweeps there are only the families for them.
-    """
-    families = [family for family in _FAMILIES.values() if fits(family.groups, taken)]
-    if "end" in taken:
-        return tuple(map(_of_sweeps, families))
-    if settings:
-        return tuple(map(_of_family, families_for(settings)))
-    crossings = [names for size in (1, 2, 3) for names in combinations(SURFACES, size) if _movers(names)]
-    return (*map(_of_family, families), *map(_of_crossing, crossings))
-
-
-def _of_family(family: Family) -> HuntStratum:
-    return HuntStratum(f"the family {family.name}", family.block)
-
-
-def _of_sweeps(family: Family) -> HuntStratum:
-    def rows(seed: int, number: int) -> Rows:
-        return family.columns_between(seed, number * SWEEPS_TOGETHER, (number + 1) * SWEEPS_TOGETHER).T
-
-    return HuntStratum(f"the family {family.name}", rows)
-
-
-def _of_crossing(surfaces: tuple[str, ...]) -> HuntStratum:
-    name = f"contact beside {' and '.join(surfaces)}"
-    return HuntStratum(name, lambda seed, number: crossing(Draw(name, VERSION, seed, number), CROSSING_BLOCK, surfaces))
-
-
-def crossing(draw: Draw, n: int, surfaces: tuple[str, ...]) -> Rows:
-    """At most n rows on these surfaces or very close to them, each at a random distance from the border of contact."""
-    size = _sizes(draw, n, surfaces)
-    height = heights(draw, size.c) * _slack(draw, n, pinned="z = 0" in surfaces)
-    radius = np.abs(size.a + offsets(draw, n)) * _slack(draw, n, pinned="r = 0" in surfaces)
-    rows = centred(draw, size, radius, height)
-    movers = np.asarray(_movers(surfaces))
-    return beside_border(draw, rows, movers[draw.integers(n, 0, len(movers) - 1)])
-
-
-def _slack(draw: Draw, n: int, *, pinned: bool) -> Floats:
-    """Factors for a distance: 1; if `pinned`, randomly 0 (on the surface) or from 2⁻⁵⁰ to 2⁻³."""
-    if not pinned:
-        return np.ones(n)
-    return np.where(draw.signs(n) < 0, 0.0, draw.log_uniform(n, -50, -3))
-
-
-def _sizes(draw: Draw, n: int, surfaces: tuple[str, ...]) -> Sizes:
-    """Sizes of every regime; on the surfaces α = b, or α/b is the square of γ/d, exactly or nearly."""
-    top, bottom = np.floor(draw.log_uniform(n, 0, 12)), np.floor(draw.log_uniform(n, 0, 12))
-    if "a = 1" in surfaces:
-        top = bottom
-    units = ldexp(1, draw.integers(n, -14, -10)), ldexp(1, draw.integers(n, -10, -6))
-    b, d = bottom * bottom * units[0], bottom * units[1]
-    alpha = top * top * units[0] * _nearly_one(draw, n)
-    if "c² = a" in surfaces:
-        return Sizes(alpha, top * units[1] * _nearly_one(draw, n), b, d)
-    return Sizes(alpha, d * draw.log_uniform(n, -8, 10), b, d)
-
-
-def _nearly_one(draw: Draw, n: int) -> Floats:
-    """Factors 1 and 1 ± 2⁻⁵² … 2⁻³, at random."""
-    return np.asarray(1 + draw.signs(n) * np.where(draw.signs(n) < 0, 0.0, draw.log_uniform(n, -52, -3)))
-
-
-def _movers(surfaces: tuple[str, ...]) -> list[str]:
-    """The movers that can bring a row to the border without leaving these surfaces."""
-    kept = {SURFACES[surface] for surface in surfaces}
-    return [mover for mover in ("radius", "height", "alpha") if mover not in kept]
-
+from hypcheck.runs.hunt_surfaces import (
+    EXPONENTS,
+    SIZE,
+    HuntStratum,
+    border_factors,
+    columns_of,
+    moved,
+    movers_of,
+    strata,
+)
+from hypcheck.vectors.draw import Draw, Integers, stepped
 
 Row = tuple[float, ...]
 
@@ -299,6 +87,21 @@ class Neighbours:
     ladders: Integers
 
 
+RUNGS = 4 ** np.arange(EXPONENTS // 2, dtype=np.int64)
+"""The rungs of a ladder, in ulp of the factor."""
+
+
+def ladders(rows: Rows, mask: Mask, factors: Floats) -> tuple[Rows, Integers]:
+    """The rungs of all rows that have a border, and for each rung the number of its ladder.
+
+    Ladder 2i leads outwards from the border of row i, ladder 2i + 1 inwards; rungs are ordered away from the border.
+    """
+    owners = np.repeat(np.flatnonzero(np.isfinite(factors)), 2 * len(RUNGS))
+    steps = np.tile(np.concatenate([RUNGS, -RUNGS]), len(owners) // (2 * len(RUNGS)))
+    side = np.arange(len(owners)) // len(RUNGS) % 2
+    return moved(rows[owners], mask[owners], stepped(factors[owners], steps)), 2 * owners + side
+
+
 def neighbours(draw: Draw, climbers: Sequence[Climber], layout: Layout = PAIRS) -> Neighbours:
     """The neighbours of the climbers, rows of this layout."""
     with np.errstate(all="ignore"):  # rows beyond float64 are not valid, and not tested
@@ -323,7 +126,7 @@ BROUGHT = 3
 def _borders(draw: Draw, rows: Rows, layout: Layout) -> tuple[Mask, Floats]:
     """The columns of each row that a factor can bring to the border of contact, and the factor; NaN if none can."""
     if not layout.has_end:
-        movers = list(_movers_of(columns := layout.columns(rows.shape[1])))
+        movers = list(movers_of(columns := layout.columns(rows.shape[1])))
         mask = columns_of(np.asarray(movers)[draw.integers(len(rows), 0, len(movers) - 1)], columns)
         return mask, border_factors(rows, mask, draw.signs(len(rows)) > 0)
     mask, factors = np.zeros(rows.shape, dtype=np.bool_), np.full(len(rows), np.nan)

@@ -17,8 +17,7 @@ from hypcheck.geometry.pair import SIZES, Groups, Pair, trouble_with_row
 from hypcheck.geometry.rows import PAIRS, SWEEPS, Layout, Rows
 from hypcheck.messages import counted
 from hypcheck.runs import hunt
-from hypcheck.runs.hunt_place import place_of_row
-from hypcheck.runs.hunt_search import MOVERS, border_factors, columns_of
+from hypcheck.runs.hunt_surfaces import MOVERS, border_factors, columns_of, place_of_row
 from hypcheck.runs.judge import Status, WrongCase
 from hypcheck.runs.replay import ReplayCase, of_question
 from hypcheck.runs.score import Score

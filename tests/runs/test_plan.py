@@ -14,7 +14,7 @@ from hypcheck.cli.main import main
 from hypcheck.errors import InputError
 from hypcheck.runs import fingerprint
 from hypcheck.runs.fingerprint import MAX_FILES_NAMED, FileSnapshot, files_to_ship, sha256
-from hypcheck.runs.hunt_place import _ratio
+from hypcheck.runs.hunt_surfaces import _ratio
 from hypcheck.runs.intermediates import relative_error
 from hypcheck.runs.known_failures import read_known_failures
 from hypcheck.runs.plan import ConformancePlan, check_cluster_address

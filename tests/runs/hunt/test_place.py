@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from hypcheck.geometry.pair import Pair
-from hypcheck.runs.hunt_place import OPEN, place_of
+from hypcheck.runs.hunt_surfaces import OPEN, place_of
 from hypcheck.vectors.families import FAMILIES
 
 

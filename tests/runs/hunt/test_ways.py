@@ -11,8 +11,8 @@ import pytest
 
 from hypcheck.cli.main import main
 from hypcheck.geometry.rows import SWEEPS, invalid
-from hypcheck.runs.hunt_place import ORDINARY_SWEEP, TILTED, sweep_place
 from hypcheck.runs.hunt_search import Climber, neighbours
+from hypcheck.runs.hunt_surfaces import ORDINARY_SWEEP, TILTED, sweep_place
 from hypcheck.runs.minimise import same_query, small_sweeps
 from hypcheck.vectors.cases import read_cases
 from hypcheck.vectors.draw import Draw
