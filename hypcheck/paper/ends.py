@@ -20,10 +20,9 @@ import numpy as np
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import UPRIGHT, Position, Sizes
 from hypcheck.geometry.rows import Columns, Floats, Mask, Positions
-from hypcheck.kernel.classify import classify
 from hypcheck.kernel.scene import Scene
 from hypcheck.paper.flights import Moves
-from hypcheck.paper.motion import MARGIN, VerdictCounts, all_four, headed, of, valid
+from hypcheck.paper.motion import MARGIN, VerdictCounts, body_or_rotors, headed, of, positions, valid
 from hypcheck.paper.quadcopter import Craft, Direction
 from hypcheck.scene.model import SceneModel
 
@@ -80,17 +79,12 @@ def _reaching(craft: Craft, z: Floats) -> Mask:
 
 def valid_between(craft: Craft, at: Columns, heading: Direction) -> Mask:
     """A mask of the exactly valid positions beside the wall that ends: the body or every rotor is interior."""
-    result = np.asarray(_positions(craft, craft.sizes, at) == Position.INTERIOR)
-    near = np.flatnonzero(~result)
-    rotors = craft.rotors(of(at, near), headed(heading, near))
-    result[near] = all_four(_positions(craft, craft.rotor, rotors) == Position.INTERIOR)
-    return result
+    return body_or_rotors(craft, at, heading, lambda sizes, at: _positions(craft, sizes, at) == Position.INTERIOR)
 
 
 def _positions(craft: Craft, sizes: Sizes, at: Columns) -> Positions:
     low, high = (-np.inf, np.inf) if craft.height is None else (craft.height.low, craft.height.high)
-    fixed = np.tile((*UPRIGHT, low, high, float(craft.solid)), (len(at[0]), 1))
-    return np.asarray(classify(np.column_stack([np.tile(sizes, (len(at[0]), 1)), *at, fixed])), dtype=np.int8)
+    return positions(sizes, at, np.tile((*UPRIGHT, low, high, float(craft.solid)), (len(at[0]), 1)))
 
 
 def beside_trees(scene: SceneModel, at: Floats, at_height: Mask, exterior: Mask) -> dict[str, Any]:

@@ -25,11 +25,11 @@ spheroid is interior for every tilt; only other spheroids are decided with their
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable
 from dataclasses import dataclass, fields
 from fractions import Fraction
 from math import inf
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -180,16 +180,6 @@ class VerdictCounts:
         setattr(self, name, getattr(self, name) + int(np.count_nonzero(events)))
 
 
-Verdicts = TypeVar("Verdicts", bound=VerdictCounts)
-
-
-def total(several: Iterable[Verdicts], none: Verdicts) -> Verdicts:
-    """The sum of all counts, added up in `none`."""
-    for counts in several:
-        none.add(counts)
-    return none
-
-
 @dataclass(slots=True)
 class MoveVerdicts(VerdictCounts):
     """Exact verdicts on the movements of flights.
@@ -267,10 +257,26 @@ class MoveVerdicts(VerdictCounts):
 
 def valid(craft: Craft, at: Columns, heading: Direction) -> Mask:
     """A mask of exactly valid positions: the body or every rotor is interior; rotors' centres are floats from (15)."""
-    result = np.asarray(classify_scene(craft.sizes, *at) == Position.INTERIOR)
+    return body_or_rotors(craft, at, heading, lambda sizes, at: classify_scene(sizes, *at) == Position.INTERIOR)
+
+
+def body_or_rotors(craft: Craft, at: Columns, heading: Direction, interior: Callable[[Sizes, Columns], Mask]) -> Mask:
+    """A mask of the crafts of which the body, or else every rotor, is interior by the function `interior`."""
+
+    def all_rotors(near: NDArray[np.int64]) -> Mask:
+        return interior(craft.rotor, craft.rotors(of(at, near), headed(heading, near)))
+
+    return _or_all_four(interior(craft.sizes, at), all_rotors)
+
+
+def _or_all_four(bodies: Mask, rotors: Callable[[NDArray[np.int64]], Mask]) -> Mask:
+    """A mask of the crafts whose body has the answer, or else all four rotors.
+
+    `rotors` gets the indices of the crafts whose body does not have it, and answers in the order of `Craft.rotors`.
+    """
+    result = np.array(bodies)
     near = np.flatnonzero(~result)
-    rotors = craft.rotors(of(at, near), headed(heading, near))
-    result[near] = all_four(classify_scene(craft.rotor, *rotors) == Position.INTERIOR)
+    result[near] = all_four(rotors(near))
     return result
 
 
@@ -281,13 +287,13 @@ def all_four(rotors: Mask) -> Mask:
 
 def _judged(craft: Craft, start: Columns, end: Columns, heading: Direction) -> tuple[Mask, Mask, Mask]:
     """Masks of the sweeps that are valid everywhere, at their beginning, and at their end."""
-    clear = stays_on_side(Position.INTERIOR, craft.sizes, start, end)
-    begun, ended = clear.copy(), clear.copy()
-    near = np.flatnonzero(~clear)
+    bodies = stays_on_side(Position.INTERIOR, craft.sizes, start, end)
+    begun, ended = bodies.copy(), bodies.copy()
+    near = np.flatnonzero(~bodies)
     first, last, ahead = of(start, near), of(end, near), headed(heading, near)
-    rotors = craft.rotors(first, ahead), craft.rotors(last, ahead)
-    clear[near] = all_four(stays_on_side(Position.INTERIOR, craft.rotor, *rotors))
     begun[near], ended[near] = valid(craft, first, ahead), valid(craft, last, ahead)
+    rotors = craft.rotors(first, ahead), craft.rotors(last, ahead)
+    clear = _or_all_four(bodies, lambda _: stays_on_side(Position.INTERIOR, craft.rotor, *rotors))
     return clear, begun, ended
 
 
@@ -295,19 +301,14 @@ def _contacts(craft: Craft, start: Columns, end: Columns, heading: Direction) ->
     """The first contact of each move, with its rotor."""
     first, last = craft.rotors(start, heading), craft.rotors(end, heading)
     contacts = []
-    for move, (here, there) in enumerate(zip(zip(*start, strict=True), zip(*end, strict=True), strict=True)):
+    for move in range(len(start[0])):
         times = [
             (first_contact(craft.rotor, first, last, move + rotor * len(start[0])), rotor + 1)
             for rotor in range(ROTORS)
         ]
         (lower, upper), rotor = min(times)
-        contacts.append(Contact(_floats(here), _floats(there), rotor, lower, upper))
+        contacts.append(Contact(_at(start, move), _at(end, move), rotor, lower, upper))
     return tuple(contacts)
-
-
-def _floats(point: tuple[np.float64, ...]) -> tuple[float, float, float]:
-    x, y, z = map(float, point)
-    return x, y, z
 
 
 def of(point: Columns, indices: NDArray[np.int64]) -> Columns:
@@ -327,13 +328,13 @@ def tilted_interior(sizes: Sizes, at: Columns, axis: Columns) -> Mask:
     longest = max(b, d)
     inside = np.asarray(classify_scene((alpha, gamma, longest, longest), *at) == Position.INTERIOR)
     near = np.flatnonzero(~inside)
-    inside[near] = _positions(sizes, of(at, near), of(axis, near)) == Position.INTERIOR
+    inside[near] = positions(sizes, of(at, near), *of(axis, near)) == Position.INTERIOR
     return inside
 
 
-def _positions(sizes: Sizes, at: Columns, axis: Columns) -> Positions:
-    positions: Positions = classify(np.column_stack([np.tile(sizes, (len(at[0]), 1)), *at, *axis]))
-    return positions
+def positions(sizes: Sizes, at: Columns, *further: Floats) -> Positions:
+    """The exact positions of spheroids of one size, (n,); `further` are the columns of a row behind the centre."""
+    return np.asarray(classify(np.column_stack([np.tile(sizes, (len(at[0]), 1)), *at, *further])), dtype=np.int8)
 
 
 @dataclass(frozen=True, slots=True)
@@ -372,16 +373,15 @@ class Tilt:
 
 def valid_tilted(craft: Craft, at: Columns, heading: Direction, tilt: Tilt) -> tuple[Mask, Mask]:
     """Masks of the valid positions (the body or every rotor is interior), and of positions with an interior body."""
+
+    def all_rotors(near: NDArray[np.int64]) -> Mask:
+        arms, four = craft.arms(headed(heading, near)), tilt.of(np.tile(near, ROTORS))
+        offsets = four.tilted(craft.arm * arms[0], craft.arm * arms[1])
+        x, y, z = (np.tile(column, ROTORS) + offset for column, offset in zip(of(at, near), offsets, strict=True))
+        return tilted_interior(craft.rotor, (x, y, z), four.axis)
+
     body = tilted_interior(craft.sizes, at, tilt.axis)
-    valid = body.copy()
-    near = np.flatnonzero(~body)
-    arms = craft.arms(headed(heading, near))
-    four = tilt.of(np.tile(near, ROTORS))
-    offsets = four.tilted(craft.arm * arms[0], craft.arm * arms[1])
-    x, y, z = (np.tile(column, ROTORS) + offset for column, offset in zip(of(at, near), offsets, strict=True))
-    rotors = tilted_interior(craft.rotor, (x, y, z), four.axis)
-    valid[near] = all_four(rotors)
-    return valid, body
+    return _or_all_four(body, all_rotors), body
 
 
 @dataclass(slots=True)
@@ -439,7 +439,7 @@ def near_wall(craft: Craft, degrees: float, seed: int, count: int = CENTRES) -> 
     outward = np.ones_like(x), np.zeros_like(x)
     counts: dict[str, Any] = {"centres": count}
     for name, toward in (("anywhere", any_angle(draw.between(count, -180.0, 180.0))), ("outward", outward)):
-        tilted = _positions(craft.sizes, at, Tilt.by(degrees, toward).axis)
+        tilted = positions(craft.sizes, at, *Tilt.by(degrees, toward).axis)
         changed = upright != tilted
         counts[name] = {
             "changed": int(np.count_nonzero(changed)),

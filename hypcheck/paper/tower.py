@@ -9,9 +9,9 @@ runs' percentages.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import Executor
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -20,7 +20,7 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.rows import Columns
 from hypcheck.paper.ends import EndVerdicts, require_ends
 from hypcheck.paper.flights import LANES, VERSION, Moves, Tallies, fly
-from hypcheck.paper.motion import MoveVerdicts, PitchVerdicts, near_wall, total
+from hypcheck.paper.motion import MoveVerdicts, PitchVerdicts, near_wall
 from hypcheck.paper.quadcopter import Craft, Procedures, craft_of, require_valid_start
 from hypcheck.processes import Advance, perform
 from hypcheck.scene.model import Flight, SceneModel
@@ -31,20 +31,60 @@ FLIGHTS = 3
 POSITIONS = 25
 
 
+@dataclass(frozen=True, slots=True)
+class Questions:
+    """What is decided exactly about flights, beside the answers of Procedure 2.b.
+
+    `continuous`: the sweeps between positions. `pitch`: positions of a quadcopter tilted by so many degrees in
+    horizontal movements, or None for no tilt. `ends`: positions beside the tower with its ends.
+    """
+
+    continuous: bool = False
+    pitch: float | None = None
+    ends: bool = False
+
+
+@dataclass(slots=True)
+class FlightVerdicts:
+    """The counts of exact verdicts about flights; they are zeros where the question was not asked."""
+
+    ways: MoveVerdicts = field(default_factory=MoveVerdicts)
+    pitch: PitchVerdicts = field(default_factory=PitchVerdicts)
+    ends: EndVerdicts = field(default_factory=EndVerdicts)
+
+    def watch(self, craft: Craft, questions: Questions, moves: Moves) -> None:
+        """Count the results of a draw of many flights."""
+        if questions.continuous:
+            self.ways.watch(craft, moves)
+        if questions.pitch is not None:
+            self.pitch.watch(craft, questions.pitch, moves)
+        if questions.ends:
+            self.ends.watch(craft, moves)
+
+    @classmethod
+    def total(cls, several: Iterable[FlightVerdicts]) -> FlightVerdicts:
+        """The sum of all counts."""
+        added = cls()
+        for verdicts in several:
+            added.ways.add(verdicts.ways)
+            added.pitch.add(verdicts.pitch)
+            added.ends.add(verdicts.ends)
+        return added
+
+
 def paths(
-    craft: Craft, flight: Flight, step: float, seed: int
-) -> tuple[list[dict[str, Any]], MoveVerdicts, EndVerdicts]:
-    """Three flights of 25 positions, from the tower's centre, for JSON; and exact verdicts on sweeps and ends.
+    craft: Craft, flight: Flight, step: float, seed: int, questions: Questions
+) -> tuple[list[dict[str, Any]], FlightVerdicts]:
+    """Three flights of 25 positions, from the tower's centre, for JSON; and exact verdicts on them.
 
     Each has `positions` [x, y, z], `discriminant` (equation (13) at each of them), and numbers: `executions`,
     executions with Δ ≤ 0 (`touching`), `refused` movements, and draws that lead outside the height (`outside_height`).
     """
     tracks: list[list[tuple[float, ...]]] = [[] for _ in range(FLIGHTS)]
-    ways, ends = MoveVerdicts(), EndVerdicts()
+    verdicts = FlightVerdicts()
 
     def observe(moves: Moves) -> None:
-        ways.watch(craft, moves)
-        ends.watch(craft, moves)
+        verdicts.watch(craft, questions, moves)
         for place, lane in enumerate(moves.lane.tolist()):
             track = tracks[lane]
             for point, there in ((moves.start, not track), (moves.end, bool(moves.accepted[place]))):
@@ -66,8 +106,7 @@ def paths(
             }
             for lane, track in enumerate(tracks)
         ],
-        ways,
-        ends,
+        verdicts,
     )
 
 
@@ -123,9 +162,7 @@ class FlightBlock:
     seed: int
     number: int
     lanes: int
-    watched: bool
-    pitch: float | None = None
-    ends: bool = False
+    questions: Questions
 
     @property
     def moves(self) -> int:
@@ -145,9 +182,7 @@ class FlightShare:
     executions: float
     refused: float
     outside_height: float
-    ways: MoveVerdicts
-    pitch: PitchVerdicts
-    ends: EndVerdicts
+    verdicts: FlightVerdicts
 
 
 def moves_of(flight: Flight, step: float) -> int:
@@ -164,53 +199,25 @@ def moves_of(flight: Flight, step: float) -> int:
     return math.ceil(moves)
 
 
-@dataclass(frozen=True, slots=True)
-class FlownBlock:
-    """The results of a block's runs; `ways` has counts if sweeps were watched, `pitch` if the craft is tilted.
-
-    `ends` has counts if the block decides ends.
-    """
-
-    tallies: Tallies
-    ways: MoveVerdicts
-    pitch: PitchVerdicts
-    ends: EndVerdicts
-
-
-def fly_block(block: FlightBlock) -> FlownBlock:
-    """The results of a block's runs, with exact verdicts on sweeps if it is `watched`, on tilt, and on ends."""
-    ways, tilted, ends, degrees = MoveVerdicts(), PitchVerdicts(), EndVerdicts(), block.pitch
-
-    def observe(moves: Moves) -> None:
-        if block.watched:
-            ways.watch(block.craft, moves)
-        if degrees is not None:
-            tilted.watch(block.craft, degrees, moves)
-        if block.ends:
-            ends.watch(block.craft, moves)
-
+def fly_block(block: FlightBlock) -> tuple[Tallies, FlightVerdicts]:
+    """The events of a block's runs, counted, and the exact verdicts on them."""
+    verdicts = FlightVerdicts()
     draw = Draw("tower-flight", VERSION, block.seed, float(block.speed), float(block.time), block.number)
     step = block.speed * block.time
-    tallies = fly(block.craft, block.flight, step, block.moves, draw, block.lanes, observe)
-    return FlownBlock(tallies, ways, tilted, ends)
+
+    def observe(moves: Moves) -> None:
+        verdicts.watch(block.craft, block.questions, moves)
+
+    return fly(block.craft, block.flight, step, block.moves, draw, block.lanes, observe), verdicts
 
 
 def blocks(
-    craft: Craft,
-    flight: Flight,
-    seed: int,
-    runs: int,
-    *,
-    watched: bool,
-    pitch: float | None = None,
-    ends: bool = False,
+    craft: Craft, flight: Flight, seed: int, runs: int, questions: Questions = Questions()
 ) -> dict[tuple[float, float], list[FlightBlock]]:
     """The blocks of each cell (t, v): the cells of the table, and its second row read as t = 0.25."""
     return {
         (time, speed): [
-            FlightBlock(
-                craft, flight, speed, time, seed, number, min(LANES, runs - number * LANES), watched, pitch, ends
-            )
+            FlightBlock(craft, flight, speed, time, seed, number, min(LANES, runs - number * LANES), questions)
             for number in range(math.ceil(runs / LANES))
         ]
         for time in (*TIMES, SECOND_READING)
@@ -233,9 +240,9 @@ def table_5(
     }
 
 
-def _cell(results: Sequence[FlownBlock]) -> FlightShare:
+def _cell(results: Sequence[tuple[Tallies, FlightVerdicts]]) -> FlightShare:
     executions, touching, refused, redrawn = (
-        np.concatenate([getattr(block.tallies, name) for block in results])
+        np.concatenate([getattr(tallies, name) for tallies, _ in results])
         for name in ("executions", "touching", "refused", "redrawn")
     )
     percents = (100.0 * touching / executions).tolist()
@@ -248,18 +255,8 @@ def _cell(results: Sequence[FlownBlock]) -> FlightShare:
         executions=float(np.mean(executions)),
         refused=float(np.mean(refused)),
         outside_height=float(np.mean(redrawn)),
-        ways=total((block.ways for block in results), MoveVerdicts()),
-        pitch=total((block.pitch for block in results), PitchVerdicts()),
-        ends=total((block.ends for block in results), EndVerdicts()),
+        verdicts=FlightVerdicts.total(verdicts for _, verdicts in results),
     )
-
-
-def pitch_as_json(cells: Mapping[tuple[float, float], FlightShare]) -> dict[str, Any]:
-    """The counts of each cell (t, v), and their sum."""
-    return {
-        "total": asdict(total((cell.pitch for cell in cells.values()), PitchVerdicts())),
-        "cells": [{"t": time, "v": speed, **asdict(cell.pitch)} for (time, speed), cell in cells.items()],
-    }
 
 
 _COLUMNS = "percent", "standard_error"
@@ -267,7 +264,7 @@ _FURTHER_COLUMNS = "difference_in_standard_errors", "executions", "refused", "ou
 
 
 def as_json(
-    cells: Mapping[tuple[float, float], FlightShare], runs: int, craft_words: str, *, watched: bool
+    cells: Mapping[tuple[float, float], FlightShare], runs: int, craft_words: str, ways: MoveVerdicts | None
 ) -> dict[str, Any]:
     """The table with rows t and columns v, in the form of docs/simulate.md, with the statement to show with it."""
     rows = [[cells[time, speed] for speed in SPEEDS] for time in (*TIMES, SECOND_READING)]
@@ -294,7 +291,7 @@ def as_json(
             **{name: columns[name][-1] for name in (*_COLUMNS, *_FURTHER_COLUMNS)},
             "root_mean_square_difference": _root_mean_square([rows[0], read_anew, rows[2]]),
         },
-        "ways": asdict(total((cell.ways for cell in cells.values()), MoveVerdicts())) if watched else None,
+        "ways": None if ways is None else asdict(ways),
     }
 
 
@@ -321,9 +318,7 @@ SCHEMA = "1.2.0"
 class TowerPlan:
     """The plan of a simulation: the figure's flights with steps of `speed`·`time`, and Table 5 if `runs` > 0.
 
-    `continuous`: the sweeps between positions are decided too, also in the table. `pitch`: the degrees by which the
-    quadcopter is tilted in horizontal movements of the table's flights, or None for no tilt. `ends`: positions are also
-    decided beside the tower with its ends.
+    `questions` are of all flights, but tilted only those of the table.
     """
 
     scene: SceneModel
@@ -331,9 +326,7 @@ class TowerPlan:
     speed: float
     time: float
     runs: int
-    continuous: bool
-    pitch: float | None = None
-    ends: bool = False
+    questions: Questions = Questions()
 
     @property
     def craft(self) -> Craft:
@@ -353,15 +346,7 @@ class TowerPlan:
         """The blocks of Table 5 by cell; none if the table is not requested. Raises InputError."""
         if not self.runs:
             return {}
-        return blocks(
-            self.craft,
-            self.flight,
-            self.seed,
-            self.runs,
-            watched=self.continuous,
-            pitch=self.pitch,
-            ends=self.ends,
-        )
+        return blocks(self.craft, self.flight, self.seed, self.runs, self.questions)
 
 
 def _require_room(scene: SceneModel, flight: Flight) -> None:
@@ -386,12 +371,12 @@ def _require_room(scene: SceneModel, flight: Flight) -> None:
 
 def simulate_tower(plan: TowerPlan, executor: Executor | None, advance: Advance) -> dict[str, Any]:
     """The result in the form of schemas/simulate-tower-1.2.0.json. Raises InputError."""
-    craft, flight, step = plan.craft, plan.flight, plan.speed * plan.time
-    if plan.ends:
+    craft, flight, step, asked = plan.craft, plan.flight, plan.speed * plan.time, plan.questions
+    if asked.ends:
         require_ends(plan.scene)
-    tracks, ways, ends = paths(craft, flight, step, plan.seed)
+    tracks, flown = paths(craft, flight, step, plan.seed, replace(asked, pitch=None))
     cells, craft_words = table_5(plan.blocks(), executor, advance), statement(craft)
-    pitch = plan.pitch
+    total = FlightVerdicts.total(cell.verdicts for cell in cells.values())
     return {
         "hypcheck": HYPCHECK,
         "schema": SCHEMA,
@@ -404,20 +389,23 @@ def simulate_tower(plan: TowerPlan, executor: Executor | None, advance: Advance)
             "time": plan.time,
             "step": step,
             "paths": tracks,
-            "ways": asdict(ways) if plan.continuous else None,
+            "ways": asdict(flown.ways) if asked.continuous else None,
         },
-        "table_5": as_json(cells, plan.runs, craft_words, watched=plan.continuous) if cells else None,
+        "table_5": as_json(cells, plan.runs, craft_words, total.ways if asked.continuous else None) if cells else None,
         "pitch": None
-        if pitch is None
-        else {"degrees": pitch, **pitch_as_json(cells), "near_wall": near_wall(craft, pitch, plan.seed)},
-        **({"ends": _ends(ends, cells)} if plan.ends else {}),
+        if asked.pitch is None
+        else {
+            "degrees": asked.pitch,
+            "total": asdict(total.pitch),
+            "cells": [{"t": time, "v": speed, **asdict(cell.verdicts.pitch)} for (time, speed), cell in cells.items()],
+            "near_wall": near_wall(craft, asked.pitch, plan.seed),
+        },
+        **(
+            {"ends": {"flights": asdict(flown.ends), "table_5": asdict(total.ends) if cells else None}}
+            if asked.ends
+            else {}
+        ),
     }
-
-
-def _ends(flown: EndVerdicts, cells: Mapping[tuple[float, float], FlightShare]) -> dict[str, Any]:
-    """The errors of the test by the centre's height in the figure's flights, and in the table's if they are flown."""
-    table = total((cell.ends for cell in cells.values()), EndVerdicts())
-    return {"flights": asdict(flown), "table_5": asdict(table) if cells else None}
 
 
 _RULES = ("distance", "straight", "vertical", "largest_turn", "refused_turn", "backward", "turn")

@@ -55,4 +55,4 @@ def test_flight_simulation_refuses_a_start_disc_exactly_if_a_place_on_its_rim_is
 def test_a_flight_that_starts_outside_the_tower_is_refused_before_it_is_drawn():
     flight = replace(TOWER.flight, start=Start(Span(-17.8, 17.8), radius=9.0))
     with pytest.raises(InputError, match=r"the scene 'cooling tower': \[flight.start\] radius = 9.0 has flights start"):
-        _ = TowerPlan(replace(TOWER, flight=flight), 1, 5.0, 0.2, 0, continuous=False).flight
+        _ = TowerPlan(replace(TOWER, flight=flight), 1, 5.0, 0.2, 0).flight

@@ -34,7 +34,7 @@ def walked():
 def flown():
     scene = read_scene("tower")
     short = replace(scene, flight=replace(scene.flight, distance=3.0))
-    return simulate_tower(TowerPlan(short, 7, 5.0, 0.2, 0, continuous=False), None, lambda _: None)
+    return simulate_tower(TowerPlan(short, 7, 5.0, 0.2, 0), None, lambda _: None)
 
 
 def test_the_text_about_tilted_has_dangerous_and_needless_answers_apart():

@@ -18,6 +18,7 @@ from hypcheck.paper.tower import (
     SPEEDS,
     STATEMENT,
     TIMES,
+    Questions,
     TowerPlan,
     blocks,
     fly_block,
@@ -33,7 +34,7 @@ SHORT = replace(TOWER, flight=replace(TOWER.flight, distance=4.0))
 
 
 def simulated(runs=4, workers=1, advance=lambda _: None, **changes):
-    plan = replace(TowerPlan(SHORT, 7, 5.0, 0.2, runs, continuous=False), **changes)
+    plan = replace(TowerPlan(SHORT, 7, 5.0, 0.2, runs), **changes)
     with processes(workers) as executor:
         return simulate_tower(plan, executor, advance)
 
@@ -51,10 +52,10 @@ def test_table_5_has_three_rows_of_six_values_with_standard_errors():
 
 def test_each_cell_of_table_5_is_the_mean_of_its_runs():
     result = simulated(runs=5)
-    cells = blocks(craft_of(SHORT), SHORT.flight, 7, 5, watched=False)
+    cells = blocks(craft_of(SHORT), SHORT.flight, 7, 5)
     (block,) = cells[0.3, 7]
     assert block.moves == math.ceil(4 / 2.1)
-    tallies = fly_block(block).tallies
+    tallies = fly_block(block)[0]
     percents = 100 * tallies.touching / tallies.executions
     table = result["table_5"]
     assert table["percent"][2][2] == pytest.approx(percents.mean(), rel=1e-12)
@@ -75,19 +76,19 @@ def test_root_mean_square_difference_of_table_5_is_over_its_18_cells():
 
 
 def test_table_5_with_the_same_seed_is_the_same_in_one_process_and_in_several(monkeypatch):
-    alone = simulated(continuous=True, pitch=20.0)
-    assert json.dumps(simulated(workers=2, continuous=True, pitch=20.0)) == json.dumps(alone)
+    alone = simulated(questions=Questions(continuous=True, pitch=20.0))
+    assert json.dumps(simulated(workers=2, questions=Questions(continuous=True, pitch=20.0))) == json.dumps(alone)
     assert simulated(seed=8)["table_5"]["percent"] != alone["table_5"]["percent"]
 
 
 def test_first_runs_of_a_table_cell_do_not_change_if_runs_are_added():
     craft = craft_of(SHORT)
-    few, more = (blocks(craft, SHORT.flight, 1, runs, watched=False)[0.1, 5] for runs in (3, LANES + 2))
+    few, more = (blocks(craft, SHORT.flight, 1, runs)[0.1, 5] for runs in (3, LANES + 2))
     assert [block.lanes for block in more] == [LANES, 2]
-    first = fly_block(few[0]).tallies
-    whole = fly_block(more[0]).tallies
+    first = fly_block(few[0])[0]
+    whole = fly_block(more[0])[0]
     assert whole.executions[:3].tolist() == first.executions.tolist()
-    assert fly_block(more[1]).tallies.executions.tolist() != first.executions[:2].tolist()
+    assert fly_block(more[1])[0].executions.tolist() != first.executions[:2].tolist()
 
 
 def test_cells_with_equal_steps_have_different_flights():
@@ -142,7 +143,7 @@ def test_result_of_the_tower_simulation_has_three_paths_of_25_positions_with_dis
 
 
 def test_continuous_tower_simulation_adds_verdicts_on_the_ways_between_positions():
-    result = simulated(runs=3, continuous=True)
+    result = simulated(runs=3, questions=Questions(continuous=True))
     assert result["flights"]["ways"]["vertical"] + result["flights"]["ways"]["horizontal"] == 72
     ways = result["table_5"]["ways"]
     assert ways["vertical"] + ways["horizontal"] == 3 * sum(
@@ -184,8 +185,8 @@ def test_simulate_tower_refuses_invalid_plans(changes, message):
 
 def test_default_scene_fits_table_5_as_closely_as_measured():
     """RMS 0.53 as printed and 0.23 with 0.25, at 1000 runs of 500 m; here one cell, which is 13.85 ± 0.05 at 1000."""
-    block = replace(blocks(craft_of(TOWER), TOWER.flight, 1, 150, watched=False)[0.3, 10][0], lanes=150)
-    tallies = fly_block(block).tallies
+    block = replace(blocks(craft_of(TOWER), TOWER.flight, 1, 150)[0.3, 10][0], lanes=150)
+    tallies = fly_block(block)[0]
     percents = 100 * tallies.touching / tallies.executions
     error = percents.std(ddof=1) / math.sqrt(150)
     assert abs(percents.mean() - PRINTED[2][5]) < 0.3 + 4 * error

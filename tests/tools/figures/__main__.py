@@ -51,7 +51,7 @@ def both(path: str, plot: Plot) -> dict[str, bytes]:
 def pictures() -> dict[str, bytes]:
     """Every picture that takes seconds, by its path below docs/; Table 5's takes minutes and is not among them."""
     walked = simulate_forest(ForestPlan(read_scene("forest"), SEED, None, continuous=True))
-    flown = simulate_tower(TowerPlan(read_scene("tower"), 1, 5.0, 0.2, 0, continuous=False), None, lambda _: None)
+    flown = simulate_tower(TowerPlan(read_scene("tower"), 1, 5.0, 0.2, 0), None, lambda _: None)
     with styled():
         drawn = {plot.name: plot for plot in (*forest_plots(walked), flights(flown), *paper.plots(walked, flown))}
         files: dict[str, bytes] = {}
