@@ -50,12 +50,12 @@ def derive(context: click.Context, /, form: str, only: tuple[str, ...], claim: s
         raise InputError("--claim shows one claim, and --only parts of all; use one of them")
     if form == "erratum" and (claim is not None or only):
         raise InputError("--format erratum writes one whole note; it takes neither --claim nor --only")
-    from hypcheck.paper.derive import as_json, erratum, latex, markdown, text
-    from hypcheck.paper.derive.selection import Selection
+    from hypcheck.paper.derive import erratum
+    from hypcheck.paper.derive.content import Selection
+    from hypcheck.paper.derive.formats import WRITERS
 
-    writers = (text.lines, latex.lines, as_json.lines, markdown.lines, erratum.lines)
     chosen = Selection(() if claim is not None else only or tuple(PARTS), claim)
-    _write(dict(zip(FORMATS, writers, strict=True))[form](chosen), output)
+    _write(WRITERS[form](chosen), output)
     if form == "erratum" and output != "-":
         click.echo(erratum.compile_note(Path(output)), err=True)
     failing = chosen.failing

@@ -41,7 +41,15 @@ class Emphasis:
     text: Text
 
 
-Text = Union[str, Code, Strong, Emphasis, "tuple[Text, ...]"]
+@dataclass(frozen=True, slots=True)
+class Formula:
+    """A formula as hypcheck writes it, in Unicode: x_c² + y_c². `remark` says whether it was checked."""
+
+    text: str
+    remark: str = ""
+
+
+Text = Union[str, Code, Strong, Emphasis, Formula, "tuple[Text, ...]"]
 """Running text: a string, a marked part, or a tuple of parts."""
 
 _MARKS = re.compile(r"`([^`]+)`|\*\*(.+?)\*\*|\*(.+?)\*")
@@ -88,6 +96,8 @@ def plain(text: Text) -> str:
         return text
     if isinstance(text, Code):
         return text.text
+    if isinstance(text, Formula):
+        return f"{text.text} {text.remark}".rstrip()
     if isinstance(text, (Strong, Emphasis)):
         return plain(text.text)
     return "".join(plain(part) for part in text)
@@ -133,17 +143,19 @@ class Paragraph:
 
 @dataclass(frozen=True, slots=True)
 class Item:
-    """An item of a list, with a sublist of items."""
+    """An item of a list, with a sublist of items; `title` is the term that the text explains."""
 
     text: Text
     below: tuple[Text, ...] = ()
+    title: Text = ""
 
 
 @dataclass(frozen=True, slots=True)
 class Bullets:
-    """A list; an empty list is not shown."""
+    """A list; an empty list is not shown. The items of a `numbered` list are steps."""
 
     items: tuple[Item, ...]
+    numbered: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -211,6 +223,11 @@ def table(name: str, heads: str | Iterable[Column], rows: Iterable[Row]) -> Tabl
 def bullets(items: Sequence[Text | Item]) -> Bullets:
     """A list of texts or items."""
     return Bullets(tuple(item if isinstance(item, Item) else Item(item) for item in items))
+
+
+def terms(explained: Iterable[tuple[Text, Text]]) -> Bullets:
+    """A list of terms, each with the text that explains it."""
+    return Bullets(tuple(Item(text, title=title) for title, text in explained))
 
 
 def count(number: int, *, bad: bool = False) -> TableCell:

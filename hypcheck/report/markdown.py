@@ -59,9 +59,8 @@ def render_overview(record: Record, context: ReportContext = ALONE) -> bytes:
 
 def _page(whole: ReportContent, beside: Collection[str]) -> bytes:
     """A content in UTF-8; `beside` are the names of the files beside it."""
-    lines = [f"# {running_text(whole.title)}", "", f"**{running_text(whole.verdict.sentence)}**", ""]
-    for section in (section for section in whole.sections if not section.page):
-        lines += _section(section, beside)
+    head = [f"# {running_text(whole.title)}", "", f"**{running_text(whole.verdict.sentence)}**", ""]
+    lines = [*head, *section_lines(whole.sections, beside)]
     return ("\n".join(lines).rstrip() + "\n").encode("utf-8", "replace")
 
 
@@ -75,6 +74,8 @@ def _inline(words: document.Text) -> str:
         return f"{' ' * words[:1].isspace()}{escape_text(document.bounded(words))}{' ' * words[-1:].isspace()}"
     if isinstance(words, document.Code):
         return code_span(document.bounded(words.text))
+    if isinstance(words, document.Formula):
+        return f"{code_span(words.text)} {words.remark}".rstrip()
     if isinstance(words, document.Strong):
         return f"**{running_text(words.text)}**"
     if isinstance(words, document.Emphasis):
@@ -82,10 +83,13 @@ def _inline(words: document.Text) -> str:
     return "".join(map(_inline, words))
 
 
-def _section(section: document.Section, beside: Collection[str]) -> Iterator[str]:
-    yield from (f"{'#' * section.level} {running_text(section.title)}", "")
-    for block in section.blocks:
-        yield from _block(block, beside)
+def section_lines(sections: Iterable[document.Section], beside: Collection[str] = ()) -> Iterator[str]:
+    """The lines of the sections; a section that only the page has is left out."""
+    for section in sections:
+        if not section.page:
+            yield from (f"{'#' * section.level} {running_text(section.title)}", "")
+            for block in section.blocks:
+                yield from _block(block, beside)
 
 
 def _block(block: document.Block, beside: Collection[str]) -> Iterator[str]:
@@ -93,10 +97,11 @@ def _block(block: document.Block, beside: Collection[str]) -> Iterator[str]:
     match block:
         case document.Paragraph(text):
             yield from (running_text(text), "")
-        case document.Bullets(items) if items:
-            for item in items:
-                yield f"- {running_text(item.text)}"
-                yield from (f"  - {running_text(text_below)}" for text_below in item.below)
+        case document.Bullets(items, numbered) if items:
+            for number, item in enumerate(items, 1):
+                mark = f"{number}. " if numbered else "- "
+                yield f"{mark}{running_text((item.title, ': ', item.text) if item.title else item.text)}"
+                yield from (f"{' ' * len(mark)}- {running_text(text_below)}" for text_below in item.below)
             yield ""
         case document.TableBlock(_, columns, rows):
             numbers = [place for place, column in enumerate(columns) if column.number]

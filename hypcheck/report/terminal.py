@@ -19,7 +19,8 @@ from hypcheck.report.drawings import ALONE, ReportContext
 from hypcheck.report.facts import Failure, cause_facts
 from hypcheck.report.formats import WrittenReport
 from hypcheck.report.messages import error_text, settings_facts
-from hypcheck.report.verdict import aligned, failures, tables_of_answers, verdict
+from hypcheck.report.text import table_lines
+from hypcheck.report.verdict import failures, tables_of_answers, verdict
 from hypcheck.runs.judge import Status
 
 MOST_LINES = 25
@@ -81,7 +82,7 @@ def summary_lines(
 
 def _squares(record: Record) -> Iterator[str]:
     for block, passing in tables_of_answers(record):
-        yield from (f"  {line}" for line in aligned(block))
+        yield from (f"  {line}" for line in table_lines(block, WIDTH))
         if passing:
             yield f"  {passing}"
 

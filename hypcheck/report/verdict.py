@@ -18,13 +18,13 @@ from dataclasses import dataclass
 from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.implementations.description import QUESTIONS
 from hypcheck.implementations.domain import too_few
-from hypcheck.messages import counted, escaped
+from hypcheck.messages import counted
 from hypcheck.record import Record
 from hypcheck.record.lines import DriftLine, GroupLine, ImplementationLine, NotStartedLine, OracleLine, ProofLine
 from hypcheck.record.measurements import ComparisonLine, ForestLine, KernelLine, SceneLine
 from hypcheck.report import messages, model
 from hypcheck.report.benchmark_facts import benchmark_failures, clauses_of, failures_of
-from hypcheck.report.document import Code, Column, Row, Strong, TableBlock, TableCell, number, plain, table
+from hypcheck.report.document import Code, Column, Row, Strong, TableBlock, TableCell, number, table
 from hypcheck.report.facts import Failure
 from hypcheck.report.measured import by_ratio, measured_methods, reference, reference_in_words, timed_workloads
 from hypcheck.runs.judge import Status, in_words, truth_in_words
@@ -343,22 +343,3 @@ def _right(question: str, truth: str, answer: str) -> bool:
     """Whether this is the right answer to the question about a row with this truth."""
     position = QUESTIONS[question].position
     return answer == (truth if position is None else str(int(int(truth) == position)))
-
-
-_WIDEST = 40
-"""Characters of a title at most."""
-
-
-def aligned(block: TableBlock) -> list[str]:
-    """The lines of a table for a terminal, with numbers aligned to the right."""
-    titles: Sequence[str] = [escaped(plain(column.title), _WIDEST) for column in block.columns]
-    rows = [titles, *([plain(cell.text) for cell in row] for row in block.rows)]
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    left = [not column.number for column in block.columns]
-    return [
-        "  ".join(
-            text.ljust(width) if first else text.rjust(width)
-            for text, width, first in zip(row, widths, left, strict=True)
-        ).rstrip()
-        for row in rows
-    ]

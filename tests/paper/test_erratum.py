@@ -18,7 +18,7 @@ from sympy.parsing.sympy_parser import (
 from hypcheck.cli.main import main
 from hypcheck.errors import Exit
 from hypcheck.paper.derive import erratum
-from hypcheck.paper.derive.selection import Selection
+from hypcheck.paper.derive.content import Selection
 
 
 @pytest.fixture(scope="module")

@@ -12,9 +12,10 @@ import pytest
 from hypcheck.cli.main import main
 from hypcheck.derivation.chain_book import chains
 from hypcheck.errors import Exit
-from hypcheck.paper.derive import selection
+from hypcheck.paper.derive import content
 from hypcheck.paper.ledger.book import entries, entries_of
 from hypcheck.paper.ledger.entry import Evidence
+from hypcheck.report.document import Emphasis, prose
 
 
 def told(capsys, *arguments):
@@ -27,14 +28,14 @@ def test_derive_without_options_shows_all_parts_and_all_hold(capsys):
     code, output, errors = told(capsys)
     assert code == Exit.HELD
     assert errors == ""
-    for title in ("DERIVATION:", "PROPOSITIONS:", "LEDGER:", "COSTS:"):
+    for title in ("Derivation:", "Propositions:", "Ledger:", "Costs:"):
         assert f"\n{title}" in output
 
 
 def test_parts_are_shown_in_their_order_whatever_the_order_of_the_options(capsys):
     _, output, _ = told(capsys, "--only", "costs", "--only", "derivation")
-    assert output.index("DERIVATION:") < output.index("COSTS:")
-    assert "LEDGER:" not in output
+    assert output.index("Derivation:") < output.index("Costs:")
+    assert "Ledger:" not in output
 
 
 @pytest.mark.parametrize(
@@ -95,7 +96,7 @@ def test_failing_step_of_a_proof_is_shown_and_derive_ends_with_6(capsys, monkeyp
     link = chain.links[0]
     wrong = replace(link.parts[0], relation="<")
     broken = replace(chain, links=(replace(link, parts=(wrong, *link.parts[1:])), *chain.links[1:]))
-    monkeypatch.setattr(selection, "chains", lambda: {**chains(), chain.name: broken})
+    monkeypatch.setattr(content, "chains", lambda: {**chains(), chain.name: broken})
     code, output, errors = told(capsys, "--only", "propositions", "--format", form)
     assert code == Exit.ORACLES_DISAGREE
     assert errors == ("hypcheck: the derivation disagrees with results that it should show: Proposition 3, repaired\n")
@@ -109,16 +110,16 @@ def test_failing_step_of_a_proof_is_shown_and_derive_ends_with_6(capsys, monkeyp
 def test_evidence_that_is_not_found_is_shown_as_failing():
     (table,) = (entry for entry in entries() if entry.number == "Table 2")
     without = replace(table, grounds=lambda: (Evidence("search", "nothing found among 7 hulls", holds=False),))
-    assert (selection.FAILS, "nothing found among 7 hulls") in list(selection.details(without))
+    assert (Emphasis(content.FAILS), prose("nothing found among 7 hulls")) in list(content.details(without))
 
 
 def test_a_verdict_without_its_evidence_is_among_what_derive_says_to_fail():
     (table,) = (entry for entry in entries() if entry.number == "Table 2")
     assert table.confirmed
-    assert selection.verdict(table) == "false"
+    assert content.verdict(table) == "false"
     groundless = replace(table, verdict="proved", grounds=tuple)
     assert not groundless.confirmed
-    assert selection.verdict(groundless) == "FAILS: proved"
+    assert content.verdict(groundless) == "FAILS: proved"
 
 
 HEAVY = ("sympy", "numpy", "mpmath", "fcl", "matplotlib")
@@ -159,5 +160,4 @@ def test_derive_help_loads_no_heavy_library():
 
 
 def test_the_ledger_needs_neither_fcl_nor_matplotlib():
-    modules = "hypcheck.paper.ledger, hypcheck.paper.derive.text, hypcheck.paper.derive.latex"
-    assert loaded(f"import {modules}, hypcheck.paper.derive.as_json") <= {"sympy", "numpy", "mpmath"}
+    assert loaded("import hypcheck.paper.ledger, hypcheck.paper.derive.formats") <= {"sympy", "numpy", "mpmath"}

@@ -9,12 +9,13 @@ from __future__ import annotations
 
 import hashlib
 import re
+from html import unescape
 from pathlib import Path
 
 import pytest
 
 from hypcheck.paper.derive import erratum
-from hypcheck.paper.derive.selection import Selection
+from hypcheck.paper.derive.content import Selection
 from tests.support.pages import PAGES, ROOT
 
 PAPER = ROOT.parent / "shared" / "paper.txt"
@@ -34,7 +35,7 @@ def normalised(text: str) -> str:
 
 def quoted() -> set[str]:
     """Every quoted phrase of the pages and of the erratum, normalised."""
-    pages = "\n".join(page.read_text(encoding="utf-8") for page in PAGES)
+    pages = unescape("\n".join(page.read_text(encoding="utf-8") for page in PAGES))
     note = "\n".join(erratum.lines(Selection(())))
     phrases = re.findall(r"“(.*?)”", pages, re.DOTALL) + re.findall(r"``(.*?)''", note, re.DOTALL)
     return {normalised(phrase) for phrase in phrases}

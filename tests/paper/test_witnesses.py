@@ -10,7 +10,7 @@ import pytest
 
 from hypcheck.geometry.pair import Pair
 from hypcheck.paper.derive import erratum
-from hypcheck.paper.derive.selection import Selection
+from hypcheck.paper.derive.content import Selection
 from hypcheck.paper.ledger import statements
 from hypcheck.paper.ledger.book import entries, faults, faults_with_entries
 from hypcheck.paper.ledger.entry import FALSE

@@ -11,4 +11,4 @@ PARTS = {
 """The parts by name, in their order, with what they are."""
 
 FORMATS = ("text", "latex", "json", "markdown", "erratum")
-"""The formats by name; `lines` of the module of that name, as_json for json, writes one."""
+"""The formats by name; formats.py has their writers."""

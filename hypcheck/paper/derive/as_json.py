@@ -12,8 +12,8 @@ import sympy
 from hypcheck.derivation.formulas import Cost
 from hypcheck.derivation.links import Chain, FiniteCases, Identity, Link, Part, Sign
 from hypcheck.derivation.program import Operations
+from hypcheck.paper.derive.content import Selection
 from hypcheck.paper.derive.latex import formula
-from hypcheck.paper.derive.selection import Selection
 from hypcheck.paper.ledger.entry import Evidence, LedgerEntry
 from hypcheck.paper.ledger.points import PointWitness, TiltedWitness
 from hypcheck.proof_text import proof_as_json

@@ -16,7 +16,7 @@ from importlib import resources
 from pathlib import Path
 
 from hypcheck.geometry.pair import Position
-from hypcheck.paper.derive.selection import Selection
+from hypcheck.paper.derive.content import Selection
 from hypcheck.paper.ledger import statements
 from hypcheck.paper.ledger.book import entries
 from hypcheck.paper.ledger.checks import by_12

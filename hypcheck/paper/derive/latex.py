@@ -1,4 +1,4 @@
-"""The output of `hypcheck derive` in LaTeX: a document that every LaTeX engine compiles, with common packages.
+"""A document in LaTeX, which every LaTeX engine compiles, with common packages.
 
 Plain text with formulas, from the derivation and the ledger, becomes LaTeX: x_c² + y_c² is x_{c}^{2} + y_{c}^{2}. The
 result is ASCII, so that every encoding works.
@@ -7,14 +7,11 @@ result is ASCII, so that every encoding works.
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Iterable, Iterator
 
-from hypcheck.derivation.formulas import Cost
-from hypcheck.derivation.links import Chain, Part
-from hypcheck.paper.derive import PARTS, selection
-from hypcheck.paper.derive.selection import Selection
-from hypcheck.paper.derive.text import broken
-from hypcheck.paper.ledger.entry import LedgerEntry
+from hypcheck.report import document
+from hypcheck.report.text import broken, column_widths, matrix_of
 
 _LETTERS = {"α": r"\alpha", "γ": r"\gamma", "λ": r"\lambda", "μ": r"\mu", "φ": r"\varphi", "ρ": r"\rho", "θ": r"\theta"}
 _LETTERS |= {"π": r"\pi", "Δ": r"\Delta"}
@@ -52,15 +49,17 @@ _PUNCTUATION = {
     "_": r"\_",
 }
 _RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
+_LOWERED = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
 
 _TOKEN = re.compile(
     r"(?P<code>`[^`]*`)"
     r"|(?P<plain>\d+\.[ab\d]\b|i\.e\.)"
     r"|(?P<raised>[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+)"
+    r"|(?P<lowered>[₀₁₂₃₄₅₆₇₈₉]+)"
     r"|(?P<root>√[A-Za-z\d]+)"
     r"|(?P<possessive>'s\b)"
     r"|(?P<word>[A-Za-zα-ωΑ-Ω]\u0304?[A-Za-zα-ωΑ-Ω\d_]*(?:'+(?![a-z]))?)"
-    r"|(?P<number>\d+)"
+    r"|(?P<number>(?<!\w)-\d+|\d+)"
     r"|(?P<other>.)",
     re.DOTALL,
 )
@@ -127,6 +126,8 @@ def _token(match: re.Match[str]) -> Run:
         return text, "text"
     if match["raised"]:
         return f"^{{{text.translate(_RAISED)}}}", "math"
+    if match["lowered"]:
+        return f"_{{{text.translate(_LOWERED)}}}", "math"
     if match["root"]:
         return rf"\sqrt{{{formula(text[1:])}}}", "math"
     if match["number"]:
@@ -163,7 +164,7 @@ def plain(text: str) -> str:
 
 
 _BEGIN = r"""\documentclass{article}
-\usepackage{amsmath,amssymb}
+\usepackage{amsmath,amssymb,longtable}
 \usepackage[a4paper,margin=25mm]{geometry}
 \setlength{\parindent}{0pt}
 \begin{document}"""
@@ -172,73 +173,82 @@ _ROOM = 88
 """Columns of plain text that fit on a line as a display."""
 
 
-def lines(chosen: Selection) -> Iterator[str]:
+def lines(sections: Iterable[document.Section]) -> Iterator[str]:
     """The whole document."""
     yield _BEGIN
-    if "derivation" in chosen.parts:
-        yield _heading("derivation")
-        for section in chosen.sections:
-            yield from _chain(section, numbered=False)
-    if chosen.claim is not None:
-        yield from _ledger(chosen.entries)
-    if chosen.chains:
-        yield _heading("propositions")
-        for chain in chosen.chains:
-            yield from _chain(chain, numbered=True)
-    if "ledger" in chosen.parts:
-        yield from _ledger(chosen.entries)
-    if "costs" in chosen.parts:
-        yield _heading("costs")
-        yield from _costs(chosen.costs)
+    for section in sections:
+        yield rf"\{'sub' * (section.level - 2)}section*{{{_inline(section.title)}}}"
+        for block in section.blocks:
+            yield from (*_block(block), "")
     yield r"\end{document}"
 
 
-def _heading(part: str) -> str:
-    return rf"\section*{{{part.capitalize()}: {sentence(PARTS[part])}}}"
+def _block(block: document.Block) -> Iterator[str]:
+    """The lines of a block; a document in LaTeX has no pictures and no folded blocks."""
+    match block:
+        case document.Paragraph(words):
+            yield _text(words)
+        case document.Bullets(items, numbered) if items:
+            kind = "enumerate" if numbered else "description" if items[0].title else "itemize"
+            yield rf"\begin{{{kind}}}"
+            for item in items:
+                yield rf"\item{f'[{{{_inline(item.title)}}}]' if item.title else ''} {_text(item.text)}"
+                yield from (f"\n{_text(text)}" for text in item.below)
+            yield rf"\end{{{kind}}}"
+        case document.TableBlock():
+            yield from _table(block)
+        case document.Either(text=text):
+            yield from _block(text)
 
 
-def _chain(chain: Chain, *, numbered: bool) -> Iterator[str]:
-    yield rf"\subsection*{{{sentence(chain.name)}}}"
-    yield sentence(chain.statement)
-    for number, link in enumerate(chain.links, 1):
-        yield ""
-        before = rf"\textbf{{{number}.}} " if numbered else ""
-        yield before + sentence(link.statement) + (f" [{sentence(link.because)}]" if numbered else "")
-        yield from map(_display, link.parts)
+def _table(block: document.TableBlock) -> Iterator[str]:
+    """A table that may be longer than a page; the columns of one that is too wide have fixed widths."""
+    rows = [tuple(column.title for column in block.columns), *(tuple(cell.text for cell in row) for row in block.rows)]
+    shown = [[document.plain(words) for words in row] for row in rows]
+    natural, fitting = (column_widths(block, shown, room) for room in (sys.maxsize, _ROOM))
+    kinds = [
+        "r" if column.number else "l" if natural == fitting else rf"p{{{width / _ROOM:.2f}\linewidth}}"
+        for column, width in zip(block.columns, fitting, strict=True)
+    ]
+    yield r"{\footnotesize\setlength{\tabcolsep}{3pt}"
+    yield rf"\begin{{longtable}}{{{''.join(kinds)}}}"
+    for number, row in enumerate(rows):
+        yield " & ".join(map(_text, row)) + (r" \\" if number else r" \\ \hline \endhead")
+    yield r"\end{longtable}}"
 
 
-def _display(part: Part) -> str:
-    """A formula on its own, with its check as its tag; one that is too long in several lines."""
-    tag = rf"\tag*{{{selection.remark(part.holds)}}}"
-    if (named := selection.matrix_of(part)) is not None:
+def _text(words: document.Text) -> str:
+    """A text of its own: a formula is displayed. A bracket at its beginning would be read as an option."""
+    if isinstance(words, document.Formula):
+        return _display(words)
+    shown = _inline(words)
+    return f"{{}}{shown}" if shown.startswith("[") else shown
+
+
+def _inline(words: document.Text) -> str:
+    match words:
+        case str():
+            return sentence(words)
+        case document.Code(text):
+            return rf"\texttt{{{plain(text)}}}"
+        case document.Strong(text):
+            return rf"\textbf{{{_inline(text)}}}"
+        case document.Emphasis(text):
+            return rf"\emph{{{_inline(text)}}}"
+        case document.Formula(text, remark):
+            return f"${formula(text)}$ {remark}".rstrip()
+        case _:
+            return "".join(map(_inline, words))
+
+
+def _display(shown: document.Formula) -> str:
+    """A formula on its own, with its remark as its tag; one that is too long in several lines."""
+    if (named := matrix_of(shown.text)) is not None:
         name, cells = named
         rows = (" & ".join(map(formula, row)) for row in cells)
         body = formula(name) + r" = \begin{pmatrix} " + r" \\ ".join(rows) + r" \end{pmatrix}"
     else:
-        first, *others = map(formula, broken(part.text, _ROOM))
-        body = first if not others else rf"\begin{{aligned}} & {first}{_continued(others)} \end{{aligned}}"
-    return rf"\begin{{equation*}} {body} {tag} \end{{equation*}}"
-
-
-def _continued(pieces: Iterable[str]) -> str:
-    return "".join(rf" \\ & \quad {piece}" for piece in pieces)
-
-
-def _ledger(entries: tuple[LedgerEntry, ...]) -> Iterator[str]:
-    yield _heading("ledger")
-    yield r"\begin{description}"
-    for entry in entries:
-        yield rf"\item[{{{plain(entry.number)}}}] \textbf{{{selection.verdict(entry)}.}} {sentence(entry.statement)}"
-        for title, text in selection.details(entry):
-            yield rf"\\ \emph{{{title}:}} {sentence(text)}"
-    yield r"\end{description}"
-
-
-def _costs(costs: tuple[Cost, ...]) -> Iterator[str]:
-    yield sentence(selection.COSTS_EXPLAINED)
-    yield r"\medskip\par\small"
-    yield rf"\begin{{tabular}}{{l{'r' * len(selection.COST_COLUMNS)}}}"
-    yield " & ".join(["", *map(sentence, selection.COST_COLUMNS)]) + r" \\ \hline"
-    for cost in costs:
-        yield " & ".join([cost.name, *selection.cost_cells(cost)]) + r" \\"
-    yield r"\end{tabular}"
+        first, *others = map(formula, broken(shown.text, _ROOM))
+        further = "".join(rf" \\ & \quad {piece}" for piece in others)
+        body = rf"\begin{{aligned}} & {first}{further} \end{{aligned}}" if others else first
+    return rf"\begin{{equation*}} {body} \tag*{{{shown.remark}}} \end{{equation*}}"

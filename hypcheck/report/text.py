@@ -1,0 +1,197 @@
+"""A document as plain text for a terminal, in WIDTH columns of Unicode: headings, lists and tables, laid out by spaces.
+
+A heading of level 3 stands to the left of its blocks. The remark about a formula is at the right edge, so that a reader
+sees at a glance that all formulas hold.
+"""
+
+from __future__ import annotations
+
+import re
+import textwrap
+import unicodedata
+from collections.abc import Iterable, Iterator, Sequence
+
+from hypcheck.messages import escaped
+from hypcheck.report import document
+
+WIDTH = 100
+
+_INDENT, _LEAST_TITLE, _LONGEST_TITLE = 4, 9, 40
+"""Columns of an indent; of the titles of a list, at least; characters of a column's title, at most."""
+
+
+def lines(sections: Iterable[document.Section]) -> Iterator[str]:
+    """The lines of the sections; a section that only the page has is left out."""
+    for section in sections:
+        if section.page:
+            continue
+        title = inline(section.title)
+        yield from ("", title, *([] if section.level > 2 else ["═" * columns(title)]))
+        indent = _INDENT * (section.level > 2)
+        for number, block in enumerate(section.blocks):
+            if number or section.level == 2:
+                yield ""
+            yield from _block(block, indent)
+
+
+def _block(block: document.Block, indent: int) -> Iterator[str]:
+    """The lines of a block; a text has no pictures and no folded blocks."""
+    match block:
+        case document.Paragraph(text):
+            yield from _text(text, indent)
+        case document.Bullets(items, numbered):
+            yield from _numbered(items, max(indent, _INDENT)) if numbered else _bullets(items, indent)
+        case document.TableBlock():
+            yield from (f"{' ' * indent}{line}" for line in table_lines(block, WIDTH - indent))
+        case document.Either(text=text):
+            yield from _block(text, indent)
+
+
+def _numbered(items: Sequence[document.Item], indent: int) -> Iterator[str]:
+    for number, item in enumerate(items, 1):
+        if number > 1:
+            yield ""
+        yield from _text(item.text, indent, f"{' ' * (indent - _INDENT)}{number}.")
+        yield from _below(item, indent + _INDENT)
+
+
+def _bullets(items: Sequence[document.Item], indent: int) -> Iterator[str]:
+    """A list. The texts of items that have titles begin in one column, to the right of the titles."""
+    titles = [inline(item.title) for item in items]
+    column = max(_LEAST_TITLE, *map(columns, titles)) + 1 if any(titles) else 2
+    for item, title in zip(items, titles, strict=True):
+        yield from _text(item.text, indent + column, f"{' ' * indent}{title or '-'}")
+        yield from _below(item, indent + column + 2)
+
+
+def _below(item: document.Item, indent: int) -> Iterator[str]:
+    return (line for text in item.below for line in _text(text, indent))
+
+
+def _text(words: document.Text, indent: int, first: str = "") -> Iterator[str]:
+    """A text in lines; `first` replaces the indent of the first line."""
+    if isinstance(words, document.Formula):
+        yield from _formula(words, indent, first)
+    else:
+        yield from paragraph(inline(words), indent, first)
+
+
+def inline(words: document.Text) -> str:
+    """Running text on one line; code within a text is in backticks."""
+    return escaped(words.text if isinstance(words, document.Code) else _with_backticks(words))
+
+
+def _with_backticks(words: document.Text) -> str:
+    if isinstance(words, document.Code):
+        return f"`{words.text}`"
+    return "".join(map(_with_backticks, words)) if isinstance(words, tuple) else document.plain(words)
+
+
+def columns(text: str) -> int:
+    """The number of columns of a text; combining marks, as in H̄, take none."""
+    return sum(not unicodedata.combining(character) for character in text)
+
+
+def padded(text: str, width: int) -> str:
+    """The text with spaces up to a width."""
+    return text + " " * (width - columns(text))
+
+
+def paragraph(text: str, indent: int = 0, first: str = "", width: int = WIDTH) -> Iterator[str]:
+    """The text in lines, without a break inside a comparison; `first` replaces the indent of the first line."""
+    glued = re.sub(r"(?<=\S) ([=<>≤≥≠]) (?=\S)", "\u00a0\\1\u00a0", text)
+    glued = re.sub(r"(?<=\d), (?=[\d−]\S*\)|\d+, )", ",\u00a0", glued)  # a point's coordinates stay together
+    wrapped = textwrap.wrap(glued, width - indent, break_long_words=False, break_on_hyphens=False)
+    for number, line in enumerate(wrapped or [""]):
+        yield (padded(first if number == 0 else "", indent) + line.replace("\u00a0", " ")).rstrip()
+
+
+def _formula(formula: document.Formula, indent: int, first: str) -> Iterator[str]:
+    """A formula with its remark at the right edge; a matrix in rows, and a long formula broken (see `broken`)."""
+    remark = formula.remark
+    named = matrix_of(formula.text)
+    if named is not None:
+        shown = [*_matrix(*named)]
+    else:
+        start, *others = broken(formula.text, WIDTH - indent - len(remark) - 2)
+        shown = [start, *(f"    {line}" for line in others)]
+    shown = [padded(first if number == 0 else "", indent) + line for number, line in enumerate(shown)]
+    shown[-1] = padded(shown[-1], WIDTH - len(remark)) + remark
+    yield from (line.rstrip() for line in shown)
+
+
+def broken(text: str, room: int, depth: int = 0) -> list[str]:
+    """The formula in lines of at most `room` columns, broken before signs that join terms, the outermost ones first."""
+    lines = [""]
+    for piece in _terms(text, depth):
+        if columns(lines[-1] + piece) <= room or not lines[-1]:
+            lines[-1] += piece
+        else:
+            lines.append(piece.lstrip())
+    deeper = [broken(line, room, depth + 1) if columns(line) > room and depth < _DEEPEST else [line] for line in lines]
+    return [line for parts in deeper for line in parts]
+
+
+_DEEPEST = 4
+"""No formula here nests further."""
+
+
+def _terms(text: str, depth: int) -> Iterator[str]:
+    """The text cut before each spaced sign, and after each comma, that stands in at most `depth` brackets."""
+    start = level = 0
+    for place, character in enumerate(text):
+        level += (character in "([") - (character in ")]")
+        joins = text[place : place + 3] in {" + ", " − ", " ⟺ ", " = "} and place > 0
+        if level <= depth and (joins or text[place - 1 : place] == ","):
+            yield text[start:place]
+            start = place
+    yield text[start:]
+
+
+def matrix_of(text: str) -> tuple[str, list[list[str]]] | None:
+    """The name and the rows of the matrix in "H = [a, b; c, d]"; None if a formula does not end with a matrix."""
+    name, equals, inside = text.partition(" = ")
+    if not (equals and inside.startswith("[") and inside.endswith("]")):
+        return None
+    return name, [row.split(", ") for row in inside.strip("[]").split("; ")]
+
+
+def _matrix(name: str, rows: Sequence[Sequence[str]]) -> Iterator[str]:
+    """A matrix, one line for each row."""
+    widths = [max(map(columns, column)) for column in zip(*rows, strict=True)]
+    last = len(rows) - 1
+    for number, row in enumerate(rows):
+        left, right = ("⎡", "⎤") if number == 0 else ("⎣", "⎦") if number == last else ("⎢", "⎥")
+        cells = "  ".join(padded(cell, width) for cell, width in zip(row, widths, strict=True))
+        title = f"{name} = " if number == last // 2 else " " * (columns(name) + 3)
+        yield f"{title}{left} {cells} {right}"
+
+
+def table_lines(block: document.TableBlock, room: int = WIDTH) -> Iterator[str]:
+    """The lines of a table, with numbers aligned to the right; a text that is too wide for its column is wrapped."""
+    titles = [escaped(inline(column.title), _LONGEST_TITLE) for column in block.columns]
+    rows = [titles, *([inline(cell.text) for cell in row] for row in block.rows)]
+    widths = column_widths(block, rows, room)
+    for row in rows:
+        cells = [list(paragraph(text, width=width)) for text, width in zip(row, widths, strict=True)]
+        for number in range(max(map(len, cells))):
+            parts = [cell[number] if number < len(cell) else "" for cell in cells]
+            yield "  ".join(
+                part.rjust(width) if column.number else padded(part, width)
+                for part, width, column in zip(parts, widths, block.columns, strict=True)
+            ).rstrip()
+
+
+def column_widths(block: document.TableBlock, rows: Sequence[Sequence[str]], room: int) -> list[int]:
+    """The widths of the columns of these rows, the titles first.
+
+    If a table is wider than the room, the titles of numbers are wrapped; then the widest columns become narrower.
+    """
+    widths = [max(map(columns, cells)) for cells in zip(*rows, strict=True)]
+    room -= 2 * (len(widths) - 1)
+    for place, (column, (title, *cells)) in enumerate(zip(block.columns, zip(*rows, strict=True), strict=True)):
+        if column.number and sum(widths) > room:
+            widths[place] = max(map(columns, [*title.split(), *cells]))
+    while sum(widths) > room and max(widths) > 1:
+        widths[widths.index(max(widths))] -= 1
+    return widths
