@@ -1,88 +1,272 @@
 """`hypcheck bench --kernel`: every target of the fast path's speed, each a line "kernel" of the record.
 
-The kernels are compared with plain numpy expressions (Table 2 with powers, and with products), with numpy.roots and
-FCL. A target that cannot be measured here becomes a line "absent".
+Here are the run, and the targets of the compiled kernel; call_targets.py has those of calls from Python. A target that
+cannot be measured here becomes a line "absent".
 
-For hyperboloids that end, the targets are the cost of ends, and the share of each family's rows that C leaves open. The
-rows are of the paper's tower between z −17.8 and 17.8; each kind is compared with the same rows without ends.
+The plain formula, and a loop that only reads the rows, are compiled when they are needed, for the instruction set of
+the kernel. The plain formula is Table 2 as the programs print it; steps that depend only on sizes come before the loop,
+and contraction is allowed. It only answers whether the pair is exterior, and is not certified. It is compiled for each
+vector width, and the fastest result is used.
+
+Tilted spheroids are classified in the same scene, with axes in all directions, by calls from Python on one thread. For
+hyperboloids that end, the targets are the cost of ends, and the share of each family's rows that C leaves open.
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
 from pathlib import Path
 from statistics import median
 from tempfile import TemporaryDirectory
-from time import thread_time_ns
+from time import perf_counter_ns, thread_time_ns
 
 import numpy as np
-from numpy.typing import NDArray
 
 import hypcheck
-from hypcheck.bench import call_targets, compiled_targets
-from hypcheck.bench.c_library import TOWER_SIZES, c_baselines
-from hypcheck.bench.compiled_targets import KernelTarget, listed, target, tower_rows, uniform_columns
+from hypcheck.bench import call_targets, yardsticks
+from hypcheck.bench.accuracy import forget_peak, peak
+from hypcheck.bench.c_library import TOWER_SIZES, CBaseline
+from hypcheck.bench.yardsticks import Measuring, lines, target, threaded, tower_rows, uniform_columns
 from hypcheck.errors import UnavailableError
-from hypcheck.geometry.pair import Sizes
-from hypcheck.geometry.rows import CANNOT_SAY, Columns, Floats, Positions, Rows
-from hypcheck.implementations.alternatives import delta_with_powers, numpy_roots
-from hypcheck.implementations.meshes import FCL, SceneMesh, height_of, scene_mesh
-from hypcheck.kernel import numpy_kernel
+from hypcheck.geometry.rows import CANNOT_SAY, Columns, Positions, Rows, tilted_rows
+from hypcheck.implementations.alternatives import by_eigenvectors
+from hypcheck.implementations.meshes import FCL
 from hypcheck.kernel.choice import choice
-from hypcheck.kernel.compiled_kernel import answer_ended, answer_rows, answer_sweeps
+from hypcheck.kernel.compiled_kernel import answer_ended, answer_rows, answer_sweeps, fill_scene, in_parts
 from hypcheck.record import Recorder
 from hypcheck.record.measurements import AbsentLine, KernelLine
-from hypcheck.runs import timing
+from hypcheck.runs.timing import Samples, TimingEntry, clocked, measured_samples, rate_text, times_as_fast
 from hypcheck.vectors.families import ENDED_FAMILIES, ENDED_SWEEP_FAMILIES
 
-SEED = 1
+AGAIN = 2
+"""A missed target is measured so many times more."""
+
+STREAM, QUICK_STREAM = 1_000_000_000, 100_000_000
+
+
+MANY, CACHED, FEW, WORST = 10_000_000, 100_000, 20_000, 20_000
+"""Rows from memory, in the cache, for numpy, and next to contact."""
+
+
+def _answered(columns: Columns, out: Positions, threads: int = 1) -> Positions:
+    fill_scene(TOWER_SIZES, columns, out, "position", threads)
+    return out
+
+
+def _plain(libraries: Sequence[CBaseline], columns: Columns, out: Positions) -> list[TimingEntry]:
+    """The plain formula in C, compiled for each vector width, by the flags of the compiler."""
+    return [
+        TimingEntry(" ".join(library.flags) or "no flags", len(out), library.plain(columns, out))
+        for library in libraries
+    ]
+
+
+def _with_fastest(samples: dict[str, Samples], plain: Sequence[TimingEntry]) -> dict[str, Samples]:
+    """The samples, and the fastest of the plain formula as "plain"."""
+    return {**samples, "plain": min((samples[entry.name] for entry in plain), key=lambda timed: timed.median_ns)}
+
+
+def from_memory(run: Measuring) -> Iterator[KernelLine]:
+    """Ten million rows: reading them, the plain formula, and the kernel on one thread and on two."""
+    columns, out = uniform_columns(MANY), np.zeros(MANY, dtype=np.int8)
+    read, plain = run.baselines[0].read, _plain(run.baselines, columns, out)
+    entries = [
+        TimingEntry("read", MANY, read(columns)),
+        *plain,
+        *threaded(MANY, {"one": partial(_answered, columns, out)}),
+        TimingEntry("one by the clock", MANY, clocked(partial(_answered, columns, out))),
+        TimingEntry("two by the clock", MANY, clocked(partial(_answered, columns, out, threads=2))),
+        TimingEntry("read by the clock", MANY, read(columns, threads=1, clock=perf_counter_ns)),
+        TimingEntry("read on two by the clock", MANY, read(columns, threads=2, clock=perf_counter_ns)),
+    ]
+    samples = _with_fastest(measured_samples(entries, run.rounds), plain)
+    yield from lines(samples, "memory speed", "plain C, from memory")
+    yield target("two threads").line(
+        *_gain(*(samples[f"{name} by the clock"] for name in ("one", "two", "read", "read on two")))
+    )
+
+
+def _gain(one: Samples, two: Samples, read: Samples, read_on_two: Samples) -> tuple[list[float], str]:
+    """The gain from a second thread, divided by reading's gain in the same rounds; and the sentence about it."""
+    gains, most = times_as_fast(two, one), times_as_fast(read_on_two, read)
+    says = (
+        f"by the clock, one thread: {rate_text(one)}; two, {median(gains):.3g} times as fast: "
+        f"{rate_text(two)}; reading x, y and z alone: {rate_text(read)}; "
+        f"on two, {median(most):.3g} times as fast: {rate_text(read_on_two)}"
+    )
+    return [gain / limit for gain, limit in zip(gains, most, strict=True)], says
+
+
+def in_cache(run: Measuring) -> Iterator[KernelLine]:
+    """A hundred thousand rows, which stay in the cache."""
+    columns, out = uniform_columns(CACHED), np.zeros(CACHED, dtype=np.int8)
+    plain = _plain(run.baselines, columns, out)
+    entries = [*plain, *threaded(CACHED, {"one": partial(_answered, columns, out)})]
+    yield from lines(_with_fastest(measured_samples(entries, 3 * run.rounds), plain), "plain C, in cache")
+
+
+REPEATED = 200
+
+
+Part = Callable[[Columns, Positions], None]
+"""Work of one thread on its part of the columns and answers."""
+
+
+def threads_in_cache(run: Measuring) -> Iterator[KernelLine]:
+    """Targets of two threads whose rows stay in the cache, so that memory does not limit them."""
+    columns, out = uniform_columns(2 * CACHED), np.zeros(2 * CACHED, dtype=np.int8)
+    library = run.baselines[0]
+    works: dict[str, Part] = {
+        "ask": lambda part, out: library.of_scene(part, out)(REPEATED),
+        "read": lambda part, _out: library.reading(part)(REPEATED),
+    }
+    entries = [
+        TimingEntry(
+            f"{name}, {threads}",
+            threads * CACHED * REPEATED,
+            clocked(partial(_on_threads, work, columns, out, threads)),
+        )
+        for threads in (1, 2)
+        for name, work in works.items()
+    ]
+    samples = measured_samples(entries, 3 * run.rounds)
+    yield target("two threads, in cache").line(
+        *_gain(*(samples[name] for name in ("ask, 1", "ask, 2", "read, 1", "read, 2")))
+    )
+
+
+def _on_threads(work: Part, columns: Columns, out: Positions, threads: int) -> Positions:
+    """Each thread works REPEATED times on CACHED rows of its own."""
+
+    def part(start: int, stop: int) -> int:
+        x, y, z = (column[start:stop] for column in columns)
+        work((x, y, z), out[start:stop])
+        return 0
+
+    in_parts(part, threads * CACHED, threads)
+    return out[: threads * CACHED]
+
+
+def near_contact(run: Measuring) -> Iterator[KernelLine]:
+    """Targets of rows that floats cannot decide, upright and tilted; and of tilted rows against numpy."""
+    columns, out = yardsticks.touching_columns(WORST), np.zeros(WORST, dtype=np.int8)
+    product = TimingEntry("product", 1, run.baselines[0].product())
+    upright = threaded(WORST, {"touching": partial(_answered, columns, out)})
+    yield from lines(measured_samples([*upright, product], run.rounds), "near contact")
+    rows = tilted_rows(TOWER_SIZES, uniform_columns(CACHED), (*yardsticks.axes(CACHED).T,))
+    tilted = [
+        *threaded(CACHED, {"rows": partial(hypcheck.classify, rows, threads=1)}),
+        *threaded(FEW, {"eigh": partial(by_eigenvectors, rows[:FEW], _TURNS)}),
+        *threaded(WORST, {"touching": partial(hypcheck.classify, yardsticks.touching_rows(WORST), threads=1)}),
+    ]
+    yield from lines(measured_samples([*tilted, product], run.rounds), "numpy.linalg.eigh", "near contact, tilted")
+
+
+_TURNS = 30
+"""Bisections of numpy's version: enough away from contact, and fewer than it would need there."""
+
+
+def slowest_row(run: Measuring) -> Iterator[KernelLine]:
+    """Search the slowest row, then measure it together with rows near contact."""
+    row = yardsticks.found_row()
+    near = tower_rows(yardsticks.touching_columns(yardsticks.EACH))
+    usual = [median(map(yardsticks.cost, near)) for _ in range(run.rounds)]
+    slow = [yardsticks.cost(row) for _ in range(run.rounds)]
+    numbers = ", ".join(repr(float(value)) for value in row)
+    says = f"{median(slow):.4g} ns: {numbers}; the median row near contact: {median(usual):.4g} ns"
+    yield target("slowest row").line([a / b for a, b in zip(slow, usual, strict=True)], says)
+
+
+PART, PARTS, LEAST_PARTS = 1_000_000, 8, 100
+
+
+def streamed(run: Measuring) -> Iterator[KernelLine]:
+    """Targets from a million rows to a billion, a million at a time, from a ring of parts that exceeds every cache.
+
+    With each part another part is only read, so that a slow moment of the memory affects both times.
+    """
+    most, rounds = (QUICK_STREAM, 3) if run.quick else (STREAM, 5)
+    columns, out = uniform_columns(PARTS * PART), np.zeros(PART, dtype=np.int8)
+    slices = [slice(k * PART, (k + 1) * PART) for k in range(PARTS)]
+    parts = [(columns[0][part], columns[1][part], columns[2][part]) for part in slices]
+    library = run.baselines[0]
+    _of_stream(library, PARTS, parts, out)
+    before = forget_peak()
+    totals = [10**k for k in range(4) if PART * 10**k <= most]
+    costs = np.array([[_of_stream(library, total, parts, out) for total in totals] for _ in range(rounds)])
+    grown = max(0, peak() - before)
+    streams = ", ".join(f"{PART * t:,} rows {c:.3g}" for t, c in zip(totals, np.median(costs, axis=0), strict=True))
+    dearest = costs[:, 1 + np.argmax(np.median(costs[:, 1:], axis=0))] if len(totals) > 1 else costs[:, 0]
+    says = f"times as long as reading the row, in streams of {streams}; memory grew by {grown / 2**20:.1f} MB meanwhile"
+    yield target("streamed").line((dearest / costs[:, 0]).tolist(), says)
+
+
+def _of_stream(library: CBaseline, total: int, parts: Sequence[Columns], out: Positions) -> float:
+    """The time of a row in a stream of `total` parts over the time of reading it; the median if the stream repeats."""
+    streams = []
+    for start in range(max(1, LEAST_PARTS // total)):
+        answering = reading = 0
+        for k in range(start, start + total):
+            other, these = parts[(k + len(parts) // 2) % len(parts)], parts[k % len(parts)]
+            read_other = library.reading(other)
+            began = thread_time_ns()
+            read_other(1)
+            between = thread_time_ns()
+            _answered(these, out)
+            reading, answering = reading + between - began, answering + thread_time_ns() - between
+        streams.append(answering / reading)
+    return median(streams)
+
+
+AXIS = (0.3, 0.1, 0.9)
+
+
+def one_orientation(run: Measuring) -> Iterator[KernelLine]:
+    """The target of a scene with an axis, compared with the same scene without it."""
+    for name, count, more in (("one orientation", MANY, 1), ("one orientation, in cache", CACHED, 3)):
+        ask = partial(hypcheck.classify_scene, TOWER_SIZES, *uniform_columns(count), threads=1)
+        calls = {"upright": ask, "tilted": partial(ask, axis=AXIS)}
+        yield from lines(measured_samples(threaded(count, calls), more * run.rounds), name)
+
+
+def axis_along_z(run: Measuring) -> Iterator[KernelLine]:
+    """The target of upright rows of ten, compared with the same rows of seven by the bytes that are read."""
+    ten = tilted_rows(TOWER_SIZES, uniform_columns(CACHED), (0.0, 0.0, 1.0))
+    calls = {
+        name: partial(hypcheck.classify, rows, threads=1)
+        for name, rows in (("seven", np.ascontiguousarray(ten[:, :7])), ("ten", ten))
+    }
+    samples = measured_samples(threaded(CACHED, calls), 3 * run.rounds)
+    ratios = [ratio * 10 / 7 for ratio in times_as_fast(samples["ten"], samples["seven"])]
+    says = f"{rate_text(samples['ten'])}; rows of seven: {rate_text(samples['seven'])}"
+    yield target("axis along z").line(ratios, says)
+
+
 PACED = 20_000
+
+
 ORDINARY, NEAR = 20_000, 2_000
 """Rows of each ordinary family, and of each family near a rim, a flat end or the wall."""
 
-END = 17.8
-FAR_AWAY = 1e4
 
-
-def paces(rounds: int) -> Iterator[KernelLine]:
-    """Targets of rows whose ends are far away, and of rows near the rim, upright and tilted."""
-    random = np.random.Generator(np.random.PCG64(SEED))
-    around = random.uniform((-4, -4, -20), (4, 4, 20), (PACED, 3))
-    turn, off = random.uniform(0, 2 * math.pi, PACED), random.uniform(-0.4, 0.4, PACED)
-    radius = TOWER_SIZES[0] * math.hypot(1, END / TOWER_SIZES[1]) + off
-    level = END + random.uniform(-0.3, 0.3, PACED)
-    rim = np.stack([radius * np.cos(turn), radius * np.sin(turn), level], axis=1)
-    for kind, axes, width in (
-        ("upright", np.tile([0.0, 0.0, 1.0], (PACED, 1)), 7),
-        ("tilted", random.uniform(-1, 1, (PACED, 3)), 10),
-    ):
-        whole = np.ascontiguousarray(_rows(around, axes, FAR_AWAY)[:, :width])
-        far, near = _rows(around, axes, FAR_AWAY), _rows(rim, axes, END)
-        entries = [
-            timing.TimingEntry("whole", PACED, timing.thread_clocked(partial(_answered, whole))),
-            timing.TimingEntry("far", PACED, timing.thread_clocked(partial(answer_ended, far, 1))),
-            timing.TimingEntry("near", PACED, timing.thread_clocked(partial(answer_ended, near, 1))),
-        ]
-        samples = timing.measured_samples(entries, rounds)
-        for name, text in (("far", "ends far away"), ("near", "ends near the rim")):
-            says = f"{timing.rate_text(samples[name])}; without ends {timing.rate_text(samples['whole'])}"
-            yield target(f"{text}, {kind}").against(samples[name], samples["whole"], says)
-
-
-def _answered(rows: Rows) -> Positions:
+def _whole(rows: Rows) -> Positions:
     return answer_rows(rows, "position", 1)[0]
 
 
-def _rows(centres: Floats, axes: Floats, end: float) -> Rows:
-    n = len(centres)
-    ends = np.tile([-end, end, 0.0], (n, 1))
-    return np.ascontiguousarray(np.column_stack([np.tile(TOWER_SIZES, (n, 1)), centres, axes, ends]))
+def paces(run: Measuring) -> Iterator[KernelLine]:
+    """Targets of rows whose ends are far away, and of rows near the rim, upright and tilted."""
+    for kind, (whole, far, near) in yardsticks.ended_rows(PACED).items():
+        calls: dict[str, Callable[[], Positions]] = {
+            "whole": partial(_whole, whole),
+            "far": partial(answer_ended, far, 1),
+            "near": partial(answer_ended, near, 1),
+        }
+        samples = measured_samples(threaded(PACED, calls), run.rounds)
+        yield from lines(samples, f"ends far away, {kind}", f"ends near the rim, {kind}")
 
 
-def left_open(_rounds: int) -> Iterator[KernelLine]:
+def left_open(_run: Measuring) -> Iterator[KernelLine]:
     """Targets of the rows and sweeps of each family that C answers with 2; Python then decides these exactly."""
     counts = {name: _open_share(name) for name in (*ENDED_FAMILIES, *ENDED_SWEEP_FAMILIES)}
     for subject, ordinary in (("left open, ordinary", True), ("left open, near an end", False)):
@@ -95,160 +279,55 @@ def left_open(_rounds: int) -> Iterator[KernelLine]:
 def _open_share(name: str) -> float:
     sweeps = name in ENDED_SWEEP_FAMILIES
     family = ENDED_SWEEP_FAMILIES[name] if sweeps else ENDED_FAMILIES[name]
-    rows = np.ascontiguousarray(family.rows(SEED, ORDINARY if name.endswith("uniform") else NEAR))
+    rows = np.ascontiguousarray(family.rows(yardsticks.SEED, ORDINARY if name.endswith("uniform") else NEAR))
     answers = answer_sweeps(rows)[0] if sweeps else answer_ended(rows, 1)
     return float((answers == CANNOT_SAY).mean())
 
 
-def with_powers(sizes: Sizes, x: Floats, y: Floats, z: Floats) -> NDArray[np.int8]:
-    """Whether each centre is exterior, with `**2` and `**3` as in the paper's formula; it is not certified."""
-    delta, c1, c2 = delta_with_powers(sizes, x, y, z)
-    return np.asarray((delta > 0) & (c2 < 0) & (c1 > 0)).view(np.int8)
+Group = Callable[[Measuring], Iterable[KernelLine]]
 
 
-def with_products(sizes: Sizes, x: Floats, y: Floats, z: Floats) -> NDArray[np.int8]:
-    """As with_powers, with products instead of powers; numpy computes powers by a function of the C library."""
-    alpha, gamma, b, d = sizes
-    A, B = (alpha / b) ** 2, (gamma / d) ** 2
-    c0, bb, dd = -A * B, b * b, d * d
-    P, Q = (x * x + y * y) / bb, z * z / dd
-    c1 = c0 + A - B + B * P - A * Q
-    c2 = A - B + 1 - P - Q
-    c21 = c2 * c1
-    delta = -4 * c2 * c2 * c2 * c0 + c21 * c21 + 18 * c21 * c0 - 4 * c1 * c1 * c1 - 27 * c0 * c0
-    return np.asarray((delta > 0) & (c2 < 0) & (c1 > 0)).view(np.int8)
+ANYWHERE: tuple[Group, ...] = (call_targets.against_numpy, call_targets.against_others, call_targets.one_call)
 
 
-MANY, FEW, CHUNK = 10_000_000, 200, 1 << 13
-TRIANGLES = 2000
-
-EXPRESSIONS = {
-    "powers": "the numpy expression with ** 2 and ** 3",
-    "products": "the numpy expression with products for powers",
-}
-
-
-@dataclass(frozen=True, slots=True)
-class TimesAsFast:
-    """A target "`times` times as fast as an expression", as a share of it, or of the possible factor if that is less.
-
-    If the system has large pages for the expression's temporaries, the expression may be so fast that even a loop that
-    only reads the rows is not `times` as fast.
-    """
-
-    mine: str
-    name: str
-    subject: str
-    times: float
-    ceiling: str
-    share: float
-
-    def line(self, expression: str, samples: Mapping[str, timing.Samples], says: str) -> KernelLine:
-        """The record's line about the expression of that name."""
-        own, other, least = (samples[name] for name in (self.mine, expression, self.ceiling))
-        gains, most = timing.times_as_fast(own, other), timing.times_as_fast(least, other)
-        reached = [gain / min(self.times, self.share * limit) for gain, limit in zip(gains, most, strict=True)]
-        limit = f"or {self.share} of what {self.ceiling} allows, if that is less"
-        text = f"{self.subject}, of {self.times:g} times the speed of {EXPRESSIONS[expression]}, {limit}; 1e7 rows"
-        words = f"{timing.rate_text(own)}; the expression: {timing.rate_text(other)}, {median(gains):.3g} times as long"
-        words += f"; {self.ceiling} the rows: {timing.rate_text(least)}{says}"
-        return KernelTarget(f"{self.name}, {expression}", text, 1.0).line(reached, words)
+COMPILED: tuple[Group, ...] = (
+    from_memory,
+    in_cache,
+    threads_in_cache,
+    near_contact,
+    slowest_row,
+    one_orientation,
+    axis_along_z,
+    streamed,
+    call_targets.batches,
+    call_targets.ten_centres,
+    call_targets.forms_of_one_pair,
+    call_targets.forms_of_ten_centres,
+    call_targets.forms_of_ten_rows,
+    call_targets.forms_of_many,
+    call_targets.forms_of_an_axis_each,
+    paces,
+    left_open,
+)
+"""The groups of targets that are measured together: with either kernel, and with the compiled one."""
 
 
-def numpy_targets() -> tuple[TimesAsFast, ...]:
-    """The targets against numpy expressions that targets.toml lists."""
-    return tuple(TimesAsFast(**entry) for entry in listed()["times_as_fast"])
+def _groups() -> tuple[Group, ...]:
+    return (*COMPILED, *ANYWHERE) if choice().kernel == "compiled" else ANYWHERE
 
 
-def against_numpy(folder: Path, rounds: int) -> Iterator[KernelLine]:
-    """Targets of ten million rows: both numpy expressions and both kernels, as a user calls them, and their limits."""
-    columns = uniform_columns(MANY)
-    work: dict[str, Callable[[], NDArray[np.signedinteger]]] = {
-        "kernel": partial(hypcheck.classify_scene, TOWER_SIZES, *columns, threads=1),
-        "fallback": partial(numpy_kernel.positions_of_scene, TOWER_SIZES, *columns),
-        "powers": partial(with_powers, TOWER_SIZES, *columns),
-        "products": partial(with_products, TOWER_SIZES, *columns),
-    }
-    entries = [timing.TimingEntry("copying", MANY, timing.thread_clocked(partial(_copied, columns)), loops=1)]
-    if choice().kernel == "numpy":
-        del work["kernel"]
-    else:
-        entries.append(timing.TimingEntry("reading", MANY, c_baselines(folder)[0].read(columns), loops=1))
-    entries += [timing.TimingEntry(name, MANY, timing.thread_clocked(call), loops=1) for name, call in work.items()]
-    samples = timing.measured_samples(entries, rounds)
-    for times in numpy_targets():
-        for expression in EXPRESSIONS:
-            if times.mine in samples:
-                yield times.line(expression, samples, f"; {large_pages()}")
-
-
-def _copied(columns: Columns) -> NDArray[np.signedinteger]:
-    """Round all numbers to single precision in numpy, a chunk at a time: the first step of any float32 work on them."""
-    buffer, places = np.empty((len(columns), CHUNK), dtype=np.float32), range(0, len(columns[0]), CHUNK)
-    for start in places:
-        for column, into in zip(columns, buffer, strict=True):
-            part = column[start : start + CHUNK]
-            np.copyto(into[: len(part)], part, casting="same_kind")
-    return np.array([len(places)])
-
-
-LARGE_PAGES = Path("/sys/kernel/mm/transparent_hugepage/enabled")
-
-
-def large_pages(setting: Path = LARGE_PAGES) -> str:
-    """A sentence about the system's setting of large pages for the temporaries of an expression."""
-    try:
-        text = setting.read_text(encoding="ascii")
-    except (OSError, UnicodeDecodeError):
-        return "large pages for temporaries: not reported by this system"
-    chosen = text.partition("[")[2].partition("]")[0]
-    words = {"always": "always", "madvise": "where asked for, as numpy does for 4 MB and more", "never": "never"}
-    return f"large pages for temporaries: {words.get(chosen, 'not reported by this system')}"
-
-
-def against_others(rounds: int) -> Iterator[KernelLine]:
-    """Targets against numpy.roots and FCL, a row at a time, compared with a hundred thousand rows of the kernel."""
-    columns = uniform_columns(100_000)
-    rows = tower_rows(columns)[:FEW]
-    entries = [
-        timing.TimingEntry(
-            "kernel", 100_000, timing.thread_clocked(partial(hypcheck.classify_scene, TOWER_SIZES, *columns, threads=1))
-        ),
-        timing.TimingEntry("numpy.roots", FEW, timing.thread_clocked(partial(numpy_roots, rows))),
-    ]
-    trouble = FCL.trouble()
-    if trouble is None:
-        mesh = scene_mesh(FCL, "point", TOWER_SIZES, height_of(TOWER_SIZES, rows), TRIANGLES)
-        entries.append(timing.TimingEntry("FCL", FEW, _queries(mesh, rows)))
-    samples = timing.measured_samples(entries, rounds)
-    for name in ("numpy.roots", "FCL"):
-        if (other := samples.get(name)) is not None:
-            says = f"{timing.rate_text(samples['kernel'])} on {choice().kernel}; {name}: {timing.rate_text(other)}"
-            yield target(name).against(samples["kernel"], other, says)
-
-
-def _queries(mesh: SceneMesh, rows: Rows) -> timing.Clocked:
-    """The engine's queries only, in the units of its mesh."""
-    touches, centres = mesh.touches, (rows[:, 4:] / np.array(mesh.unit)).tolist()
-    if touches is None:
-        raise AssertionError("FCL refused the mesh")
-
-    return timing.clocked_calls(touches, centres, thread_time_ns)
-
-
-ROUNDS, QUICK_ROUNDS, AGAIN = 15, 7, 2
-STREAM, QUICK_STREAM = 1_000_000_000, 100_000_000
-
-Group = Callable[[], Iterable[KernelLine]]
+def steps() -> int:
+    """The number of times that `run` advances."""
+    return len(_groups())
 
 
 def run(recorder: Recorder, advance: Callable[[int], object], quick: bool) -> None:
     """Measure every target and add its line; a quick run has fewer rounds and streams a tenth of the rows."""
     absent = {}
     with TemporaryDirectory(prefix="hypcheck-kernel-") as folder:
-        for group in _groups(Path(folder), quick=quick):
+        for group in _groups():
             try:
-                for line in confirmed_lines(group):
+                for line in confirmed_lines(partial(group, Measuring(Path(folder), quick))):
                     recorder.add(line)
             except UnavailableError as error:
                 absent["C compiler"] = str(error)
@@ -261,7 +340,7 @@ def run(recorder: Recorder, advance: Callable[[int], object], quick: bool) -> No
         recorder.add(AbsentLine(what=what, reason=reason))
 
 
-def confirmed_lines(group: Group) -> list[KernelLine]:
+def confirmed_lines(group: Callable[[], Iterable[KernelLine]]) -> list[KernelLine]:
     """The group's lines. A missed target is measured again; it counts as missed only if it is missed each time.
 
     The interval shows the differences between rounds; it cannot show that another program used the memory in all of
@@ -274,41 +353,3 @@ def confirmed_lines(group: Group) -> list[KernelLine]:
         anew = {line.name: line for line in group()}
         lines = [line if line.met else anew[line.name] for line in lines]
     return lines
-
-
-def steps() -> int:
-    """The number of times that `run` advances."""
-    return len(_groups(Path(), quick=True))
-
-
-def _groups(folder: Path, *, quick: bool) -> list[Group]:
-    rounds, stream, streams = (QUICK_ROUNDS, QUICK_STREAM, 3) if quick else (ROUNDS, STREAM, 5)
-    anywhere: list[Group] = [
-        partial(against_numpy, folder, 3 if quick else 9),
-        partial(against_others, rounds),
-        partial(call_targets.one_call, rounds),
-    ]
-    if choice().kernel != "compiled":
-        return anywhere
-    return [
-        partial(compiled_targets.from_memory, folder, rounds),
-        partial(compiled_targets.in_cache, folder, rounds),
-        partial(compiled_targets.threads_in_cache, folder, rounds),
-        partial(compiled_targets.near_contact, folder, rounds),
-        partial(compiled_targets.slowest_row, rounds),
-        partial(compiled_targets.one_orientation, rounds),
-        partial(compiled_targets.axis_along_z, rounds),
-        partial(compiled_targets.an_axis_each, folder, rounds),
-        partial(compiled_targets.streamed, folder, stream, streams),
-        partial(call_targets.batches, folder, rounds),
-        partial(call_targets.batch, folder, call_targets.MANY, rounds),
-        partial(call_targets.ten_centres, rounds),
-        partial(call_targets.forms_of_one_pair, rounds),
-        partial(call_targets.forms_of_ten_centres, rounds),
-        partial(call_targets.forms_of_ten_rows, rounds),
-        partial(call_targets.forms_of_many, rounds),
-        partial(call_targets.forms_of_an_axis_each, rounds),
-        partial(paces, rounds),
-        partial(left_open, rounds),
-        *anywhere,
-    ]

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 import hypcheck
-from hypcheck.bench import call_targets, compiled_targets, targets
+from hypcheck.bench import call_targets, targets, yardsticks
 from hypcheck.bench.c_library import LEVEL_FLAGS, TOWER_SIZES, WORDS, c_baselines
-from hypcheck.bench.compiled_targets import KernelTarget, target, touching_columns, tower_rows, uniform_columns
+from hypcheck.bench.yardsticks import KernelTarget, Measuring, target, touching_columns, tower_rows, uniform_columns
 from hypcheck.geometry.pair import Pair
 from hypcheck.geometry.rows import tilted_rows
 from hypcheck.implementations.alternatives import by_eigenvectors
@@ -42,16 +42,12 @@ class Recorder:
 def small(monkeypatch):
     """The same measurements of far fewer rows: what they find is of no interest here."""
     for module, sizes in (
-        (
-            compiled_targets,
-            {"MANY": 4096, "CACHED": 2048, "FEW": 64, "WORST": 64, "AGAIN": 2},
-        ),
-        (compiled_targets, {"PART": 1024, "PARTS": 2, "LEAST_PARTS": 2, "EACH": 4, "TURNS": 1, "NEIGHBOURS": 1}),
-        (targets, {"MANY": 20_000, "FEW": 3, "TRIANGLES": 60, "AGAIN": 0}),
-        (call_targets, {"MILLION": 4096, "EACH_AXIS": 256}),
-        (targets, {"PACED": 200, "ORDINARY": 40, "NEAR": 20}),
-        (call_targets, {"MANY": 10_000, "CALLS": 20, "BATCHES": (1000,)}),
-        (targets, {"QUICK_ROUNDS": 2, "QUICK_STREAM": 10_240}),
+        (targets, {"MANY": 4096, "CACHED": 2048, "FEW": 64, "WORST": 64, "REPEATED": 2}),
+        (targets, {"PART": 1024, "PARTS": 2, "LEAST_PARTS": 2, "AGAIN": 0}),
+        (targets, {"PACED": 200, "ORDINARY": 40, "NEAR": 20, "QUICK_STREAM": 10_240}),
+        (call_targets, {"MILLION": 4096, "EACH_AXIS": 256, "ONE_BY_ONE": 3, "TRIANGLES": 60}),
+        (call_targets, {"MOST": 10_000, "CALLS": 20, "BATCHES": (1000,)}),
+        (yardsticks, {"EACH": 4, "TURNS": 1, "NEIGHBOURS": 1, "QUICK_ROUNDS": 2}),
     ):
         for name, value in sizes.items():
             monkeypatch.setattr(module, name, value)
@@ -101,14 +97,14 @@ def test_kernel_targets_that_need_no_compiler_are_measured_without_one(small, mo
 
 
 def test_the_numpy_baseline_with_eigh_answers_as_the_kernel_away_from_contact():
-    rows = tilted_rows(TOWER_SIZES, uniform_columns(3000), (*compiled_targets.axes(3000).T,))
+    rows = tilted_rows(TOWER_SIZES, uniform_columns(3000), (*yardsticks.axes(3000).T,))
     found = hypcheck.classify(rows)
     assert (by_eigenvectors(rows, 30) == found).all()
     assert {-1, 0, 1} == set(found.tolist())
 
 
 def test_touching_rows_of_the_tilted_targets_are_within_4e_14_of_contact():
-    rows = compiled_targets.touching_rows(40)
+    rows = yardsticks.touching_rows(40)
     clearance = [nearest(Pair.from_row(row)).clearance for row in rows.tolist()]
     assert 0 < max(map(abs, clearance)) < 4e-14
 
@@ -120,7 +116,7 @@ def test_rows_left_open_beside_ends_are_counted_by_family(monkeypatch):
     monkeypatch.setattr(targets, "NEAR", 10)
     asked = targets.answer_sweeps
     monkeypatch.setattr(targets, "answer_sweeps", lambda rows: (np.resize([2, 0], len(rows)), asked(rows)[1]))
-    ordinary, near = targets.left_open(1)
+    ordinary, near = targets.left_open(Measuring(Path(), quick=True))
     assert (ordinary.measured, near.measured, ordinary.met, near.met) == (0.5, 0.5, False, False)
     assert "ended-way-uniform 5" in ordinary.says
     assert "ended-way-touch 5" in near.says
@@ -169,7 +165,7 @@ def test_kernel_targets_that_are_all_met_are_measured_once():
 
 
 def test_a_target_relative_to_numpy_is_capped_by_the_time_that_reading_takes():
-    target = targets.numpy_targets()[0]
+    target = call_targets.numpy_targets()[0]
     found = {
         name: Samples(name, 1, 1, 0, samples_ns=[time])
         for name, time in (("kernel", 1.0), ("reading", 0.9), ("products", 40.0))
@@ -186,14 +182,14 @@ def test_large_pages_reports_the_setting_of_the_operating_system(tmp_path):
         ("?", "not reported"),
     ):
         (tmp_path / "enabled").write_text(said, encoding="ascii")
-        assert words in targets.large_pages(tmp_path / "enabled")
-    assert "not reported" in targets.large_pages(tmp_path / "none")
+        assert words in call_targets.large_pages(tmp_path / "enabled")
+    assert "not reported" in call_targets.large_pages(tmp_path / "none")
 
 
 def test_the_plain_python_baseline_answers_as_table_2_in_numpy():
     columns = uniform_columns(2000)
     rows = zip(*(column.tolist() for column in columns), strict=True)
-    expected = targets.with_products(TOWER_SIZES, *columns)
+    expected = call_targets.with_products(TOWER_SIZES, *columns)
     assert [call_targets.textbook(*TOWER_SIZES, *row) for row in rows] == expected.tolist()
 
 
@@ -236,7 +232,7 @@ def test_the_timed_loop_of_the_kernel_writes_right_answers(tmp_path):
 def test_the_numpy_baselines_answer_as_the_kernel_on_uniform_rows():
     columns = uniform_columns(5000)
     exterior = hypcheck.classify_scene(TOWER_SIZES, *columns, question="exterior")
-    for expression in (targets.with_powers, targets.with_products):
+    for expression in (call_targets.with_powers, call_targets.with_products):
         assert (expression(TOWER_SIZES, *columns) == exterior).all()
 
 
@@ -248,6 +244,6 @@ def test_touching_rows_of_the_upright_targets_are_within_1e_14_of_contact():
 
 
 def test_uniform_columns_repeat_their_rows_in_a_long_array():
-    x, y, z = compiled_targets.uniform_columns(compiled_targets.DISTINCT + 3)
-    assert len(x) == len(y) == len(z) == compiled_targets.DISTINCT + 3
+    x, y, z = yardsticks.uniform_columns(yardsticks.DISTINCT + 3)
+    assert len(x) == len(y) == len(z) == yardsticks.DISTINCT + 3
     assert x[-3:].tolist() == x[:3].tolist()
