@@ -21,11 +21,10 @@ from hypcheck.geometry.pair import Pair, Position
 from hypcheck.geometry.rows import Rows, within
 from hypcheck.truth import backward_error, exact, float_filter
 from hypcheck.vectors.draw import Draw, ldexp, stepped, to_bits
-from hypcheck.vectors.families import FAMILIES
+from hypcheck.vectors.families import FAMILIES, WORST_CANCELLATION
 from hypcheck.vectors.family import Row, rows_of
-from hypcheck.vectors.flags import DEFEATED, TOLERANCE_U, exactly_right, in_range, leaves_range, wrong_answers
+from hypcheck.vectors.labels import DEFEATED, TOLERANCE_U, exactly_right, in_range, leaves_range, wrong_answers
 
-NAME = "worst-cancellation"
 VERSION = 1
 SEED = 1
 STRATA = (
@@ -87,7 +86,7 @@ def worst_rows() -> Rows:
 
 def worst_row(search: CancellationSearch) -> Found | None:
     """The worst row that a search finds; None if its error is at most TOLERANCE_U units."""
-    draw = Draw(NAME, VERSION, SEED, *astuple(search))
+    draw = Draw(WORST_CANCELLATION, VERSION, SEED, *astuple(search))
     best = _worst(FAMILIES[search.stratum].block(SEED, search.beginning), search, [])
     for _ in range(ROUNDS if best else 0):
         parents = np.repeat(rows_of([candidate.row for candidate in best]), CHILDREN, axis=0)

@@ -21,10 +21,10 @@ from hypcheck.truth.backward_error import Bracket
 from hypcheck.truth.certificate import Certificate, PassageCertificate, Piece, place
 from hypcheck.truth.kinds import Kind
 from hypcheck.vectors.family import Row
-from hypcheck.vectors.flags import FlagFacts
 from hypcheck.vectors.format import (
     CaseFile,
     Content,
+    FlagFacts,
     a_number,
     a_rational,
     content_of,

@@ -4,7 +4,7 @@ Each label is proved, or computed again by an oracle that did not make it. Posit
 certificate (truth/certificate.py, with shows_crossing: rational arithmetic). The roots give the kind of an upright
 pair, the nearest point the clearance. Labels are made by the exact decision, which shares no code with these checks.
 Distances to other answers rest on exact decisions and are computed again; for tilted spheroids each end of the bracket
-is proved again. The flags are computed again, too (flags.py). For a sweep, answer and first contact follow only from
+is proved again. The flags are computed again, too (labels.py). For a sweep, answer and first contact follow only from
 the certificate (truth/certificate.py).
 
 This program checks a flag by its own definition, but readers use the definition in the file, so both must agree. The
@@ -38,10 +38,9 @@ from hypcheck.vectors.cases import (
     cases_of,
 )
 from hypcheck.vectors.family import Metadata, Row
-from hypcheck.vectors.flags import FlagFacts, flags_of, sweep_flags
-from hypcheck.vectors.format import CaseFile, Content
+from hypcheck.vectors.format import CaseFile, Content, FlagFacts
 from hypcheck.vectors.invalid_rows import InvalidRow, columns_at_fault
-from hypcheck.vectors.labels import flips, shows_crossing
+from hypcheck.vectors.labels import flags_of, flips, shows_crossing, sweep_flags
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,7 +77,7 @@ def _of_positions(file: CaseFile) -> Iterator[Iterator[str]]:
     content, cases = file.content, file.cases
     pairs = [Pair.from_row(case.row) for case in cases]
     truths = [exact.decide(pair.lengths) for pair in pairs]
-    flags = flags_of(content.flags, [case.row for case in cases], truths)
+    flags = flags_of(content, [case.row for case in cases], truths)
     proved = _proved_lower_ends(cases if content.tilted else ()) or [set()] * len(cases)
     unproved = _unproved_by_rule if content.ended else _unproved
     for case, pair, truth, held, ends in zip(cases, pairs, truths, flags, proved, strict=True):

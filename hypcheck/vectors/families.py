@@ -210,6 +210,9 @@ ENDED_SWEEP_FAMILIES = _table(
 ALL = {**FAMILIES, **TILTED_FAMILIES, **SWEEP_FAMILIES, **ENDED_FAMILIES, **ENDED_SWEEP_FAMILIES}
 """All of them, in the order in which they are listed."""
 
+WORST_CANCELLATION = "worst-cancellation"
+"""The name of the file of the rows that cancellation.py finds; no family makes them."""
+
 EXTREME = "extreme"
 """The pattern that asks for every extreme family."""
 

@@ -11,11 +11,12 @@ import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict, dataclass, field
 from fractions import Fraction
+from functools import cache
 from typing import Any
 
 import numpy as np
 
-from hypcheck import strict
+from hypcheck import strict, toml
 from hypcheck.geometry.pair import (
     ENDS,
     HEIGHTS,
@@ -30,7 +31,6 @@ from hypcheck.strict import Check, StrictTable
 from hypcheck.tables.numbers import Literal, decimal_of, hex_of, is_shortest, rational_of, shown_json
 from hypcheck.tables.strict_json import JsonDocument, JsonPlace
 from hypcheck.vectors.family import Metadata, Row
-from hypcheck.vectors.flags import FLAGS, SWEEP_FLAGS, TILTED_FLAGS, FlagFacts
 
 SCHEMA = "1.0.0"
 """The version of the files' schemas, such as cases/schema/vectors-1.0.0.json."""
@@ -46,6 +46,21 @@ ENDED_SCHEMA = "1.3.0"
 
 ENDED_SWEEP_SCHEMA = "1.4.0"
 """The version of the schemas of files about sweeps beside these; a reader refuses any other than these five."""
+
+
+@dataclass(frozen=True, slots=True)
+class FlagFacts:
+    """The meaning of a flag, and the kind of defect that cases with it find."""
+
+    meaning: str
+    bug_type: str
+
+
+@cache
+def flag_facts(group: str) -> Mapping[str, FlagFacts]:
+    """The flags of a group of flags.toml, in the order in which a case has them: upright, tilted or sweeps."""
+    texts = toml.shipped("hypcheck.vectors", "flags.toml")
+    return {name: FlagFacts(**(facts or texts["upright"][name])) for name, facts in texts[group].items()}
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,8 +99,9 @@ class Content:
     @property
     def flags(self) -> Mapping[str, FlagFacts]:
         """The flags that a case may have; none if it has no answer."""
-        known = SWEEP_FLAGS if self.about_sweeps else TILTED_FLAGS if self.tilted else FLAGS
-        return {} if self.refused or self.ended else known
+        if self.refused or self.ended:
+            return {}
+        return flag_facts("sweeps" if self.about_sweeps else "tilted" if self.tilted else "upright")
 
 
 _SWEPT, _TILTED, _ENDED = frozenset({"end"}), frozenset({"axis"}), frozenset({"axis", "heights"})

@@ -22,7 +22,7 @@ from hypcheck.tables.streams import replace_output
 from hypcheck.vectors import cancellation
 from hypcheck.vectors.cases import Vector, cases_text, read_cases
 from hypcheck.vectors.checking import faults_of
-from hypcheck.vectors.families import ALL, case_id, parse_case_id
+from hypcheck.vectors.families import ALL, WORST_CANCELLATION, case_id, parse_case_id
 from hypcheck.vectors.family import Family, Metadata, Row, described
 from hypcheck.vectors.format import CaseFile, Content, content_with
 from hypcheck.vectors.frozen import ALL_NAMES, head_of
@@ -111,7 +111,7 @@ def _named(cases: Iterable[Vector]) -> list[tuple[str, Row]]:
 
 def planned(name: str) -> Rows:
     """The rows that a file must have, float64 (n, numbers of a row); some may occur twice."""
-    return cancellation.worst_rows() if name == cancellation.NAME else ALL[name].rows(SEED, ALL[name].frozen)
+    return cancellation.worst_rows() if name == WORST_CANCELLATION else ALL[name].rows(SEED, ALL[name].frozen)
 
 
 def extended(name: str, before: list[tuple[str, Row]], rows: Iterable[Row]) -> list[tuple[str, Row]]:

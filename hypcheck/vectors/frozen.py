@@ -14,7 +14,6 @@ from pathlib import Path
 from hypcheck.errors import InputError
 from hypcheck.messages import suggestion
 from hypcheck.tables.streams import PACKED, open_input
-from hypcheck.vectors import cancellation
 from hypcheck.vectors.cases import read_cases
 from hypcheck.vectors.families import (
     ALL,
@@ -23,6 +22,7 @@ from hypcheck.vectors.families import (
     FAMILIES,
     SWEEP_FAMILIES,
     TILTED_FAMILIES,
+    WORST_CANCELLATION,
 )
 from hypcheck.vectors.family import Family, Metadata, described
 from hypcheck.vectors.format import CaseFile
@@ -33,7 +33,7 @@ def _files_of(families: Mapping[str, Family]) -> tuple[str, ...]:
     return tuple(name for name, family in families.items() if family.frozen)
 
 
-NAMES = (*_files_of(FAMILIES), cancellation.NAME)
+NAMES = (*_files_of(FAMILIES), WORST_CANCELLATION)
 """The files of upright spheroids with answers; INVALID_CONTENTS names those of rows without."""
 
 TILTED_NAMES = _files_of(TILTED_FAMILIES)

@@ -17,11 +17,11 @@ from hypcheck.strict import StrictTable
 from hypcheck.tables.numbers import shown_json
 from hypcheck.tables.strict_json import JsonDocument
 from hypcheck.vectors.family import Row, described
-from hypcheck.vectors.flags import FlagFacts
 from hypcheck.vectors.format import (
     CONTENTS,
     CaseFile,
     Content,
+    FlagFacts,
     a_number,
     file_of,
     json_text,

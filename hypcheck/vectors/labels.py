@@ -1,7 +1,9 @@
 """The labels of a case: answer, measures, flags, and the shortest proof.
 
 Labels are made by the exact decisions (truth/exact.py), labels of sweeps by steps or by roots (truth/swept.py).
-checking.py proves them in another way.
+checking.py proves them in another way. flags.toml says what each flag means. Flags are decided exactly, in integers, in
+rationals, or by comparing floats. Only in float formats every operation of a formula's program is rounded once, in the
+order of the program.
 """
 
 from __future__ import annotations
@@ -10,17 +12,25 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from itertools import chain, count
 
-from hypcheck.geometry.arithmetic import sign_of
-from hypcheck.geometry.pair import Pair, Position
-from hypcheck.geometry.rows import PAIRS
+import numpy as np
+from numpy.typing import NDArray
+
+from hypcheck.derivation.evaluation import EXACT, evaluate
+from hypcheck.derivation.float_arithmetic import float_arithmetic, unit_roundoff
+from hypcheck.derivation.formulas import FORMULAS, answers
+from hypcheck.geometry.arithmetic import cross, sign_of
+from hypcheck.geometry.pair import COLUMNS, Pair, Position, to_integers
+from hypcheck.geometry.rows import PAIRS, SWEEPS, Mask, Rows, within
 from hypcheck.proof_text import height_of_point, reach_of_point
 from hypcheck.truth import exact
-from hypcheck.truth.backward_error import Bracket, bracket, quick_bracket
-from hypcheck.truth.certificate import Certificate
+from hypcheck.truth.backward_error import Bracket, bracket, quick_bracket, tolerated
+from hypcheck.truth.certificate import Certificate, PassageCertificate
 from hypcheck.truth.crossing import shortened
-from hypcheck.truth.exact import Decision
+from hypcheck.truth.exact import Decision, discriminant
+from hypcheck.truth.kinds import Kind
 from hypcheck.truth.nearest import nearest
-from hypcheck.truth.passage_error import scaled_passage
+from hypcheck.truth.passage_error import scaled_passage, sweep_of_row
+from hypcheck.truth.pencil import cubic, quartic, side_of_center
 from hypcheck.truth.prove import prove, prove_passage
 from hypcheck.vectors.cases import (
     Offset,
@@ -31,9 +41,8 @@ from hypcheck.vectors.cases import (
     point_at,
     row_at,
 )
-from hypcheck.vectors.family import Row
-from hypcheck.vectors.flags import flags_of, sweep_flags
-from hypcheck.vectors.format import Content
+from hypcheck.vectors.family import Row, rows_of
+from hypcheck.vectors.format import Content, flag_facts
 
 _MOST_BITS = 1 << 14
 
@@ -50,7 +59,7 @@ def _positions(content: Content, cases: Sequence[tuple[str, Row]]) -> list[Vecto
     fields = case_fields(content)
     pairs = [Pair.from_row(row) for _, row in cases]
     decisions = [exact.decide(pair.lengths) for pair in pairs]
-    flags = flags_of(content.flags, [row for _, row in cases], decisions)
+    flags = flags_of(content, [row for _, row in cases], decisions)
     return [
         Vector(
             id=name,
@@ -169,3 +178,221 @@ def shows_crossing(row: Row, offsets: Sequence[Offset]) -> bool:
             return True
         sides.add(sign_of(level))
     return {-1, 1} <= sides
+
+
+def exactly_right(formula: str, row: Row, truth: Position) -> bool:
+    """Whether the formula, evaluated in rationals, gives the right answer to its question about the row."""
+    answer = answers(FORMULAS[formula], EXACT, dict(zip(COLUMNS, row, strict=True)))
+    return int(answer) == _right_answer(formula, truth)
+
+
+def wrong_answers(formula: str, precision: str, rows: Rows, truths: Sequence[Position]) -> dict[int, Position]:
+    """The rows in the format's range that the formula answers wrongly in it, each with its nearest excuse.
+
+    An excuse is a position for which the answer would be right: the answer itself; if the formula answers "no" for a
+    clear position, contact, which is nearer than the other clear position.
+    """
+    given_answers: NDArray[np.int8] = answers(
+        FORMULAS[formula], float_arithmetic(precision), dict(zip(COLUMNS, rows.T, strict=True))
+    )
+    right = np.asarray([_right_answer(formula, truth) for truth in truths], dtype=np.int8)
+    places: list[int] = np.flatnonzero(in_range(rows, precision) & (given_answers != right)).tolist()
+    return {place: _excuse(formula, int(given_answers[place])) for place in places}
+
+
+def in_range(rows: Rows, precision: str) -> Mask:
+    """A mask (n,) of the rows whose every number is 0 or in the range of the format's normal numbers."""
+    limits = np.finfo(np.dtype(precision))
+    lengths = np.abs(rows)
+    normal = (lengths >= float(limits.tiny)) & (lengths <= float(limits.max))
+    return np.asarray((normal | (lengths == 0)).all(axis=1))
+
+
+def leaves_range(formula: str, precision: str, rows: Rows) -> tuple[Mask, Mask]:
+    """Masks of the rows with an infinity, and with a product or quotient of numbers ≠ 0 below the normal numbers.
+
+    A NaN without an infinity is the root of a negative number and no overflow; a difference of infinities follows an
+    infinity. Sums and differences do not underflow: if they are subnormal, they are exact.
+    """
+    program = FORMULAS[formula].program
+    values = evaluate(program, float_arithmetic(precision), dict(zip(COLUMNS, rows.T, strict=True)))
+    least = np.finfo(np.dtype(precision)).tiny
+    overflow, underflow = np.zeros(len(rows), dtype=np.bool_), np.zeros(len(rows), dtype=np.bool_)
+    for step in program.steps:
+        value = values[step.name]
+        if value.dtype == np.bool_:
+            continue
+        overflow |= np.isinf(value)
+        if step.operation in ("mul", "div"):
+            nonzero = np.ones(len(rows), dtype=np.bool_)
+            for name in step.reads:
+                nonzero &= values[name] != 0
+            underflow |= nonzero & (np.abs(value) < least)
+    return overflow, underflow
+
+
+def _right_answer(formula: str, truth: Position) -> int:
+    question = FORMULAS[formula].question
+    return int(truth) if question == "position" else int(truth is Position[question.upper()])
+
+
+def _excuse(formula: str, answer: int) -> Position:
+    question = FORMULAS[formula].question
+    if question == "position":
+        return Position(answer)
+    return Position[question.upper()] if answer else Position.CONTACT
+
+
+FORMATS = ("float16", "float32", "float64")
+DEFEATED = tuple((name, precision) for name in ("table-2", "local-maximum") for precision in ("float32", "float64"))
+"""The formulas whose rounding is looked at, and the formats in which it is."""
+
+PRINTED = {"proposition-3-false": "table-2", "proposition-5-false": "procedure-2b-spheroid"}
+"""The flags of the paper's own procedures, which are looked at in exact arithmetic."""
+
+TOLERANCE_U = 8
+"""Units u of backward error up to which a rounded answer counts as good."""
+
+_DOUBLE_ROOTS = {
+    Kind.CROSSING_THROAT_NODE,
+    Kind.CROSSING_GROOVE_NODE,
+    Kind.CROSSING_GROOVE_ISOLATED_POINT,
+    Kind.CROSSING_GROOVE_CUSP,
+}
+
+
+def flags_of(content: Content, rows: Sequence[Row], decisions: Sequence[Decision]) -> list[tuple[str, ...]]:
+    """The flags of each valid row of a file with that content; the exact decisions are given."""
+    if not content.flags:
+        return [()] * len(rows)
+    return (_tilted_flags if content.tilted else _upright_flags)(rows, decisions)
+
+
+def _upright_flags(rows: Sequence[Row], decisions: Sequence[Decision]) -> list[tuple[str, ...]]:
+    array = rows_of(list(rows))
+    masks = _of_numbers(array) | _of_table_2(array) | _of_formulas(array, decisions)
+    exactly = [_of_pair(Pair.from_row(row), decision) for row, decision in zip(rows, decisions, strict=True)]
+    return [
+        tuple(name for name in flag_facts("upright") if name in exact or (name in masks and masks[name][place]))
+        for place, exact in enumerate(exactly)
+    ]
+
+
+def _of_pair(pair: Pair, decision: Decision) -> set[str]:
+    """The flags that exact arithmetic decides."""
+    g, kind = cubic(pair.lengths), decision.kind
+    a, square = Fraction(pair.alpha) / Fraction(pair.b), (Fraction(pair.gamma) / Fraction(pair.d)) ** 2
+    held = {
+        "tangent": decision.tangent,
+        "ring": kind is Kind.EXTERIOR_RING,
+        "delta=0": decision.tangent or kind is Kind.EXTERIOR_RING or kind in _DOUBLE_ROOTS,
+        "c1=0": g.n1 == 0,
+        "c2=0": g.n2 == 0,
+        "a<1": a < 1,
+        "a=1": a == 1,
+        "c^2<a": square < a,
+        "c^2=a": square == a,
+        "axis": pair.x == pair.y == 0,
+        "waist": pair.z == 0,
+        "on-surface": side_of_center(pair.lengths) == 0,
+    }
+    return {name for name, holds in held.items() if holds}
+
+
+def _of_numbers(rows: Rows) -> dict[str, Mask]:
+    """The flags that follow directly from the seven numbers."""
+    masks = {
+        "extreme": ~within(rows),
+        "negative-zero": np.asarray(((rows == 0) & np.signbit(rows)).any(axis=1)),
+    }
+    for name in FORMATS:
+        with np.errstate(over="ignore", under="ignore"):
+            held = (rows.astype(name).astype(np.float64) == rows).all(axis=1)
+        normal = in_range(rows, name)
+        masks[f"{name}-exact"] = held & normal
+        masks[f"subnormal-{name}"] = held & ~normal
+    return masks
+
+
+def _of_table_2(rows: Rows) -> dict[str, Mask]:
+    """The flags for an intermediate of Table 2 outside the range of a format that holds the row."""
+    masks = {}
+    for name in FORMATS:
+        overflow, underflow = leaves_range("table-2", name, rows)
+        counted = in_range(rows, name)
+        masks[f"overflow-{name}"], masks[f"underflow-{name}"] = counted & overflow, counted & underflow
+    return masks
+
+
+def _of_formulas(rows: Rows, decisions: Sequence[Decision]) -> dict[str, Mask]:
+    """The flags for a formula that is wrong in exact arithmetic, or right in exact arithmetic and wrong in floats."""
+    listed: list[Row] = rows.tolist()
+    truths = [decision.position for decision in decisions]
+    masks = {
+        flag: np.asarray(
+            [not exactly_right(formula, *arguments) for arguments in zip(listed, truths, strict=True)], np.bool_
+        )
+        for flag, formula in PRINTED.items()
+    }
+    for formula, precision in DEFEATED:
+        beyond = np.zeros(len(rows), dtype=np.bool_)
+        for place, excuse in wrong_answers(formula, precision, rows, truths).items():
+            row, truth = listed[place], decisions[place]
+            beyond[place] = _beyond(row, truth, excuse, precision) and exactly_right(formula, row, truth.position)
+        masks[f"{formula}-{precision}"] = beyond
+    return masks
+
+
+def _beyond(row: Row, truth: Decision, excuse: Position, precision: str) -> bool:
+    """Whether no change of the inputs by TOLERANCE_U units u makes the wrong answer right."""
+    change = TOLERANCE_U * Fraction(unit_roundoff(precision))
+    return not tolerated(Pair.from_row(row), truth, [excuse], change)
+
+
+_SHORTEST, _LONGEST = 2.0**-511, 2.0**511
+"""Between these a length's square neither underflows nor overflows."""
+
+
+def _tilted_flags(rows: Sequence[Row], decisions: Sequence[Decision]) -> list[tuple[str, ...]]:
+    """The flags of each row with a tilted spheroid, each decided exactly."""
+    return [_of_tilted_pair(Pair.from_row(row), decision) for row, decision in zip(rows, decisions, strict=True)]
+
+
+def _of_tilted_pair(pair: Pair, decision: Decision) -> tuple[str, ...]:
+    sizes = pair.row[:7]
+    double = not pair.is_upright and discriminant(quartic(pair.lengths)) == 0
+    across = cross(to_integers((pair.x, pair.y, pair.z)), to_integers(pair.axis))
+    largest = max(map(abs, pair.axis))
+    conditions = {
+        "tangent": decision.tangent,
+        "quartic-ring": double and decision.position is not Position.CONTACT,
+        "quartic-delta=0": double,
+        "tilt-matters": exact.position(Pair(*sizes).lengths) is not decision.position,
+        "vertical-axis": pair.axis_x == pair.axis_y == 0,
+        "horizontal-axis": pair.axis_z == 0,
+        "sphere": pair.b == pair.d,
+        "meridian-plane": across[2] == 0,
+        "through-the-origin": not any(across),
+        "on-axis": pair.x == pair.y == 0,
+        "on-surface": side_of_center(pair.lengths) == 0,
+        "long-axis": not _SHORTEST <= largest <= _LONGEST,
+        "extreme": not within(np.asarray([sizes]))[0],
+    }
+    return tuple(name for name, holds in conditions.items() if holds)
+
+
+def sweep_flags(row: Row, first: tuple[float, float] | None, proof: PassageCertificate) -> tuple[str, ...]:
+    """The flags of a sweep; the positions at its ends are decided exactly."""
+    start, end, (_, axis, _) = row[4:7], row[7:10], SWEEPS.split(row)
+    ends = [sweep_of_row(row).position(Fraction(time)) for time in (0, 1)]
+    conditions = {
+        "tunnelling": first is not None and ends[0] is ends[1] is not Position.CONTACT,
+        "tangent": proof.double_root is not None,
+        "contact-at-start": ends[0] is Position.CONTACT,
+        "contact-at-end-alone": first is not None and first[0] < 1 == proof.time and first[1] == 1,
+        "still": start == end,
+        "vertical-way": start[:2] == end[:2] and start[2] != end[2],
+        "horizontal-way": start[2] == end[2] and start[:2] != end[:2],
+        "upright": bool(axis) and (not any(axis[:2]) or row[2] == row[3]),
+    }
+    return tuple(name for name, holds in conditions.items() if holds)

@@ -23,9 +23,9 @@ from hypcheck.vectors import frozen as vectors
 from hypcheck.vectors.cases import cases_text
 from hypcheck.vectors.coincidences import RUNGS
 from hypcheck.vectors.double_roots import ULPS
-from hypcheck.vectors.families import ALL, FAMILIES
-from hypcheck.vectors.flags import DEFEATED
+from hypcheck.vectors.families import ALL, FAMILIES, WORST_CANCELLATION
 from hypcheck.vectors.format import SCHEMA
+from hypcheck.vectors.labels import DEFEATED
 from tests.support.records import violations
 
 FOLDER = vectors.folder()
@@ -116,7 +116,7 @@ def test_a_frozen_file_is_written_back_to_the_same_bytes(name):
 
 def test_rows_of_worst_cancellation_are_those_that_its_searches_find():
     """Two of the searches made anew, one in each float format; the rows stand in the file in the order of searches."""
-    known = bits(vectors.load(cancellation.NAME).rows)
+    known = bits(vectors.load(WORST_CANCELLATION).rows)
     for wanted in (
         ("table-2", "float32", False, "ring-neighbourhood", 0),
         ("local-maximum", "float64", False, "axis", 1),
@@ -129,7 +129,7 @@ def test_rows_of_worst_cancellation_are_those_that_its_searches_find():
 
 
 def test_every_row_of_worst_cancellation_defeats_a_formula_in_the_default_domain():
-    file = vectors.load(cancellation.NAME)
+    file = vectors.load(WORST_CANCELLATION)
     defeats = {f"{formula}-{precision}" for formula, precision in DEFEATED}
     for case in file.cases:
         assert defeats & set(case.flags)

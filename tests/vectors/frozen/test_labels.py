@@ -21,11 +21,10 @@ from hypcheck.vectors import frozen as vectors
 from hypcheck.vectors.cancellation import BEGINNINGS, STRATA, CancellationSearch, searches, worst_row
 from hypcheck.vectors.cases import cases_text, read_cases
 from hypcheck.vectors.families import ALL, FAMILIES
-from hypcheck.vectors.flags import DEFEATED, FLAGS, flags_of, in_range
-from hypcheck.vectors.format import content_with
+from hypcheck.vectors.format import content_with, flag_facts
 from hypcheck.vectors.freezing import extended, frozen, frozen_invalid_rows
 from hypcheck.vectors.invalid_rows import invalid_rows
-from hypcheck.vectors.labels import labelled, shows_crossing, stored_certificate
+from hypcheck.vectors.labels import DEFEATED, flags_of, in_range, labelled, shows_crossing, stored_certificate
 from tests.support import inside
 from tests.support.examples import examples
 from tests.support.inside import Certificate, prove
@@ -81,7 +80,7 @@ BY_HAND = {
 
 
 def flags_at(*rows):
-    return flags_of(FLAGS, rows, [inside.decide(Pair.from_row(row).lengths) for row in rows])
+    return flags_of(content_with(), rows, [inside.decide(Pair.from_row(row).lengths) for row in rows])
 
 
 @pytest.mark.parametrize("flag", BY_HAND)
@@ -133,7 +132,7 @@ def test_the_default_domain_and_the_formats_ranges_are_those_of_the_methods():
 
 def test_flags_of_a_case_come_in_the_order_of_the_table():
     for flags in flags_at(*[case.row for case in vectors.load("ring").cases[:20]]):
-        assert list(flags) == [name for name in FLAGS if name in flags]
+        assert list(flags) == [name for name in flag_facts("upright") if name in flags]
 
 
 @given(pairs)

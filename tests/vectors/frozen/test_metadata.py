@@ -11,7 +11,6 @@ from hypcheck.vectors import family, fixed_sizes, frozen
 from hypcheck.vectors.cases import cases_text
 from hypcheck.vectors.checking import wrong_description, wrong_meanings
 from hypcheck.vectors.families import ALL
-from hypcheck.vectors.flags import FLAGS, SWEEP_FLAGS, TILTED_FLAGS
 from hypcheck.vectors.invalid_rows import INVALID_CONTENTS
 
 FILE = frozen.load("tangent")
@@ -90,14 +89,14 @@ def test_descriptions_in_the_shipped_files_are_right():
     for name in frozen.NAMES:
         file = frozen.load(name)
         assert file.head.name == name
-        assert [*wrong_description(file.head), *wrong_meanings(file.flags, FLAGS)] == []
+        assert [*wrong_description(file.head), *wrong_meanings(file.flags, file.content.flags)] == []
     for name in frozen.TILTED_NAMES:
         tilted = frozen.load(name)
         assert tilted.head.name == name
-        assert [*wrong_description(tilted.head), *wrong_meanings(tilted.flags, TILTED_FLAGS)] == []
+        assert [*wrong_description(tilted.head), *wrong_meanings(tilted.flags, tilted.content.flags)] == []
     for name in frozen.SWEEP_NAMES:
         ways = frozen.load(name)
         assert ways.head.name == name
-        assert [*wrong_description(ways.head), *wrong_meanings(ways.flags, SWEEP_FLAGS)] == []
+        assert [*wrong_description(ways.head), *wrong_meanings(ways.flags, ways.content.flags)] == []
     for name in (*frozen.ENDED_NAMES, *frozen.ENDED_SWEEP_NAMES, *INVALID_CONTENTS):
         assert list(wrong_description(frozen.load(name).head)) == []

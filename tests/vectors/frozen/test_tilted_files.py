@@ -17,8 +17,7 @@ from hypcheck.vectors import freezing, frozen
 from hypcheck.vectors.cases import case_fields, cases_text, read_cases
 from hypcheck.vectors.checking import faults_of
 from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES
-from hypcheck.vectors.flags import TILTED_FLAGS
-from hypcheck.vectors.format import TILTED_SCHEMA, content_with
+from hypcheck.vectors.format import TILTED_SCHEMA, content_with, flag_facts
 from hypcheck.vectors.labels import shows_crossing
 from tests.support.inside import Bracket
 from tests.support.records import violations
@@ -39,7 +38,7 @@ def test_there_are_at_least_2000_tilted_cases_in_at_least_12_families():
     assert len(frozen.TILTED_NAMES) >= 12
     assert sum(len(frozen.load(name).cases) for name in frozen.TILTED_NAMES) >= 2000
     cases = [case for name in frozen.TILTED_NAMES for case in frozen.load(name).cases]
-    assert {flag for case in cases for flag in case.flags} == set(TILTED_FLAGS)
+    assert {flag for case in cases for flag in case.flags} == set(flag_facts("tilted"))
 
 
 @every_file

@@ -17,8 +17,7 @@ from hypcheck.vectors import freezing, frozen
 from hypcheck.vectors.cases import cases_text, read_cases
 from hypcheck.vectors.checking import faults_of
 from hypcheck.vectors.families import SWEEP_FAMILIES
-from hypcheck.vectors.flags import SWEEP_FLAGS
-from hypcheck.vectors.format import SWEEP_SCHEMA
+from hypcheck.vectors.format import SWEEP_SCHEMA, flag_facts
 from tests.support.records import violations
 from tests.vectors.frozen.test_files import bits, schema, text_of
 
@@ -39,7 +38,7 @@ def test_there_are_at_least_2000_sweeps_in_at_least_14_families():
     assert len({struct for file in files for struct in bits(file.rows)}) == len(cases) >= 2000
     answers = Counter(case.hit for case in cases)
     assert min(answers.values()) >= 0.2 * len(cases)
-    assert {flag for case in cases for flag in case.flags} == set(SWEEP_FLAGS)
+    assert {flag for case in cases for flag in case.flags} == set(flag_facts("sweeps"))
     assert sum("tunnelling" in case.flags for case in cases) >= 200
 
 
