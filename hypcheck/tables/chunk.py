@@ -13,14 +13,14 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import cache
 from itertools import chain, repeat
-from typing import Protocol, TypeAlias, TypeVar
+from typing import TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.errors import InputError
 from hypcheck.geometry import pair
-from hypcheck.geometry.rows import PAIRS, SWEEPS, Layout, Positions, Rows
+from hypcheck.geometry.rows import PAIRS, SWEEPS, Floats, Layout, Positions, Rows, invalid
 from hypcheck.tables.numbers import shown
 
 ADDED = ("position", "label", "tangent", "clearance")
@@ -76,8 +76,16 @@ def layout_of(columns: Sequence[str]) -> Layout:
     return SWEEPS if pair.END[0] in columns else PAIRS
 
 
-def in_layout(numbers: Rows, columns: Sequence[str], layout: Layout) -> Rows:
-    """Rows from numbers (n, len(columns)) of these columns; with heights they get all columns of a row with heights."""
+def valid_rows(numbers: Floats, columns: Sequence[str], layout: Layout) -> Rows | None:
+    """The rows of these finite numbers, one row after the other, in these columns; None unless all of them are valid.
+
+    With heights they get all columns of a row with heights.
+    """
+    rows = _in_layout(numbers.reshape(-1, len(columns)), columns, layout)
+    return None if not np.isfinite(numbers).all() or invalid(rows, layout).any() else rows
+
+
+def _in_layout(numbers: Rows, columns: Sequence[str], layout: Layout) -> Rows:
     if frozenset(pair.HEIGHTS).isdisjoint(columns):
         return numbers
     base = len(layout.upright)
@@ -175,51 +183,6 @@ Cell: TypeAlias = float | str | bool | None
 """What is added to a row in one column; None: nothing to say."""
 
 
-class Answers(Protocol):
-    """The answers about a chunk as the writers of tables take them, (n,) each.
-
-    `names` are those of all that is added to a row: first the cells of its head, few of which differ, then numbers, NaN
-    where there is none, and at last the position with a margin, if one is given. `integers` is the one integer of each
-    row.
-    """
-
-    @property
-    def names(self) -> tuple[str, ...]: ...  # noqa: D102
-
-    @property
-    def heads(self) -> Iterable[tuple[Cell, ...]]: ...  # noqa: D102
-
-    @property
-    def numbers(self) -> tuple[NDArray[np.float64], ...]: ...  # noqa: D102
-
-    @property
-    def with_margin(self) -> Positions | None: ...  # noqa: D102
-
-    @property
-    def integers(self) -> Positions: ...  # noqa: D102
-
-
-def with_answers(
-    texts: Iterable[str], answers: Answers, cell_text: Callable[[Cell], str], marks: Sequence[str], end: str
-) -> bytes:
-    """The text of each row, followed by the added cells, each after its mark, and the end."""
-
-    @cache
-    def head_text(head: tuple[Cell, ...]) -> str:
-        return "".join(mark + cell_text(cell) for mark, cell in zip(marks, head, strict=False))
-
-    columns = []
-    for column in answers.numbers:
-        columns.append(list(map(repr, column.tolist())))
-        for index in np.flatnonzero(~np.isfinite(column)).tolist():
-            columns[-1][index] = cell_text(None if np.isnan(column[index]) else float(column[index]))
-    if answers.with_margin is not None:
-        columns.append(list(map(str, answers.with_margin.tolist())))
-    marked = (part for pair in zip(map(repeat, marks[-len(columns) :]), columns, strict=True) for part in pair)
-    rows = zip(texts, map(head_text, answers.heads), *marked, repeat(end), strict=False)
-    return "".join(chain.from_iterable(rows)).encode()
-
-
 @dataclass(frozen=True, slots=True)
 class TableAnswers:
     """The answers about a chunk of pairs, (n,) each.
@@ -291,6 +254,35 @@ class SweepAnswers:
     def numbers(self) -> tuple[NDArray[np.float64], ...]:
         """The bounds of the time."""
         return self.first_lower, self.first_upper
+
+
+Answers: TypeAlias = TableAnswers | SweepAnswers
+"""The answers about a chunk as the writers of tables take them.
+
+`names` are those of all that is added to a row: first the cells of its head, few of which differ, then numbers, NaN
+where there is none, and at last the position with a margin, if one is given. `integers` is the one integer of each row.
+"""
+
+
+def with_answers(
+    texts: Iterable[str], answers: Answers, cell_text: Callable[[Cell], str], marks: Sequence[str], end: str
+) -> bytes:
+    """The text of each row, followed by the added cells, each after its mark, and the end."""
+
+    @cache
+    def head_text(head: tuple[Cell, ...]) -> str:
+        return "".join(mark + cell_text(cell) for mark, cell in zip(marks, head, strict=False))
+
+    columns = []
+    for column in answers.numbers:
+        columns.append(list(map(repr, column.tolist())))
+        for index in np.flatnonzero(~np.isfinite(column)).tolist():
+            columns[-1][index] = cell_text(None if np.isnan(column[index]) else float(column[index]))
+    if answers.with_margin is not None:
+        columns.append(list(map(str, answers.with_margin.tolist())))
+    marked = (part for pair in zip(map(repeat, marks[-len(columns) :]), columns, strict=True) for part in pair)
+    rows = zip(texts, map(head_text, answers.heads), *marked, repeat(end), strict=False)
+    return "".join(chain.from_iterable(rows)).encode()
 
 
 SWEEP_LABELS = {1: "contact", 0: "clear", pair.REFUSED: "refused"}

@@ -23,7 +23,7 @@ import numpy as np
 
 from hypcheck.errors import InputError, NothingJudgedError
 from hypcheck.geometry.pair import AXIS, CENTER, NO_DIRECTION
-from hypcheck.geometry.rows import Floats, Layout, Rows, invalid
+from hypcheck.geometry.rows import Floats, Layout, Rows
 from hypcheck.tables.chunk import (
     CHUNK,
     Answers,
@@ -35,9 +35,9 @@ from hypcheck.tables.chunk import (
     UnreadChunk,
     check_names,
     columns_of,
-    in_layout,
     layout_of,
     read_values,
+    valid_rows,
     with_answers,
 )
 from hypcheck.tables.numbers import CHARACTERS, is_number, number_of_text, shown
@@ -227,8 +227,7 @@ def _rows_if_valid(cells: Sequence[tuple[str, ...]], columns: Sequence[str], lay
         numbers = np.fromiter(map(float, flat), dtype=np.float64, count=len(flat))
     except ValueError:
         return None
-    rows = in_layout(numbers.reshape(len(cells), len(columns)), columns, layout)
-    return None if invalid(rows, layout).any() else rows
+    return valid_rows(numbers, columns, layout)
 
 
 HEADING, FLIGHT = "heading", "flight"
@@ -250,26 +249,19 @@ class FlightTable:
 def read_flights(path: str) -> FlightTable:
     """The flights of a CSV file, or of standard input for "-". Raises InputError naming the line."""
     with open_input(path) as reader:
-        content, name = reader.read(), reader.name
-    try:
-        lines = content.decode("utf-8").removeprefix(BYTE_ORDER_MARK).splitlines(keepends=True)
-    except UnicodeDecodeError as error:
-        raise InputError(f"{name} is not UTF-8: byte {error.start} is wrong") from None
-    records = csv.reader(lines, strict=True)
-    try:
-        header = [cell.strip() for cell in next(records, [])]
-        rows = [(records.line_num, cells) for cells in records if cells]
-    except csv.Error as error:
-        raise InputError(f"{name}, line {records.line_num}: {error}") from None
-    numbers = _columns_of(header, name)
-    if not rows:
-        raise InputError(f"{name} has no rows; a flight needs one at least")
-    values = np.array([_numbers(cells, header, numbers, f"{name}, line {line}") for line, cells in rows])
-    groups = [cells[header.index(FLIGHT)].strip() if FLIGHT in header else "" for _, cells in rows]
-    return _split(values, numbers, groups)
+        records = _Records(reader)
+        header = [cell.strip() for cell in records.next() or []]
+        columns = _flight_columns(header, reader.name)
+        values, groups = [], []
+        while (cells := records.next()) is not None:
+            values.append(_numbers(cells, header, columns, f"{reader.name}, line {records.line}"))
+            groups.append(cells[header.index(FLIGHT)].strip() if FLIGHT in header else "")
+    if not values:
+        raise InputError(f"{reader.name} has no rows; a flight needs one at least")
+    return _split(np.array(values), columns, groups)
 
 
-def _columns_of(header: list[str], name: str) -> list[str]:
+def _flight_columns(header: list[str], name: str) -> list[str]:
     """The columns of numbers that are read. Raises InputError."""
     if not header:
         raise InputError(f"{name} is empty; its first line must name the columns {', '.join(CENTER)}")

@@ -7,7 +7,6 @@ lines are left out; line ends become LF.
 from __future__ import annotations
 
 import json
-import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
@@ -18,13 +17,11 @@ from operator import itemgetter
 import numpy as np
 
 from hypcheck.errors import InputError, NothingJudgedError
-from hypcheck.geometry.pair import AXIS, COLUMNS, END, ENDS, HEIGHTS, TILTED_COLUMNS
-from hypcheck.geometry.rows import PAIRS, Layout, Rows, invalid
+from hypcheck.geometry.pair import AXIS, COLUMNS, END, ENDS, HEIGHTS
+from hypcheck.geometry.rows import PAIRS, Layout, Rows
 from hypcheck.messages import json_trouble
 from hypcheck.tables.chunk import (
-    ADDED,
     CHUNK,
-    WITH_MARGIN,
     Answers,
     Cell,
     RowPlaces,
@@ -32,10 +29,12 @@ from hypcheck.tables.chunk import (
     Table,
     TableChunk,
     UnreadChunk,
+    added_to,
     check_names,
     columns_of,
     layout_of,
     read_values,
+    valid_rows,
     with_answers,
 )
 from hypcheck.tables.numbers import Literal, number_of_json, shown_json
@@ -79,11 +78,7 @@ def _json_number(name: str, value: float) -> float | str | None:
 
 
 _DECODER, _LITERAL_DECODER = strict_decoder(), strict_decoder(Literal)
-_PICK, _PICK_TILTED = itemgetter(*COLUMNS), itemgetter(*TILTED_COLUMNS)
 _BLANKS = " \t\r\n"
-_CLEAR_OF_ADDED, _CLEAR_OF_AXIS = frozenset((*ADDED, WITH_MARGIN)).isdisjoint, frozenset(AXIS).isdisjoint
-_NAMES_OF_GROUPS = re.compile("|".join((*END, "axis_", *HEIGHTS)), re.IGNORECASE)
-_COLUMNS_OF = {True: COLUMNS, False: TILTED_COLUMNS}
 
 
 def _chunks(reader: Reader, *, mark: bool) -> Iterator[UnreadChunk]:
@@ -126,9 +121,9 @@ def _chunk_of_block(block: TextBlock, places: RowPlaces, layout: Layout, *, mark
 
 
 def _chunk(texts: list[str], places: RowPlaces, layout: Layout, *, mark: bool) -> TableChunk:
-    rows = None if layout.has_end else _rows_if_valid(texts)
+    rows = _rows_if_valid(texts, layout)
     if rows is not None:
-        return TableChunk(rows, np.zeros(len(rows), dtype=np.bool_), texts)
+        return TableChunk(rows, np.zeros(len(rows), dtype=np.bool_), texts, layout)
     values = _values_of_layout(texts, places, layout)
     return TableChunk(*read_values(values, number_of_json, places, mark=mark, layout=layout), texts, layout)
 
@@ -143,26 +138,21 @@ def _values_of_layout(texts: Sequence[str], places: RowPlaces, layout: Layout) -
         yield values
 
 
-def _rows_if_valid(texts: Sequence[str]) -> Rows | None:
-    """The rows if all of them are valid and all, or none, have an axis; else None."""
+def _rows_if_valid(texts: Sequence[str], layout: Layout) -> Rows | None:
+    """The rows if all of them are valid, and have the same columns; else None."""
     try:
         objects = list(map(_DECODER.decode, texts))
-        upright = all(map(_CLEAR_OF_AXIS, objects))
-        if _NAMES_OF_GROUPS.search("".join(texts)) and set(map(_columns_or_heights, objects)) != {_COLUMNS_OF[upright]}:
-            return None  # an end, a height, or a key such as Axis_x
-        flat = list(chain.from_iterable(map(_PICK if upright else _PICK_TILTED, objects)))
-        if not (set(map(type, flat)) <= {float, int} and all(map(_CLEAR_OF_ADDED, objects))):
+        names = set(map(tuple, objects))  # one element where all rows have the same keys in one order
+        (columns,) = set(map(columns_of, names))
+        if layout_of(columns) != layout or not all(map(frozenset(added_to(columns)).isdisjoint, names)):
+            return None
+        flat = list(chain.from_iterable(map(itemgetter(*columns), objects)))
+        if not set(map(type, flat)) <= {float, int}:
             return None
         numbers = np.fromiter(map(float, flat), dtype=np.float64, count=len(flat))
-    except (ValueError, TypeError, LookupError, OverflowError, RecursionError):
+    except (ValueError, TypeError, LookupError, AttributeError, OverflowError, RecursionError):
         return None
-    rows = numbers.reshape(len(texts), len(COLUMNS if upright else TILTED_COLUMNS))
-    return None if invalid(rows).any() else rows
-
-
-def _columns_or_heights(row: dict[str, object]) -> tuple[str, ...]:
-    """The columns of an object; HEIGHTS where it has one of them."""
-    return columns_of(row) if frozenset(HEIGHTS).isdisjoint(map(str.casefold, row)) else HEIGHTS
+    return valid_rows(numbers, columns, layout)
 
 
 def _values(text: str, where: str) -> dict[str, object]:

@@ -122,3 +122,14 @@ def test_a_damaged_table_is_answered_or_refused_in_one_sentence(tmp_path_factory
     code = main(["classify", *words])
     assert code in (0, 2)
     assert sorted(os.listdir(folder)) == [f"in.{kind}"] + [f"out.{kind}"] * (code == 0)
+
+
+@pytest.mark.parametrize(
+    ("ending", "text"),
+    [
+        ("csv", "alpha,gamma,b,d,x,y,z,z_max\n1,2,1,1,3,0,0,1e999\n"),
+        ("jsonl", '{"alpha": 1, "gamma": 2, "b": 1, "d": 1, "x": 3, "y": 0, "z": 0, "z_max": 1e999}\n'),
+    ],
+)
+def test_a_height_beyond_float64_is_refused_and_is_not_taken_for_infinity(tmp_path, capsys, ending, text):
+    assert "z_max is 1e999, which is too large for float64" in message(tmp_path, capsys, f"in.{ending}", text.encode())
