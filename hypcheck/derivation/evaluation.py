@@ -8,16 +8,16 @@ evaluates also the branch that it does not select.
 
 from __future__ import annotations
 
-import math
 import operator
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cache, total_ordering
+from functools import cache
 from typing import Any
 
 from hypcheck.derivation.program import Program, needed, split
+from hypcheck.geometry.arithmetic import QuadraticSurd, exact_root
 
 
 @dataclass(frozen=True)
@@ -213,111 +213,12 @@ class Undefined:
 UNDEFINED = Undefined()
 
 
-@total_ordering
-@dataclass(frozen=True, slots=True, eq=False)
-class QuadraticSurd:
-    """The number p + q√h: p and q rational, q ≠ 0, and h > 0 rational and not the square of a rational.
-
-    It is therefore irrational, never zero, and equal to another exactly when p and q are. `surd` makes one.
-    """
-
-    p: Fraction
-    q: Fraction
-    h: Fraction
-
-    def __add__(self, other: object) -> Fraction | QuadraticSurd | Undefined:
-        parts = self._parts(other)
-        return NotImplemented if parts is None else surd(self.p + parts[0], self.q + parts[1], self.h)
-
-    def __mul__(self, other: object) -> Fraction | QuadraticSurd | Undefined:
-        parts = self._parts(other)
-        if parts is None:
-            return NotImplemented
-        p, q = parts
-        return surd(self.p * p + self.q * q * self.h, self.p * q + self.q * p, self.h)
-
-    __radd__ = __add__
-    __rmul__ = __mul__
-
-    def __neg__(self) -> QuadraticSurd:
-        return QuadraticSurd(-self.p, -self.q, self.h)
-
-    def __abs__(self) -> QuadraticSurd:
-        return self if self.sign > 0 else -self
-
-    def __sub__(self, other: Any) -> Any:
-        return NotImplemented if self._parts(other) is None else self + -other
-
-    def __rsub__(self, other: Any) -> Any:
-        return -self + other
-
-    def __truediv__(self, other: Any) -> Any:
-        if isinstance(other, QuadraticSurd):
-            return self * other.reciprocal
-        return NotImplemented if self._parts(other) is None else self * (1 / Fraction(other))
-
-    def __rtruediv__(self, other: Any) -> Any:
-        return self.reciprocal * other
-
-    @property
-    def reciprocal(self) -> Fraction | QuadraticSurd:
-        """The reciprocal, by the conjugate: p² − q²h is not zero, since h is not a square."""
-        norm = self.p**2 - self.q**2 * self.h
-        return QuadraticSurd(self.p / norm, -self.q / norm, self.h)
-
-    @property
-    def sign(self) -> int:
-        """+1 or −1: the sign of the larger of |p| and |q|√h, found from their squares."""
-        larger = self.p if self.p**2 > self.q**2 * self.h else self.q
-        return 1 if larger > 0 else -1
-
-    def __lt__(self, other: object) -> bool:
-        sign = self._compare(other)
-        return NotImplemented if sign is None else sign < 0
-
-    def __eq__(self, other: object) -> bool:
-        sign = self._compare(other)
-        return NotImplemented if sign is None else sign == 0
-
-    def __hash__(self) -> int:
-        return hash((self.p, self.q, self.h))
-
-    def _compare(self, other: object) -> int | None:
-        """The sign of self − other, or None where `other` is of another type."""
-        parts = self._parts(other)
-        return None if parts is None else sign_of(surd(self.p - parts[0], self.q - parts[1], self.h))
-
-    def _parts(self, other: object) -> tuple[Fraction, Fraction] | None:
-        if isinstance(other, QuadraticSurd):
-            if other.h != self.h:
-                raise ValueError(f"√{self.h} and √{other.h} do not lie in one quadratic field")
-            return other.p, other.q
-        if isinstance(other, (int, Fraction)):
-            return Fraction(other), Fraction(0)
-        return None
-
-
-def surd(p: Fraction, q: Fraction, h: Fraction) -> Fraction | QuadraticSurd:
-    """p + q√h, as a Fraction where q is 0; `h` must be no square of a rational."""
-    return QuadraticSurd(p, q, h) if q else p
-
-
-def sign_of(number: Fraction | QuadraticSurd) -> int:
-    """+1, 0 or −1."""
-    if isinstance(number, QuadraticSurd):
-        return number.sign
-    return (number > 0) - (number < 0)
-
-
 def square_root(number: Any) -> Fraction | QuadraticSurd | Undefined:
     """The root of a rational, exact; UNDEFINED below zero. Raises TypeError for the root of an irrational number."""
     if isinstance(number, Undefined):
         return UNDEFINED
     rational = Fraction(number)
-    if rational < 0:
-        return UNDEFINED
-    root = Fraction(math.isqrt(rational.numerator), math.isqrt(rational.denominator))
-    return root if root * root == rational else QuadraticSurd(Fraction(0), Fraction(1), rational)
+    return UNDEFINED if rational < 0 else exact_root(rational)
 
 
 EXACT = Arithmetic(

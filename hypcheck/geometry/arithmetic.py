@@ -1,14 +1,16 @@
 """Plain arithmetic that belongs to no oracle and to no kernel.
 
 First signs, then vectors of three numbers and 3×3 matrices, of integers, rationals, intervals or arrays; then rational
-numbers: roots, powers of two, few bits, and bisection.
+numbers: roots, powers of two, few bits, and bisection; and numbers of a quadratic field, p + q√h.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
+from functools import total_ordering
 from itertools import count, pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -16,7 +18,7 @@ if TYPE_CHECKING:
     from mpmath import mpf
 
 
-def sign_of(number: Fraction | int) -> int:
+def sign_of(number: Fraction | int | QuadraticSurd) -> int:
     """The sign: 1, 0 or −1."""
     return (number > 0) - (number < 0)
 
@@ -149,3 +151,106 @@ def fraction(number: mpf) -> Fraction:
     """The exact value of a number of mpmath, whose mantissa is stored without its sign."""
     size = Fraction(int(number.man)) * power_of_two(int(number.exp))
     return -size if number < 0 else size
+
+
+@total_ordering
+@dataclass(frozen=True, slots=True, eq=False)
+class QuadraticSurd:
+    """The number p + q√h: p and q rational, q ≠ 0, and h > 0 rational and not the square of a rational.
+
+    It is therefore irrational, never zero, and equal to another exactly when p and q are. `surd` makes one. Where p, q
+    and h are integers, sums and products consist of integers again, which is faster.
+    """
+
+    p: Fraction
+    q: Fraction
+    h: Fraction
+
+    def __add__(self, other: object) -> Fraction | QuadraticSurd:
+        parts = self._parts(other)
+        return NotImplemented if parts is None else surd(self.p + parts[0], self.q + parts[1], self.h)
+
+    def __mul__(self, other: object) -> Fraction | QuadraticSurd:
+        parts = self._parts(other)
+        if parts is None:
+            return NotImplemented
+        p, q = parts
+        return surd(self.p * p + self.q * q * self.h, self.p * q + self.q * p, self.h)
+
+    __radd__ = __add__
+    __rmul__ = __mul__
+
+    def __neg__(self) -> QuadraticSurd:
+        return QuadraticSurd(-self.p, -self.q, self.h)
+
+    def __abs__(self) -> QuadraticSurd:
+        return self if self.sign > 0 else -self
+
+    def __sub__(self, other: object) -> Fraction | QuadraticSurd:
+        parts = self._parts(other)
+        return NotImplemented if parts is None else surd(self.p - parts[0], self.q - parts[1], self.h)
+
+    def __rsub__(self, other: object) -> Fraction | QuadraticSurd:
+        return -self + other
+
+    def __truediv__(self, other: object) -> Fraction | QuadraticSurd:
+        if isinstance(other, QuadraticSurd):
+            return self * other.reciprocal
+        return self * (1 / Fraction(other)) if isinstance(other, (int, Fraction)) else NotImplemented
+
+    def __rtruediv__(self, other: Fraction | int) -> Fraction | QuadraticSurd:
+        return self.reciprocal * other
+
+    def conjugate(self) -> QuadraticSurd:
+        """p − q√h."""
+        return QuadraticSurd(self.p, -self.q, self.h)
+
+    @property
+    def reciprocal(self) -> Fraction | QuadraticSurd:
+        """The reciprocal, by the conjugate: p² − q²h is not zero, since h is not a square."""
+        norm = self.p**2 - self.q**2 * self.h
+        return QuadraticSurd(Fraction(self.p, norm), Fraction(-self.q, norm), self.h)
+
+    @property
+    def sign(self) -> int:
+        """+1 or −1: the sign of the larger of |p| and |q|√h, found from their squares."""
+        larger = self.p if self.p**2 > self.q**2 * self.h else self.q
+        return 1 if larger > 0 else -1
+
+    def __lt__(self, other: object) -> bool:
+        sign = self._compare(other)
+        return NotImplemented if sign is None else sign < 0
+
+    def __eq__(self, other: object) -> bool:
+        sign = self._compare(other)
+        return NotImplemented if sign is None else sign == 0
+
+    def __hash__(self) -> int:
+        return hash((self.p, self.q, self.h))
+
+    def _compare(self, other: object) -> int | None:
+        """The sign of self − other, or None where `other` is of another type."""
+        difference = self.__sub__(other)
+        if difference is NotImplemented:
+            return None
+        return difference.sign if isinstance(difference, QuadraticSurd) else sign_of(difference)
+
+    def _parts(self, other: object) -> tuple[Any, Any] | None:
+        if isinstance(other, QuadraticSurd):
+            if other.h != self.h:
+                raise ValueError(f"√{self.h} and √{other.h} do not lie in one quadratic field")
+            return other.p, other.q
+        if isinstance(other, (int, Fraction)):
+            return other, 0
+        return None
+
+
+def surd(p: Fraction, q: Fraction, h: Fraction) -> Fraction | QuadraticSurd:
+    """p + q√h, as a Fraction where q is 0; `h` must be no square of a rational."""
+    return QuadraticSurd(p, q, h) if q else p
+
+
+def exact_root(square: Fraction) -> Fraction | QuadraticSurd:
+    """√square, square ≥ 0, exactly."""
+    root = Fraction(math.isqrt(square.numerator), math.isqrt(square.denominator))
+    return root if root * root == square else QuadraticSurd(Fraction(0), Fraction(1), square)

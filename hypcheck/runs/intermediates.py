@@ -15,11 +15,12 @@ from typing import Any
 
 import numpy as np
 
-from hypcheck.derivation.evaluation import EXACT, QuadraticSurd, evaluate
+from hypcheck.derivation.evaluation import EXACT, evaluate
 from hypcheck.derivation.float_arithmetic import float_arithmetic, unit_roundoff
 from hypcheck.derivation.formulas import FORMULAS, Formula
 from hypcheck.derivation.program import BOOLEAN, OPERATIONS, Program, Step, cut, line_of, steps_of
 from hypcheck.errors import InputError
+from hypcheck.geometry.arithmetic import QuadraticSurd
 from hypcheck.geometry.pair import COLUMNS, Position
 from hypcheck.implementations.alternatives import DISTANCES, searched
 from hypcheck.implementations.description import Description

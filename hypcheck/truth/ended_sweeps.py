@@ -8,8 +8,9 @@ Contact begins and ends when the spheroid E touches the wall or a disc without c
 - within a disc: its plane is tangent to E, and k at that height is 0.
 
 All of these are polynomials in the time t: the coefficients of g, and k, are quadratic in the centre and so in t. An
-end of a tilted hyperboloid is at a height w √U, so that they are u + v √U with polynomials u, v; then the norm
-u² − U v² is taken. Between two neighbouring roots of them all nothing changes, and one exact decision finds it.
+end of a tilted hyperboloid is at a height w √U, so that their coefficients are numbers u + v √U; then the product with
+the conjugate polynomial is taken. Between two neighbouring roots of them all nothing changes, and one exact decision
+finds it.
 
 Enclosures of roots are narrowed step by step. Roots whose enclosures meet count as one cluster. A cluster between two
 clear times is clear if a larger spheroid that contains E at all times of the cluster is clear. If this cannot be shown,
@@ -29,11 +30,13 @@ has not, the two points move continuously, and pass an end of the wall on its ri
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
+from typing import Any
 
+from hypcheck.geometry.arithmetic import QuadraticSurd
 from hypcheck.geometry.pair import Lengths, Position
 from hypcheck.truth import exact
 from hypcheck.truth.polynomials import (
@@ -48,7 +51,7 @@ from hypcheck.truth.polynomials import (
     squarefree,
 )
 from hypcheck.truth.sections import Sections
-from hypcheck.truth.sweep import InTime, StraightSweep, Surd
+from hypcheck.truth.sweep import InTime, StraightSweep, norm_of
 
 _BITS = (60, 120, 240)
 """Bits of the enclosures of roots, tried in this order until all clusters are decided.
@@ -222,39 +225,38 @@ def _at_ends(sweep: StraightSweep, *, sides: bool) -> Iterator[Polynomial]:
     """Polynomials that are 0 where E touches a rim, or the plane of an end; with `sides`, where its centre is in it."""
     sections = [Sections.of(sweep.at(Fraction(time)), over_content=False) for time in range(3)]
     unit = sections[0].unit
+    whole = math.isqrt(unit)
+    root: Any = whole if whole * whole == unit else QuadraticSurd(0, 1, unit)  # type: ignore[arg-type]  # for speed
+
+    def through(polynomials: Iterable[Polynomial], height: int) -> InTime:
+        """The quadratic in t, doubled, that at 0, 1, 2 has the values of these polynomials at a height."""
+        values = (of.value(f, height) for of, f in zip(sections, polynomials, strict=True))
+        start, here, there = (even + odd * root for even, odd in values)
+        return InTime((there - 2 * here + start, 4 * here - there - 3 * start, 2 * start))
+
     for height in (sweep.start.low, sweep.start.high):
         if height is None:
             continue
-        c3, c2, c1, c0 = ([of.value(of.cubic[k], height) for of in sections] for k in range(4))
-        yield from _where_touched(*(_through(values, unit) for values in (c3, c2, c1, c0)))
-        yield from _zeros(_through([of.value(of.inside, height) for of in sections], unit))
+        yield from _where_touched(*(through((of.cubic[k] for of in sections), height) for k in range(4)))
+        yield from _zeros(through((of.inside for of in sections), height))
         if sides:
-            yield from _zeros(_through([of.value(of.above, height) for of in sections], unit))
+            yield from _zeros(through((of.above for of in sections), height))
 
 
-def _where_touched(c3: Surd, c2: Surd, c1: Surd, c0: Surd) -> Iterator[Polynomial]:
+def _where_touched(c3: InTime, c2: InTime, c1: InTime, c0: InTime) -> Iterator[Polynomial]:
     """Polynomials that are 0 where the circle just touches the ellipse.
 
     Far away the circle misses E, so that Δ > 0 or c0 = c1 = 0 there (sections.py). Where one of them is 0 at all times,
     what is left therefore is not.
     """
-    if any(c0.norm):
+    if any(c0.f):
         yield from _zeros(exact.cubic_discriminant(c3, c2, c1, c0))
         return
     for f in (c2 * c2 - c3 * c1 * 4, c1, c2):
         yield from _zeros(f)
 
 
-def _through(values: Sequence[tuple[int | Fraction, int | Fraction]], unit: int) -> Surd:
-    """The quadratic u + v √unit in t with these values at 0, 1, 2, doubled."""
-    u, v = (
-        InTime((there - 2 * here + start, 4 * here - there - 3 * start, 2 * start))
-        for start, here, there in zip(*((int(even), int(odd)) for even, odd in values), strict=True)
-    )
-    return Surd(u, v, unit)
-
-
-def _zeros(f: Surd) -> list[Polynomial]:
+def _zeros(f: InTime) -> list[Polynomial]:
     """A list with a polynomial that is 0 wherever f is; an empty list if that is a constant, 0 or not."""
-    norm = f.norm
+    norm = norm_of(f.f)
     return [norm] if len(norm) > 1 else []

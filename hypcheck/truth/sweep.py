@@ -10,8 +10,8 @@ in t, so that its discriminant is a polynomial of degree 8 or 12 at most. Only i
 position changes only through a tangency, where F has a multiple root. Where the same clear position is on both sides of
 a root, that root is a tangency, unless the multiple root is the pole ℓ with a simple root before it: the ring, which is
 clear. Upright, the ring needs z = 0. Tilted, ℓ is rational or in Q(√w), and so is the time at which F(ℓ, t) = 0; if
-F(ℓ, t) = 0 at all times, the times of the ring are roots of a quadratic over Q(√w). Such numbers u + v √w have exact
-signs (`Surd`), also quadratics over them at each other's roots.
+F(ℓ, t) = 0 at all times, the times of the ring are roots of a quadratic over Q(√w). Such numbers have exact signs, and
+so have quadratics over them at each other's roots.
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from typing import Any
 
-from hypcheck.geometry.arithmetic import dot, shortened, sign_with_root
-from hypcheck.geometry.pair import Lengths, Position, Vector
+from hypcheck.geometry.arithmetic import QuadraticSurd, dot, exact_root, shortened, sign_of
+from hypcheck.geometry.pair import Lengths, Position, Vector, to_integers
 from hypcheck.truth import exact
 from hypcheck.truth.pencil import (
-    Number,
     Quartic,
     cubic,
     cubic_coefficients,
@@ -60,11 +60,14 @@ def piece(pencil: Sequence[Polynomial], multiplier: Fraction) -> Polynomial:
 
 
 class InTime:
-    """A polynomial in t in place of a number; it can be combined with such polynomials and integers."""
+    """A polynomial in t in place of a number; it can be combined with such polynomials and integers.
+
+    Its coefficients are integers, or numbers of one quadratic field.
+    """
 
     __slots__ = ("f",)
 
-    def __init__(self, f: Polynomial) -> None:
+    def __init__(self, f: Sequence[Any]) -> None:
         self.f = f
 
     def __add__(self, other: InTime | int) -> InTime:
@@ -87,7 +90,7 @@ class InTime:
 
 
 def _polynomial(number: InTime | int) -> Polynomial:
-    return number.f if isinstance(number, InTime) else (number,)
+    return tuple(number.f) if isinstance(number, InTime) else (number,)
 
 
 @dataclass(frozen=True)
@@ -202,33 +205,36 @@ class StraightSweep:
         contact.
         """
         curvature = self._at_pole(-1)[2]
-        if not any(part.sign for part in curvature):
-            return (1,)
-        unit = math.lcm(*(number.denominator for part in curvature for number in (part.u, part.v)))
-        u, v = (
-            [int(number * unit) for number in numbers] for numbers in zip(*((k.u, k.v) for k in curvature), strict=True)
-        )
-        return Surd(InTime(tuple(u)), InTime(tuple(v)), curvature[0].w).norm
+        return norm_of(curvature) if any(curvature) else (1,)
 
     def _at_pole(self, side: int) -> tuple[Quadratic, Quadratic, Quadratic]:
         """F, F′ and F″/2 at ℓ, for μ = side · λ, as polynomials in t over Q(√w), the highest power first."""
         here = self.start
+        pole: Field
         if side < 0 and here.b > here.d:
-            pole = Surd(Fraction(here.alpha**2, here.b**2))
+            pole = Fraction(here.alpha**2, here.b**2)
         else:
             e0, e1, e2 = second_factor(here)
-            pole = Surd.root(Fraction(side * e1, 2 * e2), Fraction(e1 * e1 + 4 * e0 * e2, 4 * e2 * e2))
-        zero = Surd(Fraction(0), Fraction(0), pole.w)
+            pole = exact_root(Fraction(e1 * e1 + 4 * e0 * e2, 4 * e2 * e2)) + Fraction(side * e1, 2 * e2)
+        f = [((0, 0, *coefficient)[-3:], power) for power, coefficient in enumerate(reversed(self.pencil))]
         derivatives = []
         for order in range(3):
-            total = [zero] * 3
-            for power, coefficient in enumerate(reversed(self.pencil)):
-                if power >= order:
-                    factor = pole.power(power - order) * (math.comb(power, order) * side**power)
-                    for place, number in enumerate(reversed(coefficient), 1):
-                        total[-place] = total[-place] + factor * number
+            total: list[Field] = [Fraction(0)] * 3
+            for coefficient, power in reversed(f[order:]):  # Horner's scheme in μ
+                factor = math.comb(power, order) * side**power
+                total = [part * pole + factor * number for part, number in zip(total, coefficient, strict=True)]
             derivatives.append(total)
         return derivatives[0], derivatives[1], derivatives[2]
+
+
+def norm_of(f: Sequence[Any]) -> Polynomial:
+    """A primitive polynomial that is 0 wherever one with coefficients in a quadratic field is; () if that is always.
+
+    It is the product with the conjugate, unless all coefficients are rational.
+    """
+    if any(isinstance(number, QuadraticSurd) for number in f):
+        f = polynomial_product(f, [number.conjugate() for number in f])
+    return primitive(to_integers(f))
 
 
 def _at_local_maximum(lengths: Lengths) -> Iterator[Fraction]:
@@ -271,78 +277,22 @@ def _rises(F: Quartic, slope: tuple[int, ...], at: Fraction) -> bool:
 def _ring_between(at_pole: Quadratic, slope: Quadratic, curvature: Quadratic, low: Fraction, high: Fraction) -> bool:
     """Whether F(ℓ) = F′(ℓ) = 0 < F″(ℓ) at the one time in an open interval at which F has a multiple root."""
     a, b, _ = at_pole
-    if any(part.sign for part in at_pole):  # F(ℓ) is a square of a linear polynomial in t, up to a factor
-        if not a.sign:
+    if any(at_pole):  # F(ℓ) is a square of a linear polynomial in t, up to a factor
+        if not a:
             return False
         time = b / (a * -2)
-        between = (time - low).sign > 0 > (time - high).sign
-        return between and not value_of(slope, time).sign and value_of(curvature, time).sign > 0
+        return low < time < high and not value_of(slope, time) and value_of(curvature, time) > 0
     return sign_at_root(slope, curvature, low, high) > 0
 
 
-@dataclass(frozen=True, slots=True)
-class Surd:
-    """u + v √w, u and v of one kind: rational, or polynomials in t, for which `norm` is there, and not `sign`.
+Field = Fraction | QuadraticSurd
+"""A number of one quadratic field, or a rational."""
 
-    Two operands have the same w, or v = 0 in one of them; where w is 0, v is.
-    """
-
-    u: Number
-    v: Number = Fraction(0)
-    w: Fraction | int = Fraction(0)
-
-    @classmethod
-    def root(cls, u: Fraction, w: Fraction) -> Surd:
-        """u + √w for w > 0; rational where w is a square."""
-        root = Fraction(math.isqrt(w.numerator), math.isqrt(w.denominator))
-        return cls(u + root) if root * root == w else cls(u, Fraction(1), w)
-
-    @property
-    def sign(self) -> int:
-        """+1, 0 or −1; 0 for 0 alone, since √w is irrational."""
-        return sign_with_root(self.u, self.v, self.w)
-
-    def __add__(self, other: Surd | Fraction | int) -> Surd:
-        if not isinstance(other, Surd):
-            return Surd(self.u + other, self.v, self.w)
-        return Surd(self.u + other.u, self.v + other.v, self.w or other.w)
-
-    def __sub__(self, other: Surd | Fraction | int) -> Surd:
-        return self + other * -1
-
-    def __mul__(self, other: Surd | Fraction | int) -> Surd:
-        if not isinstance(other, Surd):
-            return Surd(self.u * other, self.v * other, self.w)
-        w = self.w or other.w
-        return Surd(self.u * other.u + self.v * other.v * w, self.u * other.v + self.v * other.u, w)
-
-    def __truediv__(self, other: Surd) -> Surd:
-        norm = other.u * other.u - other.v * other.v * other.w
-        return self * Surd(other.u / norm, -other.v / norm, other.w)
-
-    __rmul__ = __mul__
-
-    @property
-    def norm(self) -> Polynomial:
-        """A primitive polynomial in t that is 0 wherever u + v √w is; () if that is always."""
-        root = math.isqrt(self.w.numerator)
-        if root * root == self.w != 0:
-            return primitive((self.u + self.v * root).f)
-        return primitive((self.u * self.u * self.w.denominator - self.v * self.v * self.w.numerator).f)
-
-    def power(self, exponent: int) -> Surd:
-        """The number to the power of an exponent ≥ 0."""
-        result = Surd(Fraction(1), Fraction(0), self.w)
-        for _ in range(exponent):
-            result = result * self
-        return result
-
-
-Quadratic = Sequence[Surd]
+Quadratic = Sequence[Field]
 """a, b, c of a t² + b t + c."""
 
 
-def value_of(f: Quadratic, at: Surd | Fraction) -> Surd:
+def value_of(f: Quadratic, at: Field) -> Field:
     """The value of f at a number."""
     return (f[0] * at + f[1]) * at + f[2]
 
@@ -350,29 +300,29 @@ def value_of(f: Quadratic, at: Surd | Fraction) -> Surd:
 def sign_at_root(f: Quadratic, g: Quadratic, low: Fraction, high: Fraction) -> int:
     """The sign of g at the one root of f ≠ 0 in an open interval; 0 where there is none."""
     a, b, c = f
-    if not a.sign:
-        root = c / (b * -1) if b.sign else None
-    elif not (b * b - a * c * 4).sign:
+    if not a and not b:
+        return 0
+    if not a:
+        root = -c / b
+    elif b * b == a * c * 4:
         root = b / (a * -2)
     else:
         return _sign_at_simple_root(f, g, low, high)
-    if root is None or not (root - low).sign > 0 > (root - high).sign:
-        return 0
-    return value_of(g, root).sign
+    return sign_of(value_of(g, root)) if low < root < high else 0
 
 
 def _sign_at_simple_root(f: Quadratic, g: Quadratic, low: Fraction, high: Fraction) -> int:
     """As sign_at_root, if f has degree 2 and two different roots: by the remainder of g, which is linear."""
-    start = value_of(f, low).sign
-    if start * value_of(f, high).sign >= 0:
+    start = sign_of(value_of(f, low))
+    if start * sign_of(value_of(f, high)) >= 0:
         return 0
     factor = g[0] / f[0]
     slope, constant = g[1] - factor * f[1], g[2] - factor * f[2]
-    if not slope.sign:
-        return constant.sign
-    zero = constant / (slope * -1)
-    if (zero - low).sign <= 0:
-        return slope.sign
-    if (zero - high).sign >= 0:
-        return -slope.sign
-    return slope.sign * start * value_of(f, zero).sign  # f still has its first sign at the zero: the root is beyond
+    if not slope:
+        return sign_of(constant)
+    zero = -constant / slope
+    if zero <= low:
+        return sign_of(slope)
+    if zero >= high:
+        return -sign_of(slope)
+    return sign_of(slope) * start * sign_of(value_of(f, zero))  # f still has its first sign there: the root is beyond

@@ -10,7 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hypcheck.derivation.evaluation import EXACT, UNDEFINED, QuadraticSurd, square_root, surd
+from hypcheck.derivation.evaluation import EXACT, UNDEFINED, square_root
+from hypcheck.geometry.arithmetic import QuadraticSurd, surd
 
 rationals = st.fractions(min_value=-1000, max_value=1000, max_denominator=1000)
 roots = st.sampled_from([Fraction(2), Fraction(3, 7), Fraction(10**12 + 1), Fraction(1, 10**9 + 7)])

@@ -142,7 +142,7 @@ from hypcheck.truth.prove import prove
 from hypcheck.truth.root_patterns import COMPLEX, KIND_OF, PATTERNS, RootPlace, admissible
 from hypcheck.truth.roots import Invariants, classify_by_roots, classify_invariants, coefficients, real_roots
 from hypcheck.truth.sections import position as heights_position
-from hypcheck.truth.sweep import Surd, piece, sign_at_root
+from hypcheck.truth.sweep import piece, sign_at_root
 from hypcheck.truth.swept import WIDTH_BITS, by_roots, by_steps, passage, reach, steps, sweep_of
 
 __all__ = [
@@ -192,7 +192,6 @@ __all__ = [
     "ScenePlan",
     "Setting",
     "Stages",
-    "Surd",
     "Thresholds",
     "TiltedSearch",
     "U",

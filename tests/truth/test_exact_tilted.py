@@ -13,7 +13,7 @@ from sympy.polys.rings import ring
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Lengths, Pair, Position
-from tests.support.inside import Decision, Surd, decide, exact, quartic, sign_with_root
+from tests.support.inside import Decision, decide, exact, quartic, sign_with_root
 from tests.support.inside import position as exact_position
 from tests.truth.tilted_cases import SYMMETRIC, TANGENT, TOUCHING_AND_CROSSING, WITNESSES, grown, random_rows
 
@@ -123,15 +123,6 @@ def test_lengths_and_axis_each_come_in_the_largest_unit_of_which_they_are_multip
     assert (found.alpha, found.y, found.axis) == (1, -8, (3, 5, -7))
     for lengths, axis in ((8.0, 1.0), (0.125, 4.0), (2.0**-1000, 2.0**900)):
         assert Lengths.of([*(each * lengths for each in row[:7]), *(each * axis for each in row[7:])]) == found
-
-
-def test_powers_of_a_number_with_a_root_are_its_products():
-    number = Surd(Fraction(1, 2), Fraction(-3, 4), Fraction(5))
-    assert number.power(0) == Surd(Fraction(1), Fraction(0), Fraction(5))
-    assert number.power(1) == number
-    assert number.power(3) == number * number * number
-    assert (number * number).u == Fraction(1, 4) + Fraction(9, 16) * 5
-    assert (number / number) == Surd(Fraction(1), Fraction(0), Fraction(5))
 
 
 @pytest.mark.parametrize("w", [1, 2, 9, 10**30 + 1])

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from fractions import Fraction
 
 import pytest
@@ -19,7 +18,6 @@ from hypcheck.vectors import frozen
 from hypcheck.vectors.tilted import listed
 from tests.support.examples import examples
 from tests.support.inside import (
-    Surd,
     by_roots,
     by_steps,
     exact,
@@ -203,24 +201,8 @@ def test_tilted_passage_refuses_an_axis_without_direction():
         hypcheck.passage((2, 3, 1, 0.5), (0, 0, 0), (1, 0, 0), (0, 1))
 
 
-@given(*[st.fractions(-4, 4, max_denominator=12)] * 4, st.sampled_from([2, 3, Fraction(5, 7)]))
-def test_sums_products_and_signs_of_surds_are_exact(u, v, s, t, w):
-    first, second = Surd(u, v, Fraction(w)), Surd(s, t, Fraction(w))
-    root = math.sqrt(w)
-    for found, value in (
-        (first + second, u + s + (v + t) * root),
-        (first - second, u - s + (v - t) * root),
-        (first * second, (u + v * root) * (s + t * root)),
-    ):
-        assert float(found.u + found.v * Fraction(root)) == pytest.approx(float(value), abs=1e-9)
-        if abs(value) > 1e-9:
-            assert found.sign == (1 if value > 0 else -1)
-    if second.sign:
-        assert (first / second * second - first).sign == 0
-
-
 def rationals(*numbers):
-    return [Surd(Fraction(each)) for each in numbers]
+    return [Fraction(each) for each in numbers]
 
 
 @pytest.mark.parametrize("roots", [(Fraction(1, 3), 2), (-2, Fraction(1, 3)), (Fraction(1, 3),) * 2, (Fraction(1, 3),)])

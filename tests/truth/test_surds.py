@@ -9,15 +9,16 @@ import sympy
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.support.inside import Surd, polynomial_product, sign_at, sign_at_root
+from hypcheck.geometry.arithmetic import exact_root
+from tests.support.inside import polynomial_product, sign_at, sign_at_root
 from tests.support.quadrics import isolate
 
 X = sympy.Symbol("x")
 SMALL = st.integers(-6, 6)
 
 
-def surds(numbers):
-    return [Surd(Fraction(number)) for number in numbers]
+def rationals(numbers):
+    return [Fraction(number) for number in numbers]
 
 
 def expected(f, g, low, high):
@@ -35,7 +36,7 @@ def expected(f, g, low, high):
 def test_sign_of_a_quadratic_at_the_one_root_of_another_is_that_at_sympys_root(f, g, low, width):
     right = expected(f, g, low, low + width)
     if right is not None:
-        assert sign_at_root(surds(f), surds(g), Fraction(low), Fraction(low + width)) == right
+        assert sign_at_root(rationals(f), rationals(g), Fraction(low), Fraction(low + width)) == right
 
 
 @given(st.integers(1, 9), st.integers(-9, 9), st.integers(1, 5))
@@ -43,11 +44,11 @@ def test_a_quadratic_that_vanishes_at_the_root_has_the_sign_0_there(square, shif
     """The root is shift + √square."""
     f = (1, -2 * shift, shift * shift - square)
     low = Fraction(shift)
-    assert sign_at_root(surds(f), surds([factor * number for number in f]), low, low + 4) == 0
+    assert sign_at_root(rationals(f), rationals([factor * number for number in f]), low, low + 4) == 0
     for other in (-1, 1):
         beside = [factor * number for number in f]
         beside[2] += other
-        assert sign_at_root(surds(f), surds(beside), low, low + 4) == other
+        assert sign_at_root(rationals(f), rationals(beside), low, low + 4) == other
 
 
 def test_the_sign_of_a_polynomial_at_its_own_root_is_0():
@@ -76,7 +77,7 @@ def test_two_roots_between_two_powers_of_two_are_enclosed_apart():
 
 @pytest.mark.parametrize(("w", "rational"), [(2, False), (16, True), (Fraction(9, 4), True), (Fraction(4, 3), False)])
 def test_a_root_squares_to_its_radicand_and_is_rational_where_that_is_a_square(w, rational):
-    root = Surd.root(Fraction(1), Fraction(w)) - 1
-    assert (root * root - w).sign == 0
-    assert root.sign == 1
-    assert (root.v == 0) == rational
+    root = exact_root(Fraction(w))
+    assert root * root == w
+    assert root > 0
+    assert isinstance(root, Fraction) == rational

@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 from hypothesis import given
 
-from hypcheck.derivation.evaluation import UNDEFINED, QuadraticSurd
+from hypcheck.derivation.evaluation import UNDEFINED
 from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS, answers
+from hypcheck.geometry.arithmetic import QuadraticSurd
 from hypcheck.geometry.pair import COLUMNS
 from hypcheck.implementations.builtin import builtin
 from hypcheck.runs.intermediates import SHOWN_FORMULAS, compare_formula

@@ -11,7 +11,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hypcheck.derivation.evaluation import UNDEFINED, QuadraticSurd
+from hypcheck.derivation.evaluation import UNDEFINED
+from hypcheck.geometry.arithmetic import QuadraticSurd
 from hypcheck.runs.intermediates import number_of, number_text, rational, relative_error
 
 FRACTIONS = st.fractions(min_value=-(10**6), max_value=10**6, max_denominator=10**6).filter(bool)
