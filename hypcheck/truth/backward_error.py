@@ -34,9 +34,11 @@ from hypcheck.geometry.pair import COLUMNS, TILTED_COLUMNS, Pair, Position
 from hypcheck.geometry.rows import Floats, Mask, Positions, Rows, upright_mask
 from hypcheck.truth import exact, float_boxes, float_filter
 from hypcheck.truth.box_proofs import Goal
-from hypcheck.truth.changes import BITS, CUTS, Flip, goal_of
+from hypcheck.truth.changes import BITS, CUTS, Flip, UprightFlip, goal_of
 from hypcheck.truth.ended_error import EndedFlip
 from hypcheck.truth.exact import Decision
+
+AnyFlip = Flip | EndedFlip
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,8 +59,8 @@ STEPS = 8
 """How often a bracket that first derivatives did not make narrow enough is halved."""
 
 
-def _flip(pair: Pair, truth: Decision, answer: Position) -> Flip | EndedFlip | float:
-    """The change that makes an answer right, as a Flip; or the backward error if it is known directly: 0 or inf.
+def _flip(pair: Pair, truth: Decision, answer: Position) -> AnyFlip | float:
+    """The change that makes an answer right; or the backward error if it is known directly: 0 or inf.
 
     The error is 0 for a right answer and for the limit of right answers (the truth is a tangency from that side). It is
     inf for the answer "exterior" about a centre on the hyperboloid's axis: no relative change up to 1 brings this
@@ -71,7 +73,9 @@ def _flip(pair: Pair, truth: Decision, answer: Position) -> Flip | EndedFlip | f
         return 0.0 if ended.free else ended
     goal = goal_of(truth.position, answer)
     on_axis = pair.x == pair.y == 0
-    return math.inf if on_axis and goal == Goal(Position.EXTERIOR, leave=False) else Flip.of(pair, goal)
+    if on_axis and goal == Goal(Position.EXTERIOR, leave=False):
+        return math.inf
+    return UprightFlip(pair, goal) if pair.is_upright else Flip(pair, goal)
 
 
 def tolerated(pair: Pair, truth: Decision, answers: Iterable[Position], change: Fraction) -> bool | None:
@@ -84,7 +88,7 @@ def tolerated(pair: Pair, truth: Decision, answers: Iterable[Position], change: 
     searched = [flip for flip in flips if not isinstance(flip, float)]
     if change >= 1:
         return bool(searched)
-    if _is_sharp(pair):
+    if all(flip.sharp for flip in searched):
         return any(flip.reached(change) for flip in searched)
     if all(flip.excluded(change, cuts=0) for flip in searched):  # most wrong answers have large errors
         return False
@@ -120,7 +124,7 @@ def quick_bracket(pair: Pair, truth: Decision, answer: Position) -> Bracket:
         return Bracket(flip, flip)
     if isinstance(flip, EndedFlip):
         return bracket(pair, truth, answer)
-    if pair.is_upright:
+    if flip.sharp:
         error = _bisected(flip)
         return Bracket(error, error)
     low = lower_ends([pair], [truth], [[answer]])[0] or lower_end(pair, truth, answer)
@@ -147,7 +151,7 @@ def lower_end(pair: Pair, truth: Decision, answer: Position) -> float:
     flip = _flip(pair, truth, answer)
     if isinstance(flip, float):
         return flip
-    if isinstance(flip, Flip) and pair.is_upright:
+    if flip.sharp:
         return _bisected(flip)
     return rounded_toward(_excluded_end(flip, flip.estimate())[0], -math.inf)
 
@@ -158,16 +162,18 @@ def lower_ends(pairs: Sequence[Pair], truths: Sequence[Decision], answers: Seque
     No bound is searched for an upright pair, for which `tolerated` takes little time, or if the hyperboloid ends. The
     bound is inf if no change up to 1 is enough.
     """
-    ends = [0.0 if _is_sharp(pair) or pair.has_ends else math.inf for pair in pairs]
+    ends = [math.inf] * len(pairs)
     owners, goals = [], []
     for place, (pair, truth, some) in enumerate(zip(pairs, truths, answers, strict=True)):
-        for answer in () if _is_sharp(pair) or pair.has_ends else some:
-            flip = _flip(pair, truth, answer)
-            if isinstance(flip, float):
-                ends[place] = min(ends[place], flip)
-            elif isinstance(flip, Flip):
+        if pair.is_upright or pair.has_ends:
+            ends[place] = 0.0
+            continue
+        for flip in (_flip(pair, truth, answer) for answer in some):
+            if isinstance(flip, Flip):
                 owners.append(place)
                 goals.append(flip.goal)
+            elif isinstance(flip, float):
+                ends[place] = min(ends[place], flip)
     for place, end in zip(owners, float_boxes.lower_ends(_tens([pairs[k] for k in owners]), goals), strict=True):
         ends[place] = min(ends[place], float(end))
     return ends
@@ -186,7 +192,7 @@ def estimate(pair: Pair, truth: Decision, answer: Position) -> float:
     flip = _flip(pair, truth, answer)
     if isinstance(flip, float):
         return flip
-    return _bisected(flip) if isinstance(flip, Flip) and pair.is_upright else float(flip.estimate())
+    return _bisected(flip) if flip.sharp else float(flip.estimate())
 
 
 def exponent(pair: Pair, truth: Decision, answer: Position) -> float:
@@ -195,7 +201,7 @@ def exponent(pair: Pair, truth: Decision, answer: Position) -> float:
     −inf for 0, inf for inf.
     """
     flip = _flip(pair, truth, answer)
-    if isinstance(flip, Flip) and pair.is_upright:
+    if not isinstance(flip, float) and flip.sharp:
         return octave(flip.reached)
     error = flip if isinstance(flip, float) else float(flip.estimate())
     return math.log2(error) if error else -math.inf
@@ -230,8 +236,8 @@ def is_bracket(
     return below and (high == 1 or flip.reached(Fraction(high)))
 
 
-def _bisected(flip: Flip) -> float:
-    """The error of a flip that decides every change, rounded up to DIGITS significant digits."""
+def _bisected(flip: AnyFlip) -> float:
+    """The error of a sharp flip, rounded up to DIGITS significant digits."""
     low = power_of_two(octave(flip.reached))  # the distance is not 0
     high = 2 * low
     for _ in range(math.ceil(DIGITS * math.log2(10))):
@@ -240,12 +246,7 @@ def _bisected(flip: Flip) -> float:
     return float(high) or math.ulp(0.0)  # a distance below the least float64 is still not 0
 
 
-def _is_sharp(pair: Pair) -> bool:
-    """Whether one exact decision shows for every change whether it is enough."""
-    return pair.is_upright and not pair.has_ends
-
-
-def _reached_end(flip: Flip | EndedFlip) -> Fraction:
+def _reached_end(flip: AnyFlip) -> Fraction:
     """A change that reaches the goal, at most 9/8 times a change that was not found to reach it."""
     missed = rounded(flip.estimate(), BITS)
     high, step = rounded(missed * Fraction(11, 10), BITS), 2
@@ -258,7 +259,7 @@ def _reached_end(flip: Flip | EndedFlip) -> Fraction:
     return high
 
 
-def _excluded_end(flip: Flip | EndedFlip, high: Fraction) -> tuple[Fraction, Fraction]:
+def _excluded_end(flip: AnyFlip, high: Fraction) -> tuple[Fraction, Fraction]:
     """A change below `high` that one certificate excludes (0 if none is found), and `high`."""
     low, step = rounded(high * Fraction(4, 5), BITS), 2
     while not flip.excluded(low, cuts=0):
@@ -271,9 +272,7 @@ def _excluded_end(flip: Flip | EndedFlip, high: Fraction) -> tuple[Fraction, Fra
 _LARGEST_STEP = 2**128
 
 
-def _narrowed(
-    flip: Flip | EndedFlip, cuts: int, steps: int, ends: tuple[Fraction, Fraction]
-) -> tuple[Fraction, Fraction]:
+def _narrowed(flip: AnyFlip, cuts: int, steps: int, ends: tuple[Fraction, Fraction]) -> tuple[Fraction, Fraction]:
     """The two ends, narrowed by at most `steps` bisections."""
     low, high = ends
     doubtful = high

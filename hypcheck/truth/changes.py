@@ -21,7 +21,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 from hypcheck.geometry.arithmetic import fraction, rounded
 from hypcheck.geometry.pair import COLUMNS, SIZES, Lengths, Pair, Position
@@ -67,16 +67,14 @@ def corner(lengths: Lengths, change: Fraction, toward: Position) -> Lengths:
 
 @dataclass(frozen=True, slots=True)
 class Flip:
-    """A pair, and the goal of its change."""
+    """A pair, and the goal of its change.
+
+    `sharp` flips decide every change: what is not reached is excluded.
+    """
 
     pair: Pair
-    lengths: Lengths
     goal: Goal
-
-    @classmethod
-    def of(cls, pair: Pair, goal: Goal) -> Flip:
-        """The flip of a pair."""
-        return cls(pair, _lengths(pair), goal)
+    sharp: ClassVar[bool] = False
 
     @property
     def row(self) -> Row:
@@ -85,17 +83,10 @@ class Flip:
 
     def reached(self, change: Fraction) -> bool:
         """Whether a corner of the box of changes up to `change` (< 1) is found that attains the goal."""
-        if self.pair.is_upright:
-            # "Equals contact" is not monotone (a corner can pass right through), "is no longer the truth" is. From
-            # exterior the corner opposite to the exterior one has α, b, d and z grown, γ, x and y shrunk.
-            best = corner(self.lengths, -change if self.goal.leave else change, self.goal.side)
-            return (exact.position(best) is self.goal.side) is not self.goal.leave
         return self._attained(change, self._signs(change))
 
     def excluded(self, change: Fraction, cuts: int = CUTS) -> bool:
         """Whether certificates are found that no change up to `change` (< 1) attains the goal."""
-        if self.pair.is_upright:
-            return not self.reached(change)
         from hypcheck.truth.box_certificate import certified  # noqa: PLC0415 - loads mpmath
 
         box = [(number - abs(number) * change, number + abs(number) * change) for number in self.row[len(SIZES) :]]
@@ -135,7 +126,10 @@ class Flip:
         """Whether a corner of these signs of centre and axis attains the goal, by exact decisions."""
         sizes, rest = self._sizes(change), self.row[len(SIZES) :]
         corners = (Lengths.of((*sizes, *_moved(rest, signs, change))) for signs in patterns)
-        return any((exact.position(lengths) is self.goal.side) is not self.goal.leave for lengths in corners)
+        return any(self._is_attained_at(lengths) for lengths in corners)
+
+    def _is_attained_at(self, lengths: Lengths) -> bool:
+        return (exact.position(lengths) is self.goal.side) is not self.goal.leave
 
     def _signs(self, change: Fraction) -> Iterator[Signs]:
         """Signs of changes of centre and axis: first the signs of derivatives, then all others."""
@@ -153,6 +147,24 @@ class Flip:
             state = self._state(self._sizes(change), _moved(self.row[len(SIZES) :], signs, change))
             signs = tuple(self.goal.sign * (1 if slope > 0 else -1) for slope in state.derivatives())
             yield signs
+
+
+class UprightFlip(Flip):
+    """The flip of an upright pair: one exact decision about one corner decides a change."""
+
+    __slots__ = ()
+    sharp: ClassVar[bool] = True
+
+    def reached(self, change: Fraction) -> bool:
+        """Whether the best corner of the box of changes up to `change` (< 1) attains the goal."""
+        # "Equals contact" is not monotone (a corner can pass right through), "is no longer the truth" is. From exterior
+        # the corner opposite to the exterior one has α, b, d and z grown, γ, x and y shrunk.
+        best = corner(_lengths(self.pair), -change if self.goal.leave else change, self.goal.side)
+        return self._is_attained_at(best)
+
+    def excluded(self, change: Fraction, cuts: int = CUTS) -> bool:  # noqa: ARG002 - as Flip has it
+        """Whether no change up to `change` (< 1) attains the goal."""
+        return not self.reached(change)
 
 
 @lru_cache(64)

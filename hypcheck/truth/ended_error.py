@@ -31,6 +31,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
+from typing import ClassVar
 
 from hypcheck.geometry.arithmetic import exponent_of, last, power_of_two, root_of, rounded
 from hypcheck.geometry.pair import Lengths, Pair, Position
@@ -49,6 +50,7 @@ class EndedFlip:
     pair: Pair
     truth: Position
     answer: Position
+    sharp: ClassVar[bool] = False
 
     @property
     def free(self) -> bool:
