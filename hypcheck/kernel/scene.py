@@ -2,7 +2,7 @@
 
 The answer about a whole scene: contact with any hyperboloid is contact; else inside any is interior; else exterior.
 If the mover itself is in contact, its parts are tested: if all parts have the same position, that is the answer.
-scene_pairs.py, scene_ends.py and scene_sweeps.py give the answer of each hyperboloid.
+scene_pairs.py and scene_sweeps.py give the answer of each hyperboloid.
 """
 
 from __future__ import annotations
@@ -21,11 +21,10 @@ from hypcheck.float_environment import in_default_environment
 from hypcheck.geometry.forms import Answers, points_or_columns
 from hypcheck.geometry.pair import AXIS, CENTER, trouble_with_axis
 from hypcheck.geometry.rows import Floats, Indices, Positions, as_numbers
-from hypcheck.kernel import scene_nearest, scene_pairs, scene_queries
+from hypcheck.kernel import scene_nearest, scene_queries
 from hypcheck.kernel.choice import POSITION_OF, answers_to
 from hypcheck.kernel.clearance import checked_margin
 from hypcheck.kernel.passages import First, Passages
-from hypcheck.kernel.scene_ends import position_with_ends, positions_with_ends
 from hypcheck.kernel.scene_flights import (
     FirstContact,
     Paths,
@@ -39,6 +38,7 @@ from hypcheck.kernel.scene_flights import (
 from hypcheck.kernel.scene_index import near_sweeps
 from hypcheck.kernel.scene_least import Flights, Least, least_distances
 from hypcheck.kernel.scene_nearest import Nearest
+from hypcheck.kernel.scene_pairs import position_beside, position_of, position_with_ends, positions
 from hypcheck.kernel.scene_prepared import PreparedScene
 from hypcheck.kernel.scene_sweeps import (
     Spheroid,
@@ -94,10 +94,10 @@ class Scene(PreparedScene):
         numbers that are not finite, and for an axis if the scene fixes it.
         """
         center = points_or_columns(x, y, z)
-        positions = self._positions(center, heading, axis)
+        found = self._positions(center, heading, axis)
         if margin:
-            positions = self._kept_apart(positions, center, heading, axis, margin)
-        answers = answers_to(self.model.question, positions)
+            found = self._kept_apart(found, center, heading, axis, margin)
+        answers = answers_to(self.model.question, found)
         return int(answers[0]) if scene_queries.are_one(center, heading, axis) else answers
 
     def _positions(self, center: Sequence[ArrayLike], heading: ArrayLike, axis: ArrayLike | None) -> Positions:
@@ -152,12 +152,12 @@ class Scene(PreparedScene):
             return self._tilted_position((x, y, z), heading, axis)
         mover, answer = self.model.mover, EXTERIOR
         for index in self._near(x, y, z):
-            body, low, high, inner_low, inner_high = self._body(index)
+            body, (low, high, inner_low, inner_high) = self._numbers(index)
             if z < low or z > high:  # beyond an end
                 continue
-            reply = scene_pairs.position_beside(body, mover.b, mover.d, x, y, z)
+            reply = position_beside(body.shape, body.origin, mover.b, mover.d, x, y, z)
             if reply != EXTERIOR and not inner_low <= z <= inner_high:
-                reply = self._with_ends(reply, index, (mover.b, mover.d), (x, y, z), UPRIGHT)
+                reply = position_with_ends(reply, body, (mover.b, mover.d), (x, y, z), UPRIGHT)
             if reply == CONTACT and mover.parts:
                 reply = self._of_parts(index, (x, y, z), heading, UPRIGHT)
             if reply == CONTACT:
@@ -263,7 +263,7 @@ class Scene(PreparedScene):
         own = hits_beside(bodies, body, sizes, starts[query], ends[query], None if movers is None else movers[query])
         swept = Swept(starts, ends, headings, movers, query, body, own, own.copy())
         for pair in np.flatnonzero(own).tolist() if mover.parts else ():
-            swept.hits[pair] = not is_clear(bodies, int(body[pair]), *self._sweeps(swept, int(query[pair])))
+            swept.hits[pair] = not is_clear(bodies.one(int(body[pair])), *self._sweeps(swept, int(query[pair])))
         return swept
 
     def _hit_at_once(self, start: object, end: object, heading: object) -> bool | None:
@@ -274,7 +274,7 @@ class Scene(PreparedScene):
         if not self._grid_holds(here[2], there[2]):
             return None
         mover = self.model.mover
-        hit = hit_at_once(self._grid, self._near_motion, mover, here, there)
+        hit = hit_at_once(self._grid, self._reaches, self._numbers, mover, here, there)
         return None if hit and mover.parts else hit
 
     def _first_on(self, start: ArrayLike, end: ArrayLike, heading: ArrayLike, sweep: int) -> First:
@@ -296,7 +296,7 @@ class Scene(PreparedScene):
             firsts: list[First] = []
             for time, index in sorted(zip(earliest, touched, strict=True)):
                 if not firsts or time <= min(firsts)[0][1]:  # what comes later is not the first
-                    firsts.append((first_contact(self._bodies, index, *sweeps), index))
+                    firsts.append((first_contact(self._numbers(index)[0], *sweeps), index))
             return min(firsts)
 
         return measure
@@ -349,30 +349,8 @@ class Scene(PreparedScene):
     def _tilted_reply(self, index: int, centre: Point, heading: float, axis: list[float]) -> int:
         """The position of one centre beside one hyperboloid."""
         mover = self.model.mover
-        reply = self._of_one(index, (mover.b, mover.d), centre, axis)
+        reply = position_of(self._numbers(index)[0], (mover.b, mover.d), centre, axis)
         return self._of_parts(index, centre, heading, axis) if reply == CONTACT and mover.parts else reply
-
-    def _of_one(
-        self, index: int, semi_axes: tuple[float, float], centre: Sequence[float], axis: Sequence[float]
-    ) -> int:
-        """The position of one spheroid with these semi-axes beside a hyperboloid."""
-        body = self.model.hyperboloids[index]
-        whole = scene_pairs.tilted_position((body.alpha, body.gamma, *semi_axes), centre, body.center, axis, body.axis)
-        return whole if body.height is None else self._with_ends(whole, index, semi_axes, centre, axis)
-
-    def _with_ends(
-        self,
-        whole: int,
-        index: int,
-        semi_axes: tuple[float, float],
-        centre: Sequence[float],
-        axis: Sequence[float],
-    ) -> int:
-        """The position beside a hyperboloid that ends, from that beside the infinite one."""
-        bodies, body = self._bodies, self.model.hyperboloids[index]
-        upward, span = bodies.axes[index].tolist(), bodies.spans[index].tolist()
-        sizes = (body.alpha, body.gamma, *semi_axes)
-        return position_with_ends(whole, sizes, centre, body.center, axis, upward, span, solid=body.solid)
 
     def _answer(self, position: int) -> int:
         question = self.model.question
@@ -402,20 +380,8 @@ class Scene(PreparedScene):
     ) -> Positions:
         """The position of each centre beside its hyperboloid; `movers` are the mover's axes if something is tilted."""
         bodies, mover = self._bodies, self.model.mover
-        level, (low, high, inner_low, inner_high) = centres[query, 2], self._limits[body].T
-        beyond, between = (level < low) | (level > high), (level >= inner_low) & (level <= inner_high)
-        sizes = np.concatenate([bodies.shapes[body], np.broadcast_to((mover.b, mover.d), (len(body), 2))], axis=1)
-        pairs = centres[query], bodies.origins[body]
-        if movers is None:
-            result = scene_pairs.positions_beside(sizes, *pairs)
-        else:
-            result = scene_pairs.tilted_positions(sizes, *pairs, movers[query], bodies.axes[body])
-        result[beyond] = EXTERIOR
-        some = np.flatnonzero(~between & (result != EXTERIOR))
-        if len(some):
-            axes = np.broadcast_to(UPRIGHT, (len(some), 3)) if movers is None else movers[query[some]]
-            places = pairs[0][some], pairs[1][some], axes
-            result[some] = positions_with_ends(result[some], sizes[some], *places, bodies, body[some])
+        axes = None if movers is None else movers[query]
+        result = positions(bodies, body, (mover.b, mover.d), centres[query], axes, self._limits)
         for pair in np.flatnonzero(result == CONTACT).tolist() if mover.parts else ():
             owner = query[pair]
             axis = UPRIGHT if movers is None else movers[owner].tolist()
@@ -427,7 +393,7 @@ class Scene(PreparedScene):
         common = CONTACT
         for number, place in enumerate(scene_queries.places_of_parts(self.model.mover.parts, centre, heading, mover)):
             part = self.model.mover.parts[number]
-            reply = self._of_one(index, (part.b, part.d), place, mover)
+            reply = position_of(self._numbers(index)[0], (part.b, part.d), place, mover)
             if reply == CONTACT or (number and reply != common):
                 return CONTACT
             common = reply

@@ -29,13 +29,14 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 from math import ceil, floor, inf
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.derivation.float_arithmetic import two_sum
 from hypcheck.geometry.rows import Floats, Indices, Mask, Rows
-from hypcheck.scene.model import UPRIGHT, Hyperboloid, Mover, Span, is_tilted
+from hypcheck.scene.model import UPRIGHT, Hyperboloid, Mover, Point, Span, is_tilted
 
 
 @dataclass(frozen=True)
@@ -59,6 +60,22 @@ class Bodies:
     def tilted(self) -> Mask:
         """A mask of the tilted hyperboloids, (m,)."""
         return np.asarray((self.axes[:, :2] != 0).any(axis=1))
+
+    def one(self, index: int) -> BodyNumbers:
+        """The numbers of one hyperboloid."""
+        columns = (self.shapes, self.origins, self.axes, self.spans)
+        shape, origin, axis, span = (tuple(column[index].tolist()) for column in columns)
+        return BodyNumbers(shape, origin, axis, span, bool(self.solid[index]))
+
+
+class BodyNumbers(NamedTuple):
+    """The numbers of one hyperboloid, as Bodies has them in columns; `shape` are α and γ."""
+
+    shape: tuple[float, float]
+    origin: Point
+    axis: Point
+    span: tuple[float, float]
+    solid: bool
 
 
 def bodies_of(hyperboloids: Sequence[Hyperboloid]) -> Bodies:

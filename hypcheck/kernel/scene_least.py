@@ -27,8 +27,7 @@ from hypcheck.geometry.rows import Floats, Indices, Mask, Rows
 from hypcheck.kernel.clearance import enlarged
 from hypcheck.kernel.scene_gaps import from_spheroids
 from hypcheck.kernel.scene_index import OUTWARD, PAD, Bodies, PlaneGrid, reaches
-from hypcheck.kernel.scene_nearest import distances
-from hypcheck.kernel.scene_pairs import along_and_across
+from hypcheck.kernel.scene_nearest import cylinder_bounds, distances
 from hypcheck.kernel.scene_sweeps import bounded_hits, hits_beside
 from hypcheck.scene.model import Mover, Span
 
@@ -351,27 +350,5 @@ def _longer_reach(search: _Search, within: float, height: Span) -> float:
 
 
 def _cylinder_bounds(search: _Search, body: Indices, place: _Places, most: Floats) -> Floats:
-    """A lower bound of the distance of each place (n,), by a cylinder around the hyperboloid between its ends.
-
-    Where it is above `most` (n,) and twice the piece's radius the distance may be less than it, but not than these.
-    """
-    bodies, centre = search.bodies, place.centre
-    longest = max(search.mover.b, search.mover.d)
-    origins, shapes, tall = bodies.origins[body], bodies.shapes[body], bodies.tall[body]
-    with np.errstate(all="ignore"):
-        offset = centre - origins
-        along, across, error = offset[:, 2], np.hypot(offset[:, 0], offset[:, 1]), np.zeros(len(body))
-        tilted = np.flatnonzero(bodies.tilted[body])
-        if len(tilted):
-            along[tilted], across[tilted], error[tilted] = along_and_across(
-                centre[tilted], origins[tilted], bodies.axes[body[tilted]]
-            )
-        low, high = bodies.spans[body].T
-        beyond = np.maximum(np.maximum(along - high, low - along), 0)
-        level = np.minimum(tall, np.abs(along) + longest + most + 2 * place.radius)
-        wide = shapes[:, 0] * np.sqrt(1 + (level / shapes[:, 1]) ** 2) * OUTWARD
-        beside = np.maximum(across - wide, 0)
-        size = np.abs(centre).sum(axis=1) + np.abs(origins).sum(axis=1)
-        lost = (error + _ROUNDED * size) * (2 + shapes[:, 0] / shapes[:, 1]) + _ROUNDED * wide
-        least = np.hypot(beside, beyond) * (1 - 2.0**-40) - longest - lost
-        return np.asarray(np.where(np.isfinite(least), np.maximum(least, 0), 0))
+    """A lower bound of the distance of each place (n,), or of `most` (n,) and twice the piece's radius."""
+    return cylinder_bounds(search.bodies, body, search.mover, place.centre.T, most + 2 * place.radius)

@@ -22,6 +22,7 @@ Pairs are left out by a cylinder around the hyperboloid: the mover is no nearer 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
 
 import numpy as np
@@ -30,10 +31,9 @@ from hypcheck.geometry.pair import COLUMNS, TILTED_COLUMNS, UPRIGHT, Position
 from hypcheck.geometry.rows import PAIRS, Floats, Indices, Mask, Rows
 from hypcheck.kernel.clearance_bounds import clearances_without_ends
 from hypcheck.kernel.clearance_points import normals
-from hypcheck.kernel.scene_ends import positions_with_ends
 from hypcheck.kernel.scene_gaps import at_height, gaps
 from hypcheck.kernel.scene_index import OUTWARD, Bodies
-from hypcheck.kernel.scene_pairs import along_and_across, tilted_positions
+from hypcheck.kernel.scene_pairs import along_and_across, positions
 from hypcheck.kernel.scene_queries import frames_of, turned, turned_axes
 from hypcheck.scene.model import Mover
 
@@ -107,7 +107,7 @@ Movers = tuple[Floats, Floats | None]
 
 
 def _fill(result: Nearest, bodies: Bodies, mover: Mover, movers: Movers, places: Indices) -> None:
-    least = cylinders(bodies, mover, movers[0][places])
+    least = cylinder_bounds(bodies, slice(None), mover, [column[:, None] for column in movers[0][places].T])
     first = np.argmin(least, axis=1)
     _ask(result, bodies, mover, movers, places, first)
     query, body = np.nonzero(least <= result.distance_upper[places, None])
@@ -164,23 +164,35 @@ def _distances(pairs: _Pairs, group: Indices, most: Floats) -> tuple[Floats, Flo
     return low, high, point
 
 
-def cylinders(bodies: Bodies, mover: Mover, centres: Floats) -> Floats:
-    """A lower bound of each distance, (n, m), by a cylinder around the hyperboloid between its ends."""
+def cylinder_bounds(
+    bodies: Bodies, body: Indices | slice, mover: Mover, centre: Floats | Sequence[Floats], most: Floats | None = None
+) -> Floats:
+    """A lower bound of each distance, by a cylinder around the hyperboloid between its ends.
+
+    `centre` are the mover's x, y, z in the scene: columns for the hyperboloids `body` (m,) of these, or (n, 1) for all
+    pairs (n, m) of a place and one of them. With `most`, lengths for the pairs, the cylinder is no wider than the
+    hyperboloid within them of the mover: where a bound is above one of these, the distance is above it too, but may be
+    less than the bound. The height has an error, which counts α/γ times in the width there.
+    """
+    origins, (alpha, gamma), longest = bodies.origins[body], bodies.shapes[body].T, max(mover.b, mover.d)
     with np.errstate(all="ignore"):
-        across = np.hypot(*(centres[:, k, None] - bodies.origins[:, k] for k in (0, 1)))
-        low, high = bodies.heights.T
-        beyond = np.maximum(np.maximum(centres[:, 2, None] - high, low - centres[:, 2, None]), 0)
-        for body in np.flatnonzero(bodies.tilted):
-            along, across[:, body], error = along_and_across(
-                centres, bodies.origins[body, None], np.broadcast_to(bodies.axes[body], centres.shape)
+        x, y, along = (part - here for part, here in zip(centre, origins.T, strict=True))
+        across, error = np.hypot(x, y), np.zeros(along.shape)
+        tilted = np.flatnonzero(bodies.tilted[body])
+        if len(tilted):
+            places = [np.broadcast_to(part, along.shape)[..., tilted] for part in centre]
+            along[..., tilted], across[..., tilted], error[..., tilted] = along_and_across(
+                places, origins[tilted].T, bodies.axes[body][tilted].T
             )
-            bottom, top = bodies.spans[body]
-            beyond[:, body] = np.maximum(np.maximum(along - top, bottom - along) - error, 0)
-            across[:, body] -= error
-        wide = bodies.shapes[:, 0] * np.sqrt(1 + (bodies.tall / bodies.shapes[:, 1]) ** 2) * OUTWARD
-        beside = np.maximum(across - wide * OUTWARD, 0)
-        lost = _LEAST + _ROUNDED * (across + wide + np.where(beyond > 0, np.abs(centres[:, 2, None]) + beyond, 0))
-        least = np.hypot(beside, beyond) * (1 - 2.0**-40) - max(mover.b, mover.d) - lost
+        low, high = bodies.spans[body].T
+        beyond = np.maximum(np.maximum(along - high, low - along), 0)
+        level, steep = bodies.tall[body], 0.0
+        if most is not None:
+            level, steep = np.minimum(level, np.abs(along) + longest + most), alpha / gamma
+        wide = alpha * np.sqrt(1 + (level / gamma) ** 2) * OUTWARD
+        size = sum(map(np.abs, centre)) + np.abs(origins).sum(axis=1)
+        lost = _LEAST + (error + _ROUNDED * size) * (2 + steep) + _ROUNDED * wide
+        least = np.hypot(np.maximum(across - wide, 0), beyond) * (1 - 2.0**-40) - longest - lost
         return np.asarray(np.where(np.isfinite(least), np.maximum(least, 0), 0))
 
 
@@ -283,10 +295,8 @@ def _decide_contact(pairs: _Pairs, low: Floats, high: Floats) -> None:
     """Decide contact exactly for pairs that bounds leave undecided: the upper bound is 0 only in contact."""
     some = np.flatnonzero((low == 0) | pairs.beyond)
     bodies, body, mover = pairs.bodies, pairs.body[some], pairs.mover
-    sizes = np.concatenate([bodies.shapes[body], np.tile((mover.b, mover.d), (len(some), 1))], axis=1)
-    places = sizes, pairs.centres[some], bodies.origins[body], pairs.axes[some]
-    position = positions_with_ends(tilted_positions(*places, bodies.axes[body]), *places, bodies, body)
-    high[some[position == Position.CONTACT]] = 0.0
+    found = positions(bodies, body, (mover.b, mover.d), pairs.centres[some], pairs.axes[some])
+    high[some[found == Position.CONTACT]] = 0.0
 
 
 def _reached(mover: Mover, axes: Floats | None, offset: Rows) -> Floats:

@@ -1,4 +1,4 @@
-"""One mover beside one hyperboloid, both in the scene's coordinates: exact positions.
+"""One mover beside one hyperboloid, both in the scene's coordinates: exact positions, also where the hyperboloid ends.
 
 A centre seen from another is x − x₀, which is usually not a float64. Its rounding error is one, and is known (TwoSum):
 where it is 0 the difference is exact and the fast path answers.
@@ -9,30 +9,50 @@ smaller in contact is contact; what is left is decided in integers from the exac
 for arrays, `position_beside` for one step of a walk.
 
 **The hyperboloid is tilted**, along w, and nothing is rotated: squares and products of its axis, the spheroid's and the
-centre's difference are rational, and the position is decided from them (tilted_integers.squares_between_axes). Most
-movers are nowhere near: with h and ϱ, the centre's height along w and its distance from the axis, the spheroid lies in
-the ball of radius r = max(b, d) and is exterior where ϱ − r > ρ(|h| + r), interior where ϱ + r < ρ(|h| − r), with ρ the
-surface's radius. In floats h and ϱ are formed from w/|w| and the centres with six roundings to a term, all on sums of
-at most six terms: 64 u Σ|C| bounds what they are wrong by; ρ takes five roundings on positive terms.
+centre's difference are rational, and the position is decided from them (integers.squares_between_axes). Most movers are
+nowhere near: with h and ϱ, the centre's height along w and its distance from the axis, the spheroid lies in the ball of
+radius r = max(b, d) and is exterior where ϱ − r > ρ(|h| + r), interior where ϱ + r < ρ(|h| − r), with ρ the surface's
+radius. In floats h and ϱ are formed from w/|w| and the centres with six roundings to a term, all on sums of at most six
+terms: 64 u Σ|C| bounds what they are wrong by; ρ takes five roundings on positive terms.
+
+**The hyperboloid ends.** The mover reaches no farther along the hyperboloid's axis than r, or its own d where both are
+upright. Where it lies between the ends its position is that beside the whole hyperboloid, and beyond an end it is
+exterior. `limits_of` has the heights of a centre, in the scene, at which that is so. Of a mover that reaches over an
+end, in the hyperboloid's frame:
+
+- exterior beside the whole hyperboloid is exterior;
+- interior is interior, or exterior beyond the end, if the hyperboloid is open;
+- contact is contact if the mover reaches to both sides of the wall at its own height, or at the end if it is beyond: at
+  its own height it reaches b across the axis, or its shorter semi-axis at least, and e above or below, where both are
+  upright, b √(1 − e²/d²).
+
+If these do not decide and the hyperboloid is vertical, the kernel answers about a slightly larger and a slightly
+smaller spheroid; truth/exact.py decides the rest. h and ϱ have a bound of their error; ρ is wrong by α/γ of the error
+of the height and MARGIN of itself.
+
+Each of these bounds is written once: for the numbers of one pair, and for columns (n,) of many.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from fractions import Fraction
-from math import inf, sqrt
+from math import inf, nan
+from typing import Any, TypeAlias
 
 import numpy as np
 
 from hypcheck.derivation.float_arithmetic import two_sum
-from hypcheck.geometry.pair import UPRIGHT, Position
-from hypcheck.geometry.rows import Floats, Indices, Mask, Positions, Rows
+from hypcheck.geometry.pair import UPRIGHT, WITHOUT_ENDS, Lengths, Position
+from hypcheck.geometry.rows import CANNOT_SAY, Floats, Indices, Mask, Positions, Rows
 from hypcheck.kernel.classify import classify
+from hypcheck.kernel.in_use import kernel
 from hypcheck.kernel.integers import position_of_squares, squares_between_axes
 from hypcheck.kernel.scalar import position
-
-Body = tuple[float, float, float, float, float]
-"""α, γ, and the centre x, y, z, of a hyperboloid."""
+from hypcheck.kernel.scene_index import Bodies, BodyNumbers
+from hypcheck.scene.model import Mover, is_tilted
+from hypcheck.truth import exact
 
 ERROR = 64 * 2.0**-53
 """Of h and ϱ, in units of the sum of all coordinates."""
@@ -91,10 +111,17 @@ def larger_and_smaller(semi_axes: Rows, lost: Floats) -> tuple[Floats, Floats, M
 
 
 def position_beside(
-    body: Body, b: float, d: float, x: float, y: float, z: float, axis: Sequence[float] | None = None
+    shape: tuple[float, float],
+    origin: Sequence[float],
+    b: float,
+    d: float,
+    x: float,
+    y: float,
+    z: float,
+    axis: Sequence[float] | None = None,
 ) -> int:
     """The exact position of a spheroid at (x, y, z): as positions_beside has it, of one pair."""
-    alpha, gamma, there_x, there_y, there_z = body
+    (alpha, gamma), (there_x, there_y, there_z) = shape, origin
     across, along, up = x - there_x, y - there_y, z - there_z
     # TwoSum: what the differences have lost together; 0 where they are exact, NaN where that is not known.
     back_x, back_y, back_z = across + there_x, along + there_y, up + there_z
@@ -115,8 +142,45 @@ def position_beside(
             inner = position(alpha, gamma, b * (1 - stretch), d * (1 - stretch), across, along, up, axis=axis)
             if inner == outer:
                 return outer
-    origin = (there_x, there_y, there_z)
     return _from_exact_difference((alpha, gamma, b, d), (x, y, z), origin, axis or UPRIGHT, UPRIGHT)
+
+
+Parts: TypeAlias = Any
+"""The numbers of sizes, of a point or of an axis: of one pair, or columns (n,) of many, as an array (3, n) has them."""
+
+
+def _where(condition: Any, value: Any, otherwise: Any) -> Any:  # noqa: ANN401 - a number, or a column
+    """One value where the condition holds, else the other one."""
+    if isinstance(condition, np.ndarray):
+        return np.where(condition, value, otherwise)
+    return value if condition else otherwise
+
+
+def along_and_across(centre: Parts, origin: Parts, axis: Parts) -> tuple[Any, Any, Any]:
+    """A centre's height along an axis and its distance from it, and a bound of the error of both; nan: not known."""
+    largest, size = sum(map(abs, axis)), sum(map(abs, (*centre, *origin)))
+    u, v, w = (part / largest for part in axis)
+    length = (u * u + v * v + w * w) ** 0.5
+    u, v, w = u / length, v / length, w / length
+    x, y, z = (there - here for there, here in zip(centre, origin, strict=True))
+    p, q, r = v * z - w * y, w * x - u * z, u * y - v * x
+    ordinary = (largest > LEAST) & (largest < GREATEST) & (size < GREATEST)
+    return u * x + v * y + w * z, (p * p + q * q + r * r) ** 0.5, _where(ordinary, ERROR * size + LEAST, nan)
+
+
+def _by_ball(sizes: Parts, centre: Parts, origin: Parts, axis: Parts) -> tuple[Any, Any]:
+    """Whether the spheroid's ball is surely exterior, and interior: of numbers, or of columns (n,)."""
+    alpha, gamma, b, d = sizes
+    height, distance, error = along_and_across(centre, origin, axis)
+    longest = _where(b > d, b, d) * (1 + MARGIN) + error
+    above, below = (abs(height) + longest) / gamma, (abs(height) - longest) / gamma
+    below = _where(below > 0, below, 0.0)
+    outside = distance - longest > alpha * (1 + above * above) ** 0.5 * (1 + MARGIN)
+    inside = distance + longest < alpha * (1 + below * below) ** 0.5 * (1 - MARGIN)
+    for size in sizes:
+        ordinary = (size > LEAST) & (size < GREATEST)
+        outside, inside = outside & ordinary, inside & ordinary
+    return outside, inside
 
 
 def tilted_positions(sizes: Rows, centres: Rows, origins: Rows, movers: Rows, axes: Rows) -> Positions:
@@ -124,7 +188,10 @@ def tilted_positions(sizes: Rows, centres: Rows, origins: Rows, movers: Rows, ax
     tilted = (axes[:, :2] != 0).any(axis=1)
     result = np.empty(len(sizes), np.int8)
     result[~tilted] = positions_beside(*(column[~tilted] for column in (sizes, centres, origins, movers)))
-    result[tilted] = _beside_tilted(*(column[tilted] for column in (sizes, centres, origins, movers, axes)))
+    with np.errstate(all="ignore"):
+        outside, inside = _by_ball(*(column[tilted].T for column in (sizes, centres, origins, axes)))
+    result[tilted] = np.where(outside, Position.EXTERIOR, Position.INTERIOR)
+    _exactly(np.flatnonzero(tilted)[~(outside | inside)], result, sizes, centres, origins, movers, axes)
     return result
 
 
@@ -137,42 +204,13 @@ def tilted_position(
 ) -> int:
     """As tilted_positions, for one pair."""
     if axis[0] == axis[1] == 0:
-        (alpha, gamma, b, d), (x, y, z), (u, v, w) = sizes, centre, origin
-        return position_beside((alpha, gamma, u, v, w), b, d, x, y, z, mover)
-    position = _by_ball(sizes, centre, origin, axis)
-    return _from_exact_difference(sizes, centre, origin, mover, axis) if position is None else int(position)
-
-
-def _by_ball(
-    sizes: Sequence[float], centre: Sequence[float], origin: Sequence[float], axis: Sequence[float]
-) -> Position | None:
-    """The position beside a tilted hyperboloid, where the spheroid's ball has one; as _beside_tilted."""
-    alpha, gamma, b, d = sizes
-    height, distance, error = height_and_distance(centre, origin, axis)
-    if not (LEAST < min(sizes) and max(sizes) < GREATEST and error < GREATEST):
-        return None
-    longest = max(b, d) * (1 + MARGIN) + error
-    above, below = (abs(height) + longest) / gamma, max(abs(height) - longest, 0.0) / gamma
-    if distance - longest > alpha * sqrt(1 + above * above) * (1 + MARGIN):
-        return Position.EXTERIOR
-    if distance + longest < alpha * sqrt(1 + below * below) * (1 - MARGIN):
-        return Position.INTERIOR
-    return None
-
-
-def height_and_distance(
-    centre: Sequence[float], origin: Sequence[float], axis: Sequence[float]
-) -> tuple[float, float, float]:
-    """As along_and_across, of one pair; the bound of the error is inf where it is not known."""
-    largest, size = max(map(abs, axis)), sum(map(abs, (*centre, *origin)))
-    if not (LEAST < largest < GREATEST and size < GREATEST):
-        return 0.0, 0.0, inf
-    u, v, w = (part / largest for part in axis)
-    norm = sqrt(u * u + v * v + w * w)
-    u, v, w = u / norm, v / norm, w / norm
-    x, y, z = (there - here for there, here in zip(centre, origin, strict=True))
-    across = sqrt((v * z - w * y) ** 2 + (w * x - u * z) ** 2 + (u * y - v * x) ** 2)
-    return u * x + v * y + w * z, across, ERROR * size + LEAST
+        alpha, gamma, b, d = sizes
+        x, y, z = centre
+        return position_beside((alpha, gamma), origin, b, d, x, y, z, mover)
+    outside, inside = _by_ball(sizes, centre, origin, axis)
+    if outside or inside:
+        return int(Position.EXTERIOR if outside else Position.INTERIOR)
+    return _from_exact_difference(sizes, centre, origin, mover, axis)
 
 
 def _from_exact_difference(
@@ -193,32 +231,213 @@ def _exactly(those: Indices, result: Positions, *columns: Rows) -> None:
         result[index] = _from_exact_difference(*(column[index].tolist() for column in columns))
 
 
-def _beside_tilted(sizes: Rows, centres: Rows, origins: Rows, movers: Rows, axes: Rows) -> Positions:
-    result = np.zeros(len(sizes), np.int8)
-    with np.errstate(all="ignore"):
-        height, distance, error = along_and_across(centres, origins, axes)
-        alpha, gamma = sizes[:, 0], sizes[:, 1]
-        longest = sizes[:, 2:].max(axis=1) * (1 + MARGIN) + error
-        ordinary = (sizes > LEAST).all(axis=1) & (sizes < GREATEST).all(axis=1)
-        above = (np.abs(height) + longest) / gamma
-        below = np.maximum(np.abs(height) - longest, 0.0) / gamma
-        outside = distance - longest > alpha * np.sqrt(1 + above * above) * (1 + MARGIN)
-        inside = distance + longest < alpha * np.sqrt(1 + below * below) * (1 - MARGIN)
-    result[outside & ordinary], result[inside & ordinary] = Position.EXTERIOR, Position.INTERIOR
-    left = np.flatnonzero(~ordinary | ~(outside | inside))
-    _exactly(left, result, sizes, centres, origins, movers, axes)
+def positions(
+    bodies: Bodies,
+    body: Indices,
+    semi_axes: tuple[float, float],
+    centres: Rows,
+    movers: Rows | None,
+    limits: Floats | None = None,
+) -> Positions:
+    """The exact positions of a mover at centres (n, 3) beside hyperboloids, `body` (n,) of these; int8 (n,).
+
+    `movers` (n, 3) are its axes there; None: it and all of these hyperboloids are upright. `limits` are those of
+    limits_of for the mover: they spare pairs.
+    """
+    sizes = np.concatenate([bodies.shapes[body], np.broadcast_to(semi_axes, (len(body), 2))], axis=1)
+    spans, origins = bodies.spans[body], bodies.origins[body]
+    if movers is None:
+        result = positions_beside(sizes, centres, origins)
+    else:
+        result = tilted_positions(sizes, centres, origins, movers, bodies.axes[body])
+    between = np.asarray(np.isinf(spans).all(axis=1))
+    if limits is not None:
+        level, (low, high, inner_low, inner_high) = centres[:, 2], limits[body].T
+        result[(level < low) | (level > high)] = Position.EXTERIOR
+        between |= (level >= inner_low) & (level <= inner_high)
+    some = np.flatnonzero(~between & (result != Position.EXTERIOR))
+    if len(some):
+        axes = np.broadcast_to(UPRIGHT, (len(some), 3)) if movers is None else movers[some]
+        result[some] = _with_ends(result[some], (sizes[some], centres[some], origins[some], axes), bodies, body[some])
     return result
 
 
-def along_and_across(centres: Rows, origins: Rows, axes: Rows) -> tuple[Floats, Floats, Floats]:
-    """The centres' heights along the axes and distances from them, and a bound of the error of both; nan: not known."""
-    largest = np.abs(axes).max(axis=1, keepdims=True)
-    unit = axes / largest
-    unit /= np.sqrt((unit * unit).sum(axis=1, keepdims=True))
-    offset = centres - origins
-    size = (np.abs(centres) + np.abs(origins)).sum(axis=1)
-    ordinary = (largest[:, 0] > LEAST) & (largest[:, 0] < GREATEST) & (size < GREATEST)
-    along = (unit * offset).sum(axis=1)
-    across = np.cross(unit, offset)
-    error = np.where(ordinary, ERROR * size + LEAST, np.nan)
-    return along, np.sqrt((across * across).sum(axis=1)), error
+def position_of(
+    body: BodyNumbers, semi_axes: tuple[float, float], centre: Sequence[float], mover: Sequence[float]
+) -> int:
+    """As positions, of one pair; `mover` is the axis of the mover."""
+    whole = tilted_position((*body.shape, *semi_axes), centre, body.origin, mover, body.axis)
+    return whole if body.span == WITHOUT_ENDS[:2] else position_with_ends(whole, body, semi_axes, centre, mover)
+
+
+def position_with_ends(
+    whole: int, body: BodyNumbers, semi_axes: tuple[float, float], centre: Sequence[float], mover: Sequence[float]
+) -> int:
+    """The position of a mover, with this axis, from that beside the whole hyperboloid."""
+    pair = (*body.shape, *semi_axes), centre, body.origin, mover, body.axis
+    exterior, known, _, _ = _by_bounds(whole, pair, body.span, body.solid)
+    if exterior:
+        return int(Position.EXTERIOR)
+    return whole if known else _ended_exactly(whole, pair, body.span, body.solid)
+
+
+Pair = tuple[Parts, Parts, Parts, Parts, Parts]
+"""Sizes, both centres and both axes, those of the hyperboloid behind the mover's."""
+
+
+def _by_bounds(whole: Any, pair: Pair, span: Parts, solid: Any) -> tuple[Any, Any, Any, Any]:  # noqa: ANN401
+    """Whether bounds prove that the mover is exterior, and that its position is that beside the whole hyperboloid.
+
+    And whether its centre surely lies between the ends, and beyond one: all are truth values, or masks (n,).
+    """
+    (alpha, gamma, b, d), centre, origin, mover, axis = pair
+    low, high = span
+    upright = (mover[0] == 0) & (mover[1] == 0) & (axis[0] == 0) & (axis[1] == 0)
+    along, across, error = along_and_across(centre, origin, axis)
+    longer, shorter = _where(b > d, b, d), _where(b > d, d, b)
+    place = _Place(
+        alpha, gamma, along, across, error, low, high,
+        level=_where(along < low, low, _where(along > high, high, along)),
+        reach=_where(upright, d, longer),
+        least=_where(upright, b, shorter),
+        half=_where(upright, d, inf),
+    )  # fmt: skip
+    between, beyond = place.between_and_beyond()
+    inner, outer = place.centre_between_and_beyond()
+    open_inside = (whole == Position.INTERIOR) & (solid == 0)
+    exterior = beyond | (whole == Position.EXTERIOR) | (open_inside & outer)
+    return exterior, between | (open_inside & inner) | (place.crosses() & (whole == Position.CONTACT)), inner, outer
+
+
+def _with_ends(whole: Positions, places: tuple[Rows, Rows, Rows, Rows], bodies: Bodies, body: Indices) -> Positions:
+    """As position_with_ends, of many: `places` are sizes (n, 4), both centres and the movers' axes (n, 3)."""
+    spans, solid, pairs = bodies.spans[body], bodies.solid[body], (*places, bodies.axes[body])
+    sizes, centres, origins, movers, axes = (column.T for column in pairs)
+    with np.errstate(all="ignore"):
+        exterior, known, inner, outer = _by_bounds(whole, (sizes, centres, origins, movers, axes), spans.T, solid)
+    result = np.where(exterior, Position.EXTERIOR, whole).astype(np.int8)
+    rest = np.flatnonzero(~(exterior | known))
+    stands = rest[~bodies.tilted[body[rest]]]
+    if len(stands):
+        rows = np.concatenate([places[0], places[3], spans, solid[:, None]], axis=1)[stands]
+        result[stands] = _by_kernel(rows, places[1][stands], places[2][stands], inner[stands], outer[stands])
+        rest = np.setdiff1d(rest, stands[result[stands] != CANNOT_SAY])
+    for index in rest.tolist():
+        size, centre, origin, mover, axis = (column[index].tolist() for column in pairs)
+        pair = size, centre, origin, mover, axis
+        result[index] = _ended_exactly(int(whole[index]), pair, spans[index].tolist(), bool(solid[index]))
+    return result
+
+
+def _ended_exactly(whole: int, pair: Pair, span: Sequence[float], solid: float) -> int:
+    """As position_with_ends, in integers."""
+    sizes, centre, origin, mover, axis = pair
+    offset = [Fraction(there) - Fraction(here) for there, here in zip(centre, origin, strict=True)]
+    return int(exact.ended_position(Lengths.of((*sizes, *offset, *mover, *span, solid), axis), Position(whole)))
+
+
+def _by_kernel(rows: Rows, centres: Rows, origins: Rows, inner: Mask, outer: Mask) -> Positions:
+    """Positions beside vertical hyperboloids by the kernel, 2 if it does not decide; rows lack the centres' columns.
+
+    It is asked about a spheroid that contains the exact one, and about one within it. What is clear of the wall lies on
+    the side of its centre, which counts where it is surely between the ends (`inner`), or beyond one (`outer`).
+    """
+    place, error = two_sum(centres, -origins)
+    lost = np.abs(error).sum(axis=1)
+    larger, smaller, fits = larger_and_smaller(rows[:, 2:4], lost)
+    around, within = (
+        kernel().answer_ended(np.concatenate([rows[:, :2], size, place, rows[:, 4:]], axis=1))
+        for size in (larger, smaller)
+    )
+    solid = rows[:, -1] != 0
+    sure = (around == Position.EXTERIOR) | (around == Position.INTERIOR)
+    positions = np.where(sure & (solid | inner), around, CANNOT_SAY)
+    positions[sure & ~solid & outer] = Position.EXTERIOR
+    positions[(within == Position.CONTACT) & fits] = Position.CONTACT
+    return np.where(fits, positions, CANNOT_SAY).astype(np.int8)
+
+
+Limits = tuple[float, float, float, float]
+"""Of one hyperboloid, as limits_of has them."""
+
+Numbers = tuple[BodyNumbers, Limits]
+"""One hyperboloid, and the limits of a scene's mover beside it."""
+
+
+def limits_of(bodies: Bodies, mover: Mover) -> Floats:
+    """Four heights of a mover's centre in the scene for each hyperboloid, (m, 4).
+
+    Below the first and above the second the mover lies beyond an end; from the third to the fourth it lies between the
+    ends. Of a tilted hyperboloid with ends nothing is known so.
+    """
+    reach = max(mover.b, mover.d) if is_tilted(mover.axis) else mover.d
+    low, high = bodies.heights.T
+    with np.errstate(all="ignore"):
+        ends = np.where(np.isinf(bodies.heights), 0, np.abs(bodies.heights)).max(axis=1)
+        far = reach * (1 + MARGIN) + 2.0**-45 * (np.abs(bodies.origins[:, 2]) + reach + ends)
+        limits = np.stack([low - far, high + far, low + far, high - far], axis=1)
+    tilted = bodies.tilted & np.isfinite(bodies.spans).any(axis=1)
+    limits[tilted] = -inf, inf, inf, -inf
+    return limits
+
+
+@dataclass(frozen=True, slots=True)
+class _Place:
+    """Numbers, or arrays (n,), of movers in the frames of hyperboloids; `error` is that of `along` and `across`."""
+
+    alpha: Any
+    gamma: Any
+    along: Any
+    across: Any
+    error: Any
+    low: Any
+    high: Any
+    level: Any
+    """The height next to `along` between the ends."""
+
+    reach: Any
+    least: Any
+    half: Any
+    """How far the mover reaches along the axis at most, and across it, at its own height, at least; and d, inf where
+    one of the axes is tilted.
+    """
+
+    def between_and_beyond(self) -> tuple[Any, Any]:
+        """Whether the mover surely lies between the ends, and beyond an end."""
+        below, above, far = (
+            self.along - self.low,
+            self.high - self.along,
+            self.reach * (1 + MARGIN) + self.error,
+        )
+        return (below > far) & (above > far), (below < -far) | (above < -far)
+
+    def centre_between_and_beyond(self) -> tuple[Any, Any]:
+        """Whether the mover's centre surely lies between the ends, and beyond an end."""
+        below, above = self.along - self.low, self.high - self.along
+        return (below > self.error) & (above > self.error), (below < -self.error) | (above < -self.error)
+
+    def crosses(self) -> Any:  # noqa: ANN401 - as the numbers are
+        """Whether the mover surely reaches to both sides of the wall, at its own height or, upright, at an end."""
+        share, away = self.level / self.gamma, abs(self.level - self.along)
+        fall = (away + self.error) / self.half
+        room = 1 - fall * fall
+        radius, least = self.alpha * (1 + share * share) ** 0.5, self.least * ((room + abs(room)) / 2) ** 0.5
+        loose = self.error * (2 + self.alpha / self.gamma) + MARGIN * (radius + self.across + self.least)
+        crosses = (self.across + least > radius + loose) & (self.across - least < radius - loose)
+        return crosses & (self.centre_between_and_beyond()[0] | (self.half < inf))
+
+
+def meets_for_sure(least: Floats, shapes: Rows, spans: Rows, places: Rows, lost: Floats) -> Mask:
+    """Whether bounds prove that movers touch walls at their own heights, (n,): `places` (n, 3) in the walls' frames.
+
+    `least` (n,) are their shorter semi-axes. Each coordinate of a place is `lost` (n,) off at most, besides a few
+    roundings.
+    """
+    with np.errstate(all="ignore"):
+        size = np.abs(places).sum(axis=1)
+        across = np.hypot(places[:, 0], places[:, 1])
+        error = 2 * lost + MARGIN * size + LEAST
+        alpha, gamma, low, high = shapes[:, 0], shapes[:, 1], spans[:, 0], spans[:, 1]
+        level = np.clip(places[:, 2], low, high)
+        place = _Place(alpha, gamma, places[:, 2], across, error, low, high, level, least, least, inf)
+        return np.asarray(place.crosses() & (size < GREATEST))

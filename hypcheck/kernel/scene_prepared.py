@@ -22,10 +22,8 @@ from hypcheck.errors import InputError
 from hypcheck.float_environment import in_default_environment
 from hypcheck.geometry.rows import Floats, Indices
 from hypcheck.kernel.clearance import enlarged
-from hypcheck.kernel.scene_ends import limits_of
 from hypcheck.kernel.scene_index import ROOM, Bodies, PlaneGrid, bodies_of, cells_of, grid_of, hashed, in_reach, reaches
-from hypcheck.kernel.scene_pairs import Body
-from hypcheck.kernel.scene_sweeps import Near, near_of
+from hypcheck.kernel.scene_pairs import Numbers, limits_of
 from hypcheck.scene import arrays
 from hypcheck.scene.model import Hyperboloid, Mover, Region, SceneModel, is_tilted
 from hypcheck.scene.reading import parse_scene, read_scene
@@ -192,39 +190,25 @@ class PreparedScene:
         counts = [len(bodies) for bodies in near]
         return np.repeat(np.arange(len(centres)), counts), np.array(list(chain.from_iterable(near)), np.int64)
 
-    def _body(self, index: int) -> tuple[Body, float, float, float, float]:
-        """A hyperboloid's numbers, and its limits, without arrays; each is kept after its first use."""
-        prepared = self._asked.get(index)
-        if prepared is None:
-            of = self._bodies
-            columns = (of.shapes[index], of.origins[index], self._limits[index])
-            alpha, gamma, x, y, z, *limits = (number for column in columns for number in column.tolist())
-            low, high, inner_low, inner_high = limits
-            prepared = self._asked[index] = ((alpha, gamma, x, y, z), low, high, inner_low, inner_high)
-        return prepared
+    def _numbers(self, index: int) -> Numbers:
+        """A hyperboloid's numbers and limits, without arrays; they are kept after their first use."""
+        kept = self._numbers_kept.get(index)
+        if kept is None:
+            low, high, inner_low, inner_high = self._limits[index].tolist()
+            kept = self._numbers_kept[index] = self._bodies.one(index), (low, high, inner_low, inner_high)
+        return kept
 
     def _grid_holds(self, *heights: float) -> bool:
         """Whether what the grid and the reaches promise holds at these heights of the scene: they are in its region."""
         region = self.model.region.z
         return region is None or all(region.low <= height <= region.high for height in heights)
 
-    def _near_motion(self, index: int) -> Near:
-        """The numbers and limits of a hyperboloid for motions; they are kept after their first use."""
-        prepared = self._asked_of_motions.get(index)
-        if prepared is None:
-            prepared = self._asked_of_motions[index] = near_of(self._bodies, self._reaches, self._limits, index)
-        return prepared
-
-    @cached_property
-    def _asked_of_motions(self) -> dict[int, Near]:
-        return {}
-
     @cached_property
     def _is_tilted(self) -> bool:
         return is_tilted(self.model.mover.axis) or bool(self._bodies.tilted.any())
 
     @cached_property
-    def _asked(self) -> dict[int, tuple[Body, float, float, float, float]]:
+    def _numbers_kept(self) -> dict[int, Numbers]:
         return {}
 
     @cached_property

@@ -29,11 +29,19 @@ from hypcheck.derivation.float_arithmetic import two_sum
 from hypcheck.geometry.pair import UPRIGHT, WITHOUT_ENDS
 from hypcheck.geometry.rows import Floats, Indices, Mask, Rows
 from hypcheck.kernel.in_use import kernel
-from hypcheck.kernel.scene_ends import meets_for_sure
-from hypcheck.kernel.scene_index import LEAST_OF_SWEEPS, LONGEST_SQUARE, OUTWARD, PAD, Bodies, PlaneGrid
-from hypcheck.kernel.scene_pairs import GREATEST, LEAST, MARGIN, ROUNDED, height_and_distance, larger_and_smaller
+from hypcheck.kernel.scene_index import LEAST_OF_SWEEPS, LONGEST_SQUARE, OUTWARD, PAD, Bodies, BodyNumbers, PlaneGrid
+from hypcheck.kernel.scene_pairs import (
+    GREATEST,
+    LEAST,
+    MARGIN,
+    ROUNDED,
+    Numbers,
+    along_and_across,
+    larger_and_smaller,
+    meets_for_sure,
+)
 from hypcheck.kernel.scene_queries import TURNING, frames_of, turned, turned_axes
-from hypcheck.scene.model import Mover
+from hypcheck.scene.model import Mover, Point
 from hypcheck.truth import ended_sweeps, swept
 from hypcheck.truth.ended_sweeps import EndedSweep
 
@@ -51,7 +59,7 @@ def hits_beside(
         axis = UPRIGHT if axes is None else axes[index].tolist()
         sweep = Sweep(starts[index].tolist(), ends[index].tolist(), axis)
         b, d = semi_axes[index].tolist()
-        hits[index] = not is_clear(bodies, int(body[index]), (b, d, sweep))
+        hits[index] = not is_clear(bodies.one(int(body[index])), (b, d, sweep))
     return hits
 
 
@@ -121,30 +129,31 @@ class Sweep:
     axis: Sequence[float]
 
 
-def is_clear(
-    bodies: Bodies, index: int, mover: tuple[float, float, Sweep], parts: Sequence[tuple[float, float, Sweep]] = ()
-) -> bool:
+Spheroid = tuple[float, float, Sweep]
+"""b, d, and the motion."""
+
+
+def is_clear(body: BodyNumbers, mover: Spheroid, parts: Sequence[Spheroid] = ()) -> bool:
     """Whether a mover (b, d, sweep) stays clear of a hyperboloid, or its parts do, always together on one side.
 
     The parts are tested at the times at which the mover is in contact.
     """
     spheroids = [mover, *parts]
-    if all(_between_ends(bodies, index, *spheroid) for spheroid in spheroids):
-        sweeps = [swept.passage(*_between(bodies, index, *spheroid)) for spheroid in (parts or [mover])]
+    if all(_between_ends(body, *spheroid) for spheroid in spheroids):
+        sweeps = [swept.passage(*_between(body, *spheroid)) for spheroid in (parts or [mover])]
         return not any(sweep.hit for sweep in sweeps) and len({sweep.start for sweep in sweeps}) == 1
-    low, high = bodies.spans[index].tolist()
-    heights = (low, high, float(bodies.solid[index]))
-    whole, *others = (swept.sweep_of(*_between(bodies, index, *spheroid), heights) for spheroid in spheroids)
+    heights = (*body.span, float(body.solid))
+    whole, *others = (swept.sweep_of(*_between(body, *spheroid), heights) for spheroid in spheroids)
     return not ended_sweeps.meets(EndedSweep(whole, tuple(others)))
 
 
-def _between_ends(bodies: Bodies, index: int, b: float, d: float, sweep: Sweep) -> bool:
+def _between_ends(body: BodyNumbers, b: float, d: float, sweep: Sweep) -> bool:
     """Whether a spheroid surely stays between the ends of a hyperboloid."""
-    (low, high), origin, axis = (column[index].tolist() for column in (bodies.spans, bodies.origins, bodies.axes))
+    (low, high), axis = body.span, body.axis
     reach = (d if sweep.axis[0] == sweep.axis[1] == axis[0] == axis[1] == 0 else max(b, d)) * (1 + MARGIN)
     points = [[float(part) for part in point] for point in (sweep.start, sweep.end)]
     reach += MARGIN * max(sum(map(abs, point)) for point in points)  # fractions are rounded
-    places = (height_and_distance(point, origin, axis) for point in points)
+    places = (along_and_across(point, body.origin, axis) for point in points)
     return (low, high) == WITHOUT_ENDS[:2] or all(
         low + reach + error < along < high - reach - error for along, _, error in places
     )
@@ -154,15 +163,14 @@ _Numbers = Sequence[float | Fraction]
 
 
 def _between(
-    bodies: Bodies, index: int, b: float, d: float, sweep: Sweep
+    body: BodyNumbers, b: float, d: float, sweep: Sweep
 ) -> tuple[_Numbers, _Numbers, _Numbers, _Numbers, _Numbers]:
     """The sizes, the exact start and end from the hyperboloid's centre, and the axes of both."""
-    origin = bodies.origins[index].tolist()
     start, end = (
-        [Fraction(part) - Fraction(centre) for part, centre in zip(point, origin, strict=True)]
+        [Fraction(part) - Fraction(centre) for part, centre in zip(point, body.origin, strict=True)]
         for point in (sweep.start, sweep.end)
     )
-    return (*bodies.shapes[index].tolist(), b, d), start, end, sweep.axis, bodies.axes[index].tolist()
+    return (*body.shape, b, d), start, end, sweep.axis, body.axis
 
 
 def enters(origins: Rows, reaches: Floats, start: Floats, end: Floats) -> list[float]:
@@ -189,34 +197,27 @@ def enters(origins: Rows, reaches: Floats, start: Floats, end: Floats) -> list[f
 _HALVINGS = 60
 
 
-def first_contact(
-    bodies: Bodies, index: int, mover: tuple[float, float, Sweep], parts: Sequence[tuple[float, float, Sweep]] = ()
-) -> tuple[Fraction, Fraction]:
+def first_contact(body: BodyNumbers, mover: Spheroid, parts: Sequence[Spheroid] = ()) -> tuple[Fraction, Fraction]:
     """An interval for the time of first contact of a mover that is not clear by is_clear; one number twice if exact.
 
     Where parts decide, exact decisions about the sweep up to a time halve the interval.
     """
-    low, high = bodies.spans[index].tolist()
-    first = swept.passage(
-        *_between(bodies, index, *mover), z_min=low, z_max=high, solid=float(bodies.solid[index])
-    ).first
+    low, high = body.span
+    first = swept.passage(*_between(body, *mover), z_min=low, z_max=high, solid=float(body.solid)).first
     if first is None:
         raise AssertionError("a sweep on which is_clear finds contact has none")
     if not parts:
         return first
     until, contact = first[0], Fraction(1)
-    if not is_clear(bodies, index, *_cut(mover, parts, Fraction(0))):
+    if not is_clear(body, *_cut(mover, parts, Fraction(0))):
         return Fraction(0), Fraction(0)
     for _ in range(_HALVINGS):
         middle = (until + contact) / 2
-        if is_clear(bodies, index, *_cut(mover, parts, middle)):
+        if is_clear(body, *_cut(mover, parts, middle)):
             until = middle
         else:
             contact = middle
     return until, contact
-
-
-Spheroid = tuple[float, float, Sweep]
 
 
 def _at(sweep: Sweep, time: Fraction) -> list[Fraction]:
@@ -231,24 +232,7 @@ def _cut(mover: Spheroid, parts: Sequence[Spheroid], time: Fraction) -> tuple[Sp
     return whole, others
 
 
-Place = tuple[float, float, float]
-
-Near = tuple[Place, float, tuple[float, float], tuple[float, float], tuple[float, float, float]]
-"""Of a hyperboloid: its centre, its reach, the heights of a mover's centre in the scene between which it can be
-touched, α and γ, and z_min, z_max and solid.
-"""
-
-
-def near_of(bodies: Bodies, reaches: Floats, limits: Floats, index: int) -> Near:
-    """A hyperboloid's numbers; `reaches` and `limits` are those of scene_index and scene_ends for the scene's mover."""
-    low, high, *_ = limits[index].tolist()
-    x, y, z = bodies.origins[index].tolist()
-    alpha, gamma = bodies.shapes[index].tolist()
-    z_min, z_max = bodies.spans[index].tolist()
-    return (x, y, z), float(reaches[index]), (low, high), (alpha, gamma), (z_min, z_max, float(bodies.solid[index]))
-
-
-def point_at_once(point: object) -> Place | None:
+def point_at_once(point: object) -> Point | None:
     """Three finite numbers in a list, a tuple or an array, and None for everything else that may be a point."""
     values = point.tolist() if type(point) is np.ndarray and point.shape == (3,) else point
     if not isinstance(values, (list, tuple)) or len(values) != 3:
@@ -259,17 +243,22 @@ def point_at_once(point: object) -> Place | None:
     return (x, y, z) if isfinite(x) and isfinite(y) and isfinite(z) else None
 
 
-def hit_at_once(grid: PlaneGrid, near: Callable[[int], Near], mover: Mover, start: Place, end: Place) -> bool | None:
-    """Whether the mover itself has contact on its sweep; None if bounds do not decide."""
+def hit_at_once(
+    grid: PlaneGrid, reaches: Floats, numbers: Callable[[int], Numbers], mover: Mover, start: Point, end: Point
+) -> bool | None:
+    """Whether the mover itself has contact on its sweep; None if bounds do not decide.
+
+    `numbers` gives those of a hyperboloid; `reaches` are those of scene_index for the mover.
+    """
     candidates = grid.near_sweep(start[0], start[1], end[0], end[1])
     if candidates is None:
         return None
     beside, most = [], 0.0
-    for index in _passed(candidates, near, start, end):
-        centre, _, _, shape, ends = near(index)
-        begin, lost_at_start = _differences(start, centre)
-        finish, lost_at_end = _differences(end, centre)
-        beside.append((shape, (*begin, *finish, *UPRIGHT, *ends)))
+    for index in _passed(candidates, reaches, numbers, start, end):
+        shape, origin, _, span, solid = numbers(index)[0]
+        begin, lost_at_start = _differences(start, origin)
+        finish, lost_at_end = _differences(end, origin)
+        beside.append((shape, (*begin, *finish, *UPRIGHT, *span, solid)))
         lost = sum(map(max, lost_at_start, lost_at_end))
         if not lost < GREATEST:
             return None
@@ -296,7 +285,7 @@ def _hits(beside: Sequence[tuple[tuple[float, float], tuple[float, ...]]], mover
     return hits
 
 
-def _differences(point: Place, centre: Place) -> tuple[Place, Place]:
+def _differences(point: Point, centre: Point) -> tuple[Point, Point]:
     """The differences of coordinates, rounded, and how much each has lost, by TwoSum; NaN where that is not known."""
     (x, y, z), (u, v, w) = point, centre
     across, along, up = x - u, y - v, z - w
@@ -308,7 +297,9 @@ def _differences(point: Place, centre: Place) -> tuple[Place, Place]:
     )
 
 
-def _passed(candidates: set[int], near: Callable[[int], Near], start: Place, end: Place) -> list[int]:
+def _passed(
+    candidates: set[int], reaches: Floats, numbers: Callable[[int], Numbers], start: Point, end: Point
+) -> list[int]:
     """The candidates whose reach the sweep enters: scene_index.passed, for one sweep."""
     (x, y, z), (x_end, y_end, z_end) = start, end
     lowest, highest = (z, z_end) if z < z_end else (z_end, z)
@@ -317,10 +308,11 @@ def _passed(candidates: set[int], near: Callable[[int], Near], start: Place, end
     size = abs(x) + abs(y) + abs(x_end) + abs(y_end)
     passed_by = []
     for index in candidates:
-        (u, v, _), reach, (low, high), _, _ = near(index)
+        body, (low, high, _, _) = numbers(index)
         if highest < low or lowest > high:  # beyond an end
             continue
-        most = reach * OUTWARD + (PAD * (size + abs(u) + abs(v)) + LEAST_OF_SWEEPS)
+        u, v, _ = body.origin
+        most = reaches.item(index) * OUTWARD + (PAD * (size + abs(u) + abs(v)) + LEAST_OF_SWEEPS)
         u, v = u - x, v - y
         time = (across * u + along * v) / length if length else 0.0
         time = min(time, 1.0) if time > 0 else 0.0

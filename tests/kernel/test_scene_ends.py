@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from hypcheck.geometry.pair import Position
-from hypcheck.kernel.scene_ends import limits_of, meets_for_sure
+from hypcheck.kernel.scene_pairs import limits_of, meets_for_sure
 from hypcheck.kernel.scene_sweeps import bounded_hits
 from hypcheck.scene.model import FREE, UPRIGHT, Hyperboloid, Mover, MoverPart, Region, SceneModel, Span
 from tests.support.inside import Scene, kernel_choice, passage, scene_index

@@ -171,7 +171,7 @@ def test_a_tangency_that_rounding_of_the_difference_moves_keeps_its_exact_positi
         assert centre[axis] - origin[axis] == centre[axis]
         found = positions_beside(np.array([sizes]), np.array([centre]), np.array([origin]))
         assert found.tolist() == [expected]
-        assert position_beside((alpha, gamma, *origin), b, d, *centre) == expected
+        assert position_beside((alpha, gamma), origin, b, d, *centre) == expected
 
 
 @pytest.mark.parametrize(("x", "expected"), [(0.25, Position.INTERIOR), (0.0625, Position.CONTACT)])
@@ -180,7 +180,7 @@ def test_a_difference_whose_rounding_exceeds_the_spheroid_is_decided_exactly(x, 
     far = 2.0**53
     sizes, centre, origin = (far, far, 0.125, 0.125), (far, 0.0, 0.0), (x, 0.0, 0.0)
     assert far - x == far
-    assert position_beside((far, far, *origin), 0.125, 0.125, *centre) == expected
+    assert position_beside((far, far), origin, 0.125, 0.125, *centre) == expected
     assert positions_beside(np.array([sizes]), np.array([centre]), np.array([origin])).tolist() == [expected]
 
 

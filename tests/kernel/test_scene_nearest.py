@@ -178,7 +178,7 @@ def test_the_cylinder_about_a_tree_bounds_the_distance_from_below():
     bodies = scene_index.bodies_of([Hyperboloid("a", 0.5, 1.0, (0, 0, 0), Span(-1, 1)), Hyperboloid("b", 0.5, 1.0)])
     centres = np.array([[3.0, 4.0, 0.0], [1.2, 0.0, 0.5], [0.1, 0.0, 4.0], [0.1, 0.0, 0.5], [0.5**0.5 + 3, 0.0, 5.0]])
     expected = [5 - 0.5**0.5 - 0.3, 1.2 - 0.5**0.5 - 0.3, 3 - 0.3, 0, 5 - 0.3]
-    found = scene_nearest.cylinders(bodies, MOVER, centres)
+    found = scene_nearest.cylinder_bounds(bodies, slice(None), MOVER, centres.T[:, :, None])
     assert np.allclose(found[:, 0], expected, rtol=0, atol=1e-10)
     assert (found[:, 0] <= expected).all()
     assert not found[:, 1].any()

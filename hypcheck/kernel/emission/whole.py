@@ -8,7 +8,7 @@ Each pair of sizes is asked for its position, as `verify` asks of any kernel. Th
 hypcheck.Scene does it (kernel/scene.py): contact with any hyperboloid is contact, else inside any is interior, else
 exterior; parts are asked where the mover has contact. The offset from a hyperboloid's centre is rounded once, a change
 of that coordinate by a unit more. Of a spheroid that reaches over an end only bounds are asked, those of
-kernel/scene_ends.py; where they do not tell, the answer is 2.
+kernel/scene_pairs.py; where they do not tell, the answer is 2.
 """
 
 from __future__ import annotations
