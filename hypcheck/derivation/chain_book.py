@@ -16,8 +16,8 @@ import sympy
 
 from hypcheck.derivation import pencil, root_chains
 from hypcheck.derivation.formulas import FORMULAS
-from hypcheck.derivation.links import GENERIC_CUBIC, PHI, Chain, FiniteCases, Link, chain, identity, known, link, sign
-from hypcheck.derivation.pencil import LAMBDA, XC, YC, ZC, A, B, P, Q, X, Y, Z, read, symbol
+from hypcheck.derivation.links import PHI, Chain, FiniteCases, Link, chain, identity, known, link, sign
+from hypcheck.derivation.pencil import GENERIC_CUBIC, LAMBDA, XC, YC, ZC, A, B, P, Q, X, Y, Z, read, symbol
 from hypcheck.derivation.proofs import proofs_of
 from hypcheck.derivation.root_chains import positions_chain, procedure_1, proposition_3, proposition_5, roots_chain
 

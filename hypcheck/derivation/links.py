@@ -19,8 +19,12 @@ import sympy
 from hypcheck.derivation import pencil
 from hypcheck.derivation.pencil import (
     ALPHA,
+    C0,
+    C1,
+    C2,
     COSINE,
     GAMMA,
+    GENERIC_CUBIC,
     LAMBDA,
     SINE,
     SMALL_B,
@@ -85,8 +89,6 @@ def _is_nonnegative(letters: sympy.Expr, known: set[sympy.Symbol]) -> bool:
     )
 
 
-C0, C1, C2 = (symbol(name) for name in ("c0", "c1", "c2"))
-GENERIC_CUBIC = LAMBDA**3 + C2 * LAMBDA**2 + C1 * LAMBDA + C0
 PHI = P * LAMBDA / (A + LAMBDA) - Q * LAMBDA / (B - LAMBDA) - 1 - LAMBDA
 
 

@@ -134,11 +134,16 @@ TABLE_2_DISCRIMINANT = """
     delta = sum_4 - term_5
 """
 
-# 3Δ = 4 h1 h3 − h2², with the coefficients of the Hessian of the cubic.
-HESSIAN_DISCRIMINANT = """
+H1 = """
     c2_squared = c2 * c2
     three_c1 = 3 * c1
     h1 = c2_squared - three_c1
+"""
+
+# 3Δ = 4 h1 h3 − h2², with the coefficients of the Hessian of the cubic.
+HESSIAN_DISCRIMINANT = (
+    H1
+    + """
     c2c1 = c2 * c1
     nine_c0 = 9 * c0
     h2 = c2c1 - nine_c0
@@ -151,6 +156,7 @@ HESSIAN_DISCRIMINANT = """
     h2_squared = h2 * h2
     delta_3 = h1h3_4 - h2_squared
 """
+)
 
 
 def equation_13(c0: str = "c0", suffix: str = "") -> str:
@@ -237,13 +243,29 @@ def all_regimes(discriminant: str) -> str:
     )
 
 
+def _side_of(at: str, clear: str) -> str:
+    """Position from the λ called `at` if `clear` holds: exterior between 0 and B, interior between −A and 0."""
+    return (
+        f"""
+    minus_A = - A
+    positive = {at} > 0
+    below_B = {at} < B
+    between_0_and_B = positive and below_B
+    exterior = {clear} and between_0_and_B
+    negative = {at} < 0
+    above_minus_A = {at} > minus_A
+    between_minus_A_and_0 = negative and above_minus_A
+    interior = {clear} and between_minus_A_and_0
+"""
+        + POSITION
+    )
+
+
 # If g > 0 somewhere in (0, B) or (−A, 0), at whose ends g ≤ 0, then g has a local maximum there; a cubic has one, at
 # λm = (−c2 − √h1)/3 with h1 = c2² − 3 c1 > 0. Where c2 < 0 the numerator cancels, and λm = c1/(−c2 + √h1) does not.
 LOCAL_MAXIMUM = (
-    """
-    c2_squared = c2 * c2
-    three_c1 = 3 * c1
-    h1 = c2_squared - three_c1
+    H1
+    + """
     root = sqrt h1
     minus_c2 = - c2
     root_sum = minus_c2 + root
@@ -260,22 +282,12 @@ LOCAL_MAXIMUM = (
     has_maximum = h1 > 0
     above_zero = g_m > 0
     clear = has_maximum and above_zero
-    minus_A = - A
-    positive = lambda_m > 0
-    below_B = lambda_m < B
-    between_0_and_B = positive and below_B
-    exterior = clear and between_0_and_B
-    negative = lambda_m < 0
-    above_minus_A = lambda_m > minus_A
-    between_minus_A_and_0 = negative and above_minus_A
-    interior = clear and between_minus_A_and_0
 """
-    + POSITION
+    + _side_of("lambda_m", "clear")
 )
 
 # φ(λ) = Pλ/(A+λ) − Qλ/(B−λ) − (1+λ), and g = (A+λ)(B−λ)φ, so φ and g have one sign in (−A, B).
-DUAL = (
-    """
+DUAL = """
     P_lambda = P * lambda_
     A_plus_lambda = A + lambda_
     P_term = P_lambda / A_plus_lambda
@@ -286,18 +298,7 @@ DUAL = (
     one_plus_lambda = 1 + lambda_
     phi = P_term_minus_Q_term - one_plus_lambda
     above_zero = phi > 0
-    minus_A = - A
-    positive = lambda_ > 0
-    below_B = lambda_ < B
-    between_0_and_B = positive and below_B
-    exterior = above_zero and between_0_and_B
-    negative = lambda_ < 0
-    above_minus_A = lambda_ > minus_A
-    between_minus_A_and_0 = negative and above_minus_A
-    interior = above_zero and between_minus_A_and_0
-"""
-    + POSITION
-)
+""" + _side_of("lambda_", "above_zero")
 
 
 def proposition_5(suffix: str = "") -> str:

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from hypcheck.derivation.listings import SIZES, equation_13, proposition_5
+from hypcheck.derivation.listings import H1, SIZES, equation_13, proposition_5
 
 ROTORS = (1, 2, 3, 4)
 
@@ -122,10 +122,9 @@ ONE_ROTOR = (
 
 # With λ = t − c2/3 the cubic is t³ − (h1/3) t − w/27, h1 = c2² − 3 c1, w = 9 c1 c2 − 2 c2³ − 27 c0; 27 Δ = 4 h1³ − w².
 # Where Δ > 0 its roots are t = (2/3) √h1 cos(θ + 2kπ/3) with cos 3θ = w/(2 h1 √h1). arccos(−1/2) is a third of a turn.
-TRIGONOMETRIC = """
-    c2_squared = c2 * c2
-    three_c1 = 3 * c1
-    h1 = c2_squared - three_c1
+TRIGONOMETRIC = (
+    H1
+    + """
     nine_c1 = 9 * c1
     two_c2_squared = 2 * c2_squared
     nine_c1_less = nine_c1 - two_c2_squared
@@ -167,6 +166,7 @@ TRIGONOMETRIC = """
     all_positive = r12_positive and r3_positive
     valid = distinct and all_positive
 """
+)
 
 
 def correction(root: int, others: tuple[int, int]) -> str:

@@ -64,6 +64,8 @@ SEVEN = (ALPHA, GAMMA, SMALL_B, SMALL_D, X0, Y0, Z0)
 SMALL_A, SMALL_C = (symbol(name) for name in ("a", "c"))
 XC, YC, ZC = (symbol(name) for name in ("x_c", "y_c", "z_c"))
 A, B, P, Q = (symbol(name) for name in "ABPQ")
+C0, C1, C2 = (symbol(name) for name in ("c0", "c1", "c2"))
+GENERIC_CUBIC = LAMBDA**3 + C2 * LAMBDA**2 + C1 * LAMBDA + C0
 
 IN_SEVEN = {
     A: (ALPHA / SMALL_B) ** 2,
@@ -85,18 +87,12 @@ SCALED = {
 
 @dataclass(frozen=True)
 class SymbolicCubic:
-    """g(λ) = λ³ + c2 λ² + c1 λ + c0, its discriminant, and the determinant it comes from.
-
-    f = det(λH + S) = factor · g/denominator, where the factor is A + λ and the denominator A² B.
-    """
+    """g(λ) = λ³ + c2 λ² + c1 λ + c0, and the determinant it comes from: f = det(λH + S) = (A + λ)·g(λ)/(A² B)."""
 
     f: sympy.Expr
-    factor: sympy.Expr
-    denominator: sympy.Expr
     c0: sympy.Expr
     c1: sympy.Expr
     c2: sympy.Expr
-    discriminant: sympy.Expr
 
     @property
     def g(self) -> sympy.Expr:
@@ -145,15 +141,13 @@ def scaled_cubic() -> SymbolicCubic:
 def cubic_of(hyperboloid_matrix: sympy.Matrix, sphere_matrix: sympy.Matrix) -> SymbolicCubic:
     """The cubic of two matrices. Raises ArithmeticError if det(λH + S) does not have the expected factor."""
     f = (LAMBDA * hyperboloid_matrix + sphere_matrix).det(method="berkowitz")
-    numerator, denominator = sympy.fraction(sympy.cancel(f))
-    factor = SMALL_A**2 + LAMBDA
-    quotient, remainder = sympy.div(sympy.Poly(numerator, LAMBDA), sympy.Poly(factor, LAMBDA))
+    numerator, _ = sympy.fraction(sympy.cancel(f))
+    quotient, remainder = sympy.div(sympy.Poly(numerator, LAMBDA), sympy.Poly(SMALL_A**2 + LAMBDA, LAMBDA))
     if remainder != 0 or quotient.degree() != 3:
         raise ArithmeticError("det(λH + S) is not (a² + λ) times a cubic")
     leading, *coefficients = quotient.all_coeffs()
     c2, c1, c0 = (sympy.expand(sympy.cancel(coefficient / leading)) for coefficient in coefficients)
-    discriminant = discriminant_of_cubic().subs(dict(zip(_GENERIC, (c2, c1, c0), strict=True)), simultaneous=True)
-    return SymbolicCubic(sympy.cancel(f), factor, denominator / leading, c0, c1, c2, discriminant)
+    return SymbolicCubic(sympy.cancel(f), c0, c1, c2)
 
 
 @cache
@@ -169,8 +163,7 @@ def in_invariants(scaled_one: SymbolicCubic) -> SymbolicCubic:
     c0, c1, c2 = (sympy.expand(coefficient) for coefficient in (derived.c0, derived.c1, derived.c2))
     if any(not coefficient.free_symbols <= {A, B, P, Q} for coefficient in (c0, c1, c2)):
         raise ArithmeticError("the coefficients depend on more than A, B, P and Q")
-    f, discriminant = sympy.cancel(derived.f), sympy.expand(derived.discriminant)
-    return SymbolicCubic(f, derived.factor, derived.denominator, c0, c1, c2, discriminant)
+    return SymbolicCubic(sympy.cancel(derived.f), c0, c1, c2)
 
 
 @cache
@@ -185,16 +178,11 @@ def discriminant_of_cubic() -> sympy.Expr:
 
     It is the product of the squared differences of the roots, so Δ > 0 means three distinct real roots.
     """
-    c2, c1, c0 = _GENERIC
-    generic = LAMBDA**3 + c2 * LAMBDA**2 + c1 * LAMBDA + c0
-    return sympy.expand(-sympy.resultant(generic, sympy.diff(generic, LAMBDA), LAMBDA))
-
-
-_GENERIC = tuple(symbol(name) for name in ("c2", "c1", "c0"))
+    return sympy.expand(-sympy.resultant(GENERIC_CUBIC, sympy.diff(GENERIC_CUBIC, LAMBDA), LAMBDA))
 
 
 def _substituted(derived: SymbolicCubic, values: dict[sympy.Symbol, sympy.Expr]) -> SymbolicCubic:
-    fields = (derived.f, derived.factor, derived.denominator, derived.c0, derived.c1, derived.c2, derived.discriminant)
+    fields = (derived.f, derived.c0, derived.c1, derived.c2)
     return SymbolicCubic(*(field.subs(values, simultaneous=True) for field in fields))
 
 

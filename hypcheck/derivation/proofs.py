@@ -1,8 +1,9 @@
-"""The proof that each program computes its formula: what each step must equal, over sympy, and each decision.
+"""What the program of each formula must compute and decide, and the proof that it does.
 
-The numbers of a program are evaluated in symbols and compared with the derivation. Its decision is tested for every
-combination of signs (decisions.py). The rules themselves rest on the identities of links.py and on the argument in
-listings.py.
+The numbers of a program are evaluated in symbols and compared with the derivation. A decision reads its numbers only
+through comparisons with 0 and with 3A, −3B, −A, B and B². The values tried meet every combination of outcomes of these
+that can occur, so agreement on all of them is agreement everywhere. The rules themselves rest on the identities of
+links.py and on the argument in listings.py.
 """
 
 from __future__ import annotations
@@ -10,12 +11,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cache
+from itertools import product
 
 import numpy as np
 import sympy
 
 from hypcheck.derivation import links, pencil
-from hypcheck.derivation.decisions import DecisionRule, decisions
 from hypcheck.derivation.evaluation import OPERATORS, Arithmetic, evaluate, outputs
 from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS, REPAIRED, Formula
@@ -81,11 +82,6 @@ class Obligation:
     letters: tuple[str, ...] = ()
 
 
-def obligations(formula_name: str) -> tuple[Obligation, ...]:
-    """All that the numbers of the formula by that name must be. Raises KeyError for a name that has none."""
-    return tuple(_OBLIGATIONS[formula_name]())
-
-
 def letter(name: str) -> sympy.Symbol:
     """The symbol of an input or of a step that counts as a letter."""
     return INPUTS.get(name) or symbol(name)
@@ -114,7 +110,7 @@ def _hessian() -> Iterable[Obligation]:
 
 
 def _slopes() -> Iterable[Obligation]:
-    slope = sympy.diff(links.GENERIC_CUBIC, LAMBDA)
+    slope = sympy.diff(pencil.GENERIC_CUBIC, LAMBDA)
     letters = ("c1", "c2", "A", "B")
     yield Obligation("slope_at_B", slope.subs(LAMBDA, B), letters)
     yield Obligation("slope_at_minus_A", slope.subs(LAMBDA, -A), letters)
@@ -134,7 +130,7 @@ def _local_maximum() -> Iterable[Obligation]:
     yield Obligation("h1", h1, ("c1", "c2"))
     yield Obligation("from_c1", links.local_maximum(), ("c1", "c2"))
     yield Obligation("from_c2", links.local_maximum(), ("c1", "c2"))
-    yield Obligation("g_m", links.GENERIC_CUBIC.subs(LAMBDA, symbol("lambda_m")), (*_COEFFICIENTS, "lambda_m"))
+    yield Obligation("g_m", pencil.GENERIC_CUBIC.subs(LAMBDA, symbol("lambda_m")), (*_COEFFICIENTS, "lambda_m"))
 
 
 def _dual() -> Iterable[Obligation]:
@@ -142,7 +138,7 @@ def _dual() -> Iterable[Obligation]:
     yield Obligation("phi", links.PHI, ("A", "B", "P", "Q", "lambda_"))
 
 
-def _four_rotors() -> Iterable[Obligation]:
+def _rotor_numbers() -> Iterable[Obligation]:
     derived = rotor_cubic()
     yield Obligation("c0_s", derived.c0)
     c1, c2 = derived.c1, derived.c2
@@ -150,7 +146,7 @@ def _four_rotors() -> Iterable[Obligation]:
         yield Obligation(f"c1_g{rotor}", c1)
         yield Obligation(f"c2_g{rotor}", c2)
         letters = ("c0_s", f"c1_g{rotor}", f"c2_g{rotor}")
-        renamed = dict(zip((links.C0, links.C1, links.C2), (symbol(name) for name in letters), strict=True))
+        renamed = dict(zip((pencil.C0, pencil.C1, pencil.C2), (symbol(name) for name in letters), strict=True))
         yield Obligation(f"delta_g{rotor}", pencil.discriminant_of_cubic().subs(renamed), letters)
         c1, c2 = next_rotor(c1), next_rotor(c2)
 
@@ -158,7 +154,7 @@ def _four_rotors() -> Iterable[Obligation]:
 def _trigonometric() -> Iterable[Obligation]:
     """λ = (2 √h1 cos θ_k − c2)/3 with cos 3θ = w/(2 h1 √h1), a third of a turn from one θ_k to the next."""
     h1 = links.hessian_coefficients()[0]
-    w = 9 * links.C1 * links.C2 - 2 * links.C2**3 - 27 * links.C0
+    w = 9 * pencil.C1 * pencil.C2 - 2 * pencil.C2**3 - 27 * pencil.C0
     root, three_theta = symbol("root"), symbol("three_theta")
     yield Obligation("delta_27", 27 * pencil.discriminant_of_cubic(), _COEFFICIENTS)
     yield Obligation("root", sympy.sqrt(h1), ("c1", "c2"))
@@ -166,31 +162,207 @@ def _trigonometric() -> Iterable[Obligation]:
     for number, thirds in ((1, 0), (2, 1), (3, -1)):
         cosine = sympy.cos(three_theta / 3 + thirds * 2 * sympy.pi / 3)
         yield Obligation(f"cosine_{number}", cosine, ("three_theta",))
-        value = (2 * root * symbol(f"cosine_{number}") - links.C2) / 3
+        value = (2 * root * symbol(f"cosine_{number}") - pencil.C2) / 3
         yield Obligation(f"r{number}", value, ("c2", "root", f"cosine_{number}"))
 
 
-def _all(*parts: Callable[[], Iterable[Obligation]]) -> Callable[[], Iterable[Obligation]]:
-    return lambda: [obligation for part in parts for obligation in part()]
+SIGNS = (-1, 0, 1)
 
 
-_OBLIGATIONS = {
-    "table-2": _all(_coefficients, _discriminant),
-    "procedure-1": _all(_coefficients, _discriminant),
-    "procedure-2a": _all(_four_rotors),
-    "procedure-2b": _all(_coefficients, _discriminant, _four_rotors),
-    "procedure-2a-spheroid": _all(_coefficients, _discriminant),
-    "procedure-2b-spheroid": _all(_coefficients, _discriminant),
-    "coefficients": _all(_scaled_sizes, _coefficients, _discriminant, _slopes),
-    "hessian": _all(_scaled_sizes, _coefficients, _hessian, _slopes),
-    "shared": _all(_scaled_sizes, _shared, _coefficients, _hessian, _slopes),
-    "local-maximum": _all(_scaled_sizes, _coefficients, _local_maximum),
-    "dual": _all(_dual),
-    "roots-trigonometric": _all(_coefficients, _trigonometric),
-    "procedure-1-repaired": _all(_coefficients, _discriminant, _scaled_sizes, _shared, _in_the_plane),
-    "procedure-2a-repaired": _all(_four_rotors),
-    "procedure-2b-repaired": _all(_coefficients, _discriminant, _four_rotors),
+@dataclass(frozen=True)
+class DecisionRule:
+    """The step must be `rule` of the values of the steps or inputs named in `letters`, on every one of the `cases`.
+
+    `statement` is the rule in words.
+    """
+
+    step: str
+    letters: tuple[str, ...]
+    cases: tuple[tuple[int, ...], ...]
+    rule: Callable[..., int]
+    statement: str
+
+
+def _proposition_3(delta: int, c1: int, c2: int) -> int:
+    return int(delta > 0 and c2 < 0 and c1 > 0)
+
+
+def _inside(c1: int, c2: int) -> bool:
+    return (c2 > 0 and c1 != 0) or (c2 < 0 and c1 < 0)
+
+
+def _one_spheroid(delta: int, c1: int, c2: int) -> int:
+    return int(not delta <= 0 and _inside(c1, c2))
+
+
+def _four_rotors(*signs: int, inside: Callable[[int, int], bool] = _inside) -> int:
+    rotors = tuple(zip(signs[0::3], signs[1::3], signs[2::3], strict=True))
+    if any(delta <= 0 for delta, _, _ in rotors):
+        return 0
+    return int(all(inside(c1, c2) for _, c1, c2 in rotors))
+
+
+def _hull_then_rotors(delta: int, c1: int, c2: int, *rotors: int) -> int:
+    return _four_rotors(*rotors) if delta <= 0 else int(_inside(c1, c2))
+
+
+def _some_negative(c1: int, c2: int) -> bool:
+    return not (c2 < 0 and c1 > 0)
+
+
+def _four_rotors_repaired(*signs: int) -> int:
+    return _four_rotors(*signs, inside=_some_negative)
+
+
+def _hull_then_rotors_repaired(delta: int, c1: int, c2: int, *rotors: int) -> int:
+    return int((delta > 0 and _some_negative(c1, c2)) or _four_rotors_repaired(*rotors))
+
+
+def _procedure_1_repaired(delta: int, c1: int, c2: int, Q: int, E: int, EE: int, four_A: int) -> int:
+    return int(E > 0 and EE > four_A) if Q == 0 else _proposition_3(delta, c1, c2)
+
+
+def _all_regimes(delta: int, c1: int, c2: int, A: int, B: int, Q: int, slope_at_B: int, slope_at_minus_A: int) -> int:
+    all_positive = c2 < 0 and c1 > 0
+    ring = Q == 0 and slope_at_B == 0 and A < B**2
+    if ring or (delta > 0 and all_positive and not (c2 < -3 * B and slope_at_B > 0)):
+        return 1
+    return -1 if delta > 0 and not all_positive and c2 < 3 * A and slope_at_minus_A > 0 else 0
+
+
+def _side(at: int, A: int, B: int) -> int:
+    """The sign of a λ between the poles −A and B; 0 elsewhere."""
+    return (at > 0) - (at < 0) if -A < at < B else 0
+
+
+_ONE = ("delta", "c1", "c2")
+_PATTERNS = tuple(product(SIGNS, repeat=3))
+_ROTOR_LETTERS = tuple(f"{name}_g{rotor}" for rotor in ROTORS for name in _ONE)
+_RIGHT, _TOUCHING, _OUTSIDE = (1, 1, 1), (0, 1, 1), (1, 1, -1)
+
+
+def _rotor_cases() -> Iterable[tuple[int, ...]]:
+    """Every pattern of each rotor beside three that are right, and all mixtures of right, touching and outside."""
+    for rotor, pattern in product(range(len(ROTORS)), _PATTERNS):
+        yield _RIGHT * rotor + pattern + _RIGHT * (len(ROTORS) - 1 - rotor)
+    for mixture in product((_RIGHT, _TOUCHING, _OUTSIDE), repeat=len(ROTORS)):
+        yield sum(mixture, ())
+
+
+_PROPOSITION_3 = DecisionRule("valid", _ONE, _PATTERNS, _proposition_3, "valid ⟺ Δ > 0, c2 < 0 and c1 > 0")
+_INTERIOR_RULE = "[c2 > 0; c1 ≠ 0] or [c2 < 0; c1 < 0]"
+_ONE_SPHEROID = DecisionRule("valid", _ONE, _PATTERNS, _one_spheroid, f"valid ⟺ not Δ ≤ 0, and {_INTERIOR_RULE}")
+_FOUR_ROTORS = DecisionRule(
+    "valid",
+    _ROTOR_LETTERS,
+    tuple(_rotor_cases()),
+    _four_rotors,
+    f"non-valid if Δ(g_i) ≤ 0 for some i; else valid ⟺ {_INTERIOR_RULE} for all i",
+)
+_HULL_THEN_ROTORS = DecisionRule(
+    "valid",
+    (*_ONE, *_ROTOR_LETTERS),
+    tuple(hull + rotors for hull, rotors in product(_PATTERNS, _rotor_cases())),
+    _hull_then_rotors,
+    f"as Procedure 2.a where Δ ≤ 0; else valid ⟺ {_INTERIOR_RULE}",
+)
+_REPAIRED_RULE = "Δ > 0 and not (c2 < 0 and c1 > 0)"
+_FOUR_ROTORS_REPAIRED = DecisionRule(
+    "valid", _ROTOR_LETTERS, _FOUR_ROTORS.cases, _four_rotors_repaired, f"valid ⟺ {_REPAIRED_RULE} for each rotor"
+)
+_HULL_THEN_ROTORS_REPAIRED = DecisionRule(
+    "valid",
+    _HULL_THEN_ROTORS.letters,
+    _HULL_THEN_ROTORS.cases,
+    _hull_then_rotors_repaired,
+    f"valid ⟺ {_REPAIRED_RULE} for the bounding spheroid, or for each rotor",
+)
+_PROCEDURE_1_REPAIRED = DecisionRule(
+    "answer",
+    (*_ONE, "Q", "E", "EE", "four_A"),
+    tuple(pattern + rest for pattern in _PATTERNS for rest in product(SIGNS, repeat=4)),
+    _procedure_1_repaired,
+    "valid ⟺ Q = 0, E > 0 and E² > 4A, or Q ≠ 0, Δ > 0, c2 < 0 and c1 > 0",
+)
+_SIZES_TRIED = ((1, 1), (1, 2), (2, 1))  # A = B², A < B² and A > B²
+
+
+def _all_regimes_decision(discriminant: str) -> DecisionRule:
+    # c2 below, at and above −3B, 0 and 3A, for A and B up to 2.
+    cases = tuple(
+        (delta, c1, c2, *sizes, Q, at_B, at_minus_A)
+        for delta, c1, c2, sizes, Q, at_B, at_minus_A in product(
+            SIGNS, SIGNS, (-7, -6, -4, -3, -1, 0, 1, 3, 4, 6, 7), _SIZES_TRIED, SIGNS, SIGNS, SIGNS
+        )
+    )
+    letters = (discriminant, "c1", "c2", "A", "B", "Q", "slope_at_B", "slope_at_minus_A")
+    return DecisionRule(
+        "position",
+        letters,
+        cases,
+        _all_regimes,
+        "exterior ⟺ Δ > 0, c2 < 0, c1 > 0 and not (c2 < −3B and g'(B) > 0), or Q = 0, g'(B) = 0 and A < B²; "
+        "interior ⟺ Δ > 0, not (c2 < 0 and c1 > 0), c2 < 3A and g'(−A) > 0",
+    )
+
+
+_AROUND = tuple(range(-3, 4))  # below, at, between and above −A, 0 and B, for A and B up to 2
+_LOCAL_MAXIMUM = DecisionRule(
+    "position",
+    ("h1", "lambda_m", "g_m", "A", "B"),
+    tuple((h1, at, g, *sizes) for h1, at, g, sizes in product(SIGNS, _AROUND, SIGNS, _SIZES_TRIED)),
+    lambda h1, lambda_m, g_m, A, B: _side(lambda_m, A, B) if h1 > 0 and g_m > 0 else 0,
+    "the sign of λm where h1 > 0, g(λm) > 0 and −A < λm < B, else contact",
+)
+_CHOICE = DecisionRule(
+    "lambda_m",
+    ("c2", "from_c1", "from_c2"),
+    tuple((c2, 5, 7) for c2 in SIGNS),
+    lambda c2, from_c1, from_c2: from_c1 if c2 < 0 else from_c2,
+    "λm = c1/(−c2 + √h1) where c2 < 0, else (−c2 − √h1)/3",
+)
+_DUAL = DecisionRule(
+    "position",
+    ("phi", "lambda_", "A", "B"),
+    tuple((phi, at, *sizes) for phi, at, sizes in product(SIGNS, _AROUND, _SIZES_TRIED)),
+    lambda phi, lambda_, A, B: _side(lambda_, A, B) if phi > 0 else 0,
+    "the sign of λ where φ(λ) > 0 and −A < λ < B, else 0",
+)
+
+_ALL_POSITIVE = DecisionRule(
+    "valid",
+    ("delta_27", "r1", "r2", "r3"),
+    tuple(product(SIGNS, repeat=4)),
+    lambda *signs: int(min(signs) > 0),
+    "valid ⟺ Δ > 0 and all three roots are positive",
+)
+
+_SIZED = (_scaled_sizes, _coefficients)
+_BY_DELTA = (_coefficients, _discriminant)
+
+_REQUIREMENTS: dict[str, tuple[tuple[Callable[[], Iterable[Obligation]], ...], tuple[DecisionRule, ...]]] = {
+    "table-2": (_BY_DELTA, (_PROPOSITION_3,)),
+    "procedure-1": (_BY_DELTA, (_PROPOSITION_3,)),
+    "procedure-2a": ((_rotor_numbers,), (_FOUR_ROTORS,)),
+    "procedure-2b": ((*_BY_DELTA, _rotor_numbers), (_HULL_THEN_ROTORS,)),
+    "procedure-2a-spheroid": (_BY_DELTA, (_ONE_SPHEROID,)),
+    "procedure-2b-spheroid": (_BY_DELTA, (_ONE_SPHEROID,)),
+    "coefficients": ((*_SIZED, _discriminant, _slopes), (_all_regimes_decision("delta"),)),
+    "hessian": ((*_SIZED, _hessian, _slopes), (_all_regimes_decision("delta_3"),)),
+    "shared": ((_scaled_sizes, _shared, _coefficients, _hessian, _slopes), (_all_regimes_decision("delta_3"),)),
+    "local-maximum": ((*_SIZED, _local_maximum), (_LOCAL_MAXIMUM, _CHOICE)),
+    "dual": ((_dual,), (_DUAL,)),
+    "roots-trigonometric": ((_coefficients, _trigonometric), (_ALL_POSITIVE,)),
+    "procedure-1-repaired": ((*_BY_DELTA, _scaled_sizes, _shared, _in_the_plane), (_PROCEDURE_1_REPAIRED,)),
+    "procedure-2a-repaired": ((_rotor_numbers,), (_FOUR_ROTORS_REPAIRED,)),
+    "procedure-2b-repaired": ((*_BY_DELTA, _rotor_numbers), (_HULL_THEN_ROTORS_REPAIRED,)),
 }
+"""What the numbers and the answer of each formula must be, by its name."""
+
+
+def decisions(formula_name: str) -> tuple[DecisionRule, ...]:
+    """All that the answer of the formula by that name must be. Raises KeyError for a name that has none."""
+    return _REQUIREMENTS[formula_name][1]
 
 
 @dataclass(frozen=True)
@@ -225,9 +397,10 @@ def proofs_of(formula: Formula) -> tuple[Proof, ...]:
 
 def prove(formula: Formula) -> Iterable[Proof]:
     """The proofs of one formula, by its name: what a program of that name must compute and must decide."""
-    for obligation in obligations(formula.name):
+    numbers, answers = _REQUIREMENTS[formula.name]
+    for obligation in (obligation for required in numbers for obligation in required()):
         yield _prove_number(formula, obligation)
-    for decision in decisions(formula.name):
+    for decision in answers:
         yield _prove_decision(formula, decision)
 
 

@@ -21,12 +21,7 @@ from itertools import product
 import sympy
 
 from hypcheck.derivation import pencil
-from hypcheck.derivation.decisions import SIGNS
 from hypcheck.derivation.links import (
-    C0,
-    C1,
-    C2,
-    GENERIC_CUBIC,
     Chain,
     FiniteCases,
     Link,
@@ -36,7 +31,8 @@ from hypcheck.derivation.links import (
     link,
     sign,
 )
-from hypcheck.derivation.pencil import LAMBDA, A, B, P, Q, discriminant_of_cubic, symbol
+from hypcheck.derivation.pencil import C0, C1, C2, GENERIC_CUBIC, LAMBDA, A, B, P, Q, discriminant_of_cubic, symbol
+from hypcheck.derivation.proofs import SIGNS
 
 ROOTS = tuple(symbol(name) for name in ("r1", "r2", "s"))
 
@@ -402,8 +398,7 @@ def _two_negative() -> Link:
 def _dropped() -> Link:
     """The interior positions that the printed condition drops; c0 = −r, r > 0."""
     p, q, r = (symbol(name) for name in "pqr")
-    generic = pencil.discriminant_of_cubic()
-    c2, c1, c0 = (symbol(name) for name in ("c2", "c1", "c0"))
+    generic = discriminant_of_cubic()
     return link(
         "Of these interior positions the printed [c2 > 0, c1 ≠ 0] or [c2 < 0, c1 < 0] drops those with c2 = 0 > c1 and "
         "those with c1 = 0 < c2, and no others: c2 = 0 ≤ c1 = q and c1 = 0 ≥ c2 = −p have Δ < 0 (as Δ(c2, c1, c0), c0 "
@@ -413,9 +408,9 @@ def _dropped() -> Link:
             tuple(product(SIGNS, repeat=2)),
             only_zeros_are_dropped,
         ),
-        identity("Δ(0, q, −r) = −4·q³ − 27·r²", generic.subs({c2: 0, c1: q, c0: -r})),
+        identity("Δ(0, q, −r) = −4·q³ − 27·r²", generic.subs({C2: 0, C1: q, C0: -r})),
         sign("−4·q³ − 27·r² < 0", "r", "q"),
-        identity("Δ(−p, 0, −r) = −4·p³·r − 27·r²", generic.subs({c1: 0, c2: -p, c0: -r})),
+        identity("Δ(−p, 0, −r) = −4·p³·r − 27·r²", generic.subs({C1: 0, C2: -p, C0: -r})),
         sign("−4·p³·r − 27·r² < 0", "r", "p"),
     )
 

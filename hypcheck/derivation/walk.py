@@ -13,10 +13,6 @@ import sympy
 
 from hypcheck.derivation import pencil
 from hypcheck.derivation.links import (
-    C0,
-    C1,
-    C2,
-    GENERIC_CUBIC,
     Chain,
     chain,
     hessian_coefficients,
@@ -26,7 +22,7 @@ from hypcheck.derivation.links import (
     matrix_identity,
     printed,
 )
-from hypcheck.derivation.pencil import LAMBDA, read, symbol
+from hypcheck.derivation.pencil import C0, C1, C2, GENERIC_CUBIC, LAMBDA, read, symbol
 from hypcheck.derivation.printed_equations import rotor_meanings
 
 

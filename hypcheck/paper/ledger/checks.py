@@ -1,4 +1,4 @@
-"""The checks that claims.toml names: small identities, the table of root patterns, pairs with one cubic, and counts."""
+"""The checks that claims.toml names: small identities, the table of root patterns, pairs with one cubic."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from hypcheck.derivation.links import known
 from hypcheck.derivation.pencil import read, symbol
 from hypcheck.derivation.printed_equations import check, equality, printed_claims
 from hypcheck.geometry.pair import UPRIGHT, Pair, Position
-from hypcheck.paper.ledger import counts, points, statements
+from hypcheck.paper.ledger import points, statements
 from hypcheck.paper.ledger.entry import Evidence, by_printed, described, signs, with_counterexample
 from hypcheck.proofs.build import pattern_table
 from hypcheck.truth import exact
@@ -309,21 +309,3 @@ def _with_end(pair: Pair) -> str:
     alpha, gamma, b, d, *center = (f"{number:g}" for number in pair.row[:7])
     text = f"α = {alpha}, γ = {gamma}, b = {b}, d = {d}, C = ({', '.join(center)}), z_max = {pair.z_max:g}:"
     return text.replace("-", "−")
-
-
-CHECKS: dict[str, Callable[[], Evidence]] = {
-    check.__name__: check
-    for check in (
-        discriminant_and_coefficients, listed_patterns, patterns_in_coq, same_cubic_of_interior_and_contact,
-        same_cubic_of_exterior_and_contact, misled_by_12, regime_of_section_4, roots_of_f, scaling_of_the_spheroid,
-        mirrored_cubic, constant_of_the_cubic, squares_of_t1_and_t2, radius_at_a_height, probabilities,
-        spheroid_after_a_turn, tilted_spheroid, tilted_spheroid_is_another, changed_by_tilt,
-        counts.divisions_of_table_2, counts.operations_of_the_sizes, counts.operations_of_roots,
-        counts.directions_of_rotors, counts.share_of_discriminants, counts.discriminants_closest_to_zero,
-        counts.discriminant_is_no_distance, counts.discriminant_falls_at_each_height, counts.greatest_share,
-        counts.rows_fall, counts.columns_fall, counts.equal_steps, counts.second_row_read_as_a_quarter,
-        statements.refused_for_a_zero_coefficient, statements.refused_though_the_hull_is_in_contact,
-        statements.valid_though_the_body_meets_the_wall, missed_by_the_centres_height,
-    )
-}  # fmt: skip
-"""By the names that claims.toml has."""

@@ -23,8 +23,7 @@ from typing import Generic, TypeVar
 import sympy
 
 from hypcheck.derivation import pencil
-from hypcheck.derivation.links import GENERIC_CUBIC
-from hypcheck.derivation.pencil import LAMBDA, A, B, P, Q
+from hypcheck.derivation.pencil import C0, C1, C2, GENERIC_CUBIC, LAMBDA, A, B, P, Q
 from hypcheck.geometry.pair import Lengths, Pair, Position
 from hypcheck.truth import exact
 from hypcheck.truth.certificate import Certificate, check_certificate
@@ -135,12 +134,11 @@ def _of_coefficients(point: Point, c0: Fraction, c1: Fraction, c2: Fraction, pos
 @cache
 def _polynomials() -> dict[str, Rational]:
     derived = pencil.cubic()
-    coefficients = tuple(sympy.symbols("c2 c1 c0", real=True))
     polynomials = {
         name: rational((pencil.A, pencil.B, pencil.P, pencil.Q), getattr(derived, name)) for name in ("c0", "c1", "c2")
     }
-    polynomials["delta"] = rational(coefficients, pencil.discriminant_of_cubic())
-    polynomials["slope"] = rational((*coefficients[:2], LAMBDA), GENERIC_CUBIC.diff(LAMBDA))
+    polynomials["delta"] = rational((C2, C1, C0), pencil.discriminant_of_cubic())
+    polynomials["slope"] = rational((C2, C1, LAMBDA), GENERIC_CUBIC.diff(LAMBDA))
     return polynomials
 
 

@@ -11,9 +11,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 
-from hypcheck.derivation.decisions import decisions
 from hypcheck.derivation.evaluation import EXACT
 from hypcheck.derivation.formulas import FORMULAS, answers
+from hypcheck.derivation.proofs import decisions
 from hypcheck.geometry.pair import COLUMNS, Position
 from hypcheck.paper.ledger.entry import Evidence, described, with_counterexample
 from hypcheck.paper.ledger.points import (
@@ -266,19 +266,37 @@ def refused_though_inside(hull: PointFacts) -> Quadcopter | None:
     return next((quadcopter for quadcopter in inside if not quadcopter.answer), None)
 
 
-def refusal(where: Condition, shows: str) -> Evidence:
-    """The simplest hull in a regime at which Procedure 2.b refuses four interior rotors, and the farthest rotor."""
-    search = first_point(lambda hull: refused_though_inside(hull) is not None, where)
-    quadcopter = refused_though_inside(search.found) if search.found else None
+def _hull_and_rotor(
+    decided: Callable[[PointFacts], Quadcopter | None],
+    where: Condition,
+    shows: str,
+    text: Callable[[PointWitness, Quadcopter], str],
+) -> Evidence:
+    """The simplest hull in a regime with a quadcopter that is decided wrongly, and its farthest rotor.
+
+    `shows` says what the hull shows, and `text` what the hull and its quadcopter show together.
+    """
+    search = first_point(lambda hull: decided(hull) is not None, where)
+    quadcopter = decided(search.found) if search.found else None
     if search.found is None or quadcopter is None:
         return Evidence("search", f"nothing found among {search.tried:,} hulls", holds=False)
-    rotor = facts(quadcopter.farthest)
-    witnesses = (
-        witness(search.found, f"the hull: {shows}"),
-        witness(rotor, "a rotor at r + l, in rotor radii: interior"),
+    hull = witness(search.found, shows)
+    rotor = witness(facts(quadcopter.farthest), "a rotor at r + l, in rotor radii: interior")
+    return Evidence("search", text(hull, quadcopter), hull.holds and rotor.holds, (hull, rotor))
+
+
+def refusal(where: Condition, shows: str) -> Evidence:
+    """The simplest hull in a regime at which Procedure 2.b refuses four interior rotors, and the farthest rotor."""
+    return _hull_and_rotor(
+        refused_though_inside,
+        where,
+        f"the hull: {shows}",
+        lambda hull, quadcopter: f"hull {described(hull.facts)}; {_small_rotors(quadcopter)}",
     )
-    text = f"hull {described(search.found)}; rotors of {quadcopter.size} its size on arms of {quadcopter.arm} interior"
-    return Evidence("search", text, all(witness.holds for witness in witnesses), witnesses)
+
+
+def _small_rotors(quadcopter: Quadcopter) -> str:
+    return f"rotors of {quadcopter.size} its size on arms of {quadcopter.arm} interior"
 
 
 def refused_for_a_zero_coefficient() -> Evidence:
@@ -300,22 +318,20 @@ def valid_though_the_body_meets_the_wall() -> Evidence:
     The body is in contact, the rotors are interior, and the certificate of contact has a point of the body's spheroid
     beyond the wall: a part at this point would collide.
     """
-    search = first_point(lambda hull: cleared_by_its_rotors(hull) is not None, _crossing)
-    quadcopter = cleared_by_its_rotors(search.found) if search.found else None
-    if search.found is None or quadcopter is None:
-        return Evidence("search", f"nothing found among {search.tried:,} hulls", holds=False)
-    rotor = facts(quadcopter.farthest)
-    witnesses = (
-        witness(search.found, "the body: contact, and called valid since its rotors are interior"),
-        witness(rotor, "a rotor at r + l, in rotor radii: interior"),
+    return _hull_and_rotor(
+        cleared_by_its_rotors,
+        _crossing,
+        "the body: contact, and called valid since its rotors are interior",
+        _beside_the_rotors,
     )
-    part = part_beyond_the_wall(witnesses[0])
-    where = ", ".join(map(str, part)).replace("-", "−")
-    text = (
-        f"body {described(search.found)}; its point ({where}) is beyond the wall; rotors of {quadcopter.size} its size "
-        f"on arms of {quadcopter.arm} interior, and the movement valid"
+
+
+def _beside_the_rotors(body: PointWitness, quadcopter: Quadcopter) -> str:
+    where = ", ".join(map(str, part_beyond_the_wall(body))).replace("-", "−")
+    return (
+        f"body {described(body.facts)}; its point ({where}) is beyond the wall; {_small_rotors(quadcopter)}, "
+        "and the movement valid"
     )
-    return Evidence("search", text, all(witness.holds for witness in witnesses), witnesses)
 
 
 def _crossing(hull: PointFacts) -> bool:
