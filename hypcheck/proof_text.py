@@ -67,39 +67,39 @@ def reach_of_point(pair: Pair, point: Point) -> Fraction:
 
 def proof_as_json(pair: Pair, certificate: Certificate) -> dict[str, Any]:
     """A certificate about a pair, and the numbers that check it, as values for JSON."""
-    if pair.has_ends:
-        return _ended_proof_as_json(pair, certificate)
-    if not pair.is_upright:
-        return _tilted_proof_as_json(pair, certificate)
-    squares = PairSquares.of(pair)
-    if certificate.multiplier is not None:
-        outside = certificate.position is Position.EXTERIOR
-        return {
-            "by": "multiplier",
-            "lambda": exact_text(certificate.multiplier),
-            "between": ["0", exact_text(squares.B)] if outside else [exact_text(-squares.A), "0"],
-            **_squares_as_json(squares),
-            "g": exact_text(squares.g(certificate.multiplier)),
-        }
-    if certificate.double_root is not None:
-        return {
-            "by": "double root",
-            "m": exact_text(certificate.double_root),
-            "third_root": exact_text(squares.third_root(certificate.double_root)),
-            **_squares_as_json(squares),
-        }
-    return _points_as_json(pair, certificate.points)
-
-
-def _ended_proof_as_json(pair: Pair, certificate: Certificate) -> dict[str, Any]:
-    """The proof of a pair whose hyperboloid ends, as JSON."""
     if certificate.points:
-        return _points_as_json(pair, certificate.points)
-    if certificate.multiplier is not None:
-        return {"by": "multiplier", "lambda": exact_text(certificate.multiplier)}
+        return {"by": "points", "points": [_point_as_json(pair, point) for point in certificate.points]}
     if certificate.pieces:
         return {"by": "pieces", "pieces": [_piece_as_json(piece) for piece in certificate.pieces]}
+    if certificate.multiplier is not None:
+        numbers = _numbers_of_multiplier(pair, certificate.position, certificate.multiplier)
+        return {"by": "multiplier", "lambda": exact_text(certificate.multiplier), **numbers}
+    if certificate.double_root is not None:
+        numbers = _numbers_of_double_root(pair, certificate.double_root)
+        return {"by": "double root", "m": exact_text(certificate.double_root), **numbers}
     return {"by": "rule in the height"}
+
+
+def _numbers_of_multiplier(pair: Pair, position: Position, at: Fraction) -> dict[str, Any]:
+    """The interval of an upright λ and g there, the pivots of a tilted S + λH; nothing if the hyperboloid ends."""
+    if pair.has_ends:
+        return {}
+    if not pair.is_upright:
+        return {"pivots": list(map(exact_text, _pivots(pair, at, 4)))}
+    squares = PairSquares.of(pair)
+    between = (Fraction(0), squares.B) if position is Position.EXTERIOR else (-squares.A, Fraction(0))
+    return {"between": list(map(exact_text, between)), **_squares_as_json(squares), "g": exact_text(squares.g(at))}
+
+
+def _numbers_of_double_root(pair: Pair, m: Fraction) -> dict[str, Any]:
+    """The third root of an upright g, the quartic f of a tilted pair and the pivots of M + mD."""
+    if not pair.is_upright:
+        return {
+            "f": list(map(exact_text, _quartic(pair))),
+            "pivots": list(map(exact_text, _pivots(pair, m, 3))),
+        }
+    squares = PairSquares.of(pair)
+    return {"third_root": exact_text(squares.third_root(m)), **_squares_as_json(squares)}
 
 
 def _piece_as_json(piece: Piece) -> dict[str, str]:
@@ -110,26 +110,6 @@ def _piece_as_json(piece: Piece) -> dict[str, str]:
         "lambda": exact_text(piece.multiplier),
         "mu": exact_text(piece.plane),
     }
-
-
-def _tilted_proof_as_json(pair: Pair, certificate: Certificate) -> dict[str, Any]:
-    """The proof of a tilted pair, as JSON: pivots of S + λH, or the quartic f of a double root and pivots of M + mD."""
-    if certificate.multiplier is not None:
-        pivots = _pivots(pair, certificate.multiplier, 4)
-        return {
-            "by": "multiplier",
-            "lambda": exact_text(certificate.multiplier),
-            "pivots": list(map(exact_text, pivots)),
-        }
-    if certificate.double_root is not None:
-        m = certificate.double_root
-        return {
-            "by": "double root",
-            "m": exact_text(m),
-            "f": [exact_text(number) for number in _quartic(pair)],
-            "pivots": list(map(exact_text, _pivots(pair, m, 3))),
-        }
-    return _points_as_json(pair, certificate.points)
 
 
 def _pivots(pair: Pair, at: Fraction, size: int) -> list[Fraction]:
@@ -144,10 +124,6 @@ def _quartic(pair: Pair) -> list[Fraction]:
     F = quartic(pair.lengths)
     lowest_first = [coefficient * F.side**power for power, coefficient in enumerate(reversed(F.coefficients))]
     return [Fraction(number, -F.f0) for number in lowest_first]
-
-
-def _points_as_json(pair: Pair, points: tuple[Point, ...]) -> dict[str, Any]:
-    return {"by": "points", "points": [_point_as_json(pair, point) for point in points]}
 
 
 def _point_as_json(pair: Pair, point: Point) -> dict[str, str]:
@@ -175,9 +151,9 @@ def proof_lines(pair: Pair, certificate: Certificate) -> list[str]:
 
 
 _HEIGHT = "where h = (x²+y²)/α² − z²/γ² − 1"
-
-
 _CENTER = "centre (x₀, y₀, z₀)"
+_FORMS = "S is the matrix of (X−C)ᵀM(X−C) − 1, H that of (x²+y²)/α² − z²/γ² − 1"
+_MATRIX = "M = I/b² + (1/d² − 1/b²)·v·vᵀ/(v·v), v the axis"
 
 
 def _with_note(lines: list[str]) -> list[str]:
@@ -185,20 +161,16 @@ def _with_note(lines: list[str]) -> list[str]:
     return [*lines, *(["≈ marks a rounded number; --json gives all of them exactly."] if rounded else [])]
 
 
-_FORMS = "S is the matrix of (X−C)ᵀM(X−C) − 1, H that of (x²+y²)/α² − z²/γ² − 1"
-
-
 def _ended_proof_lines(pair: Pair, certificate: Certificate) -> list[str]:
-    matrix = "M = I/b² + (1/d² − 1/b²)·v·vᵀ/(v·v), v the axis"
     if certificate.points:
         head = "one in the solid body, one not in its inner part" if pair.solid else "h > 0 and h < 0, between the ends"
         first = f"two points of the spheroid (s ≤ 1), {head}, so that they meet:"
-        return [first, *_point_lines(pair, certificate.points), f"{_HEIGHT}, s = (X−C)ᵀM(X−C), {matrix}."]
+        return [first, *_point_lines(pair, certificate.points), f"{_HEIGHT}, s = (X−C)ᵀM(X−C), {_MATRIX}."]
     if certificate.multiplier is not None:
         return [
             f"λ {equals_text(certificate.multiplier)} makes S + λH positive definite, so that the spheroid misses all",
             "of the surface, with or without ends; the heights of the spheroid and its centre say the rest.",
-            f"{_FORMS}, {matrix}.",
+            f"{_FORMS}, {_MATRIX}.",
         ]
     if certificate.pieces:
         count = counted(len(certificate.pieces), "piece")
@@ -206,7 +178,7 @@ def _ended_proof_lines(pair: Pair, certificate: Certificate) -> list[str]:
             f"the heights are cut into {count}, each with numbers λ and μ for which S + λH + μZ is positive",
             "definite, so that the spheroid misses that part; Z = (z−low)(z−high), or low−z, or z−high:",
             *(_piece_line(piece) for piece in certificate.pieces),
-            f"{_FORMS}, {matrix}.",
+            f"{_FORMS}, {_MATRIX}.",
         ]
     return [
         "no point can be written in rational numbers that shows this contact: it is a touch, or too near to one. The",
@@ -221,7 +193,6 @@ def _piece_line(piece: Piece) -> str:
 
 
 def _tilted_proof_lines(pair: Pair, certificate: Certificate) -> list[str]:
-    matrix = "M = I/b² + (1/d² − 1/b²)·v·vᵀ/(v·v), v the axis"
     if certificate.multiplier is not None:
         at, side = certificate.multiplier, "above" if certificate.multiplier > 0 else "below"
         return _with_note(
@@ -229,8 +200,8 @@ def _tilted_proof_lines(pair: Pair, certificate: Certificate) -> list[str]:
                 f"λ {equals_text(at)} is {side} 0, and S + λH is positive definite;",
                 f"any such λ proves {certificate.position.label}. By hand, elimination leaves pivots above 0:",
                 ", ".join(map(readable_text, _pivots(pair, at, 4))),
-                "where S is the matrix of (X−C)ᵀM(X−C) − 1, H that of (x²+y²)/α² − z²/γ² − 1,",
-                f"{matrix}.",
+                f"where {_FORMS},",
+                f"{_MATRIX}.",
             ]
         )
     if certificate.double_root is not None:
@@ -242,11 +213,11 @@ def _tilted_proof_lines(pair: Pair, certificate: Certificate) -> list[str]:
                 ", ".join(map(readable_text, pivots)),
                 f"this proves that the surfaces touch. By hand, f(m) = f′(m) = 0{at_pole}, where up to a factor",
                 f"f(t) = det(S + tH) = {_polynomial(_quartic(pair))},",
-                "S is the matrix of (X−C)ᵀM(X−C) − 1, H that of (x²+y²)/α² − z²/γ² − 1, D = diag(1/α², 1/α², −1/γ²),",
-                f"{matrix}.",
+                f"{_FORMS}, D = diag(1/α², 1/α², −1/γ²),",
+                f"{_MATRIX}.",
             ]
         )
-    by_hand = f"{_HEIGHT}, s = (X−C)ᵀM(X−C), {matrix}."
+    by_hand = f"{_HEIGHT}, s = (X−C)ᵀM(X−C), {_MATRIX}."
     return _with_note([*_by_points(pair, certificate.points), by_hand])
 
 
