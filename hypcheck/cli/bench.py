@@ -28,18 +28,14 @@ WORKLOADS = options.Names(options.workloads, many=True)
 )
 @click.option("--methods", type=METHODS, help="Names and globs, separated by commas.  [default: all]")
 @click.option("--workloads", type=WORKLOADS, help="Names and globs, separated by commas.  [default: all]")
-@click.option("--seed", type=options.IntegerOption(0, options.LARGEST_SEED), default=1, show_default=True)
+@options.SEED
 @click.option(
     "--processes", type=options.IntegerOption(1), help="Number of fresh processes that measure.  [default: 5; quick: 3]"
 )
 @click.option(
     "--rounds", type=options.IntegerOption(1), help="Number of rounds in each process.  [default: 5; quick: 3]"
 )
-@click.option(
-    "--workers",
-    type=options.IntegerOption(1, options.MOST_PROCESSES),
-    help="Number of processes that judge answers.  [default: one a processor]",
-)
+@options.workers("Number of processes that judge answers.  [default: one a processor]")
 @click.option("--baseline", type=click.Path(path_type=Path), help="An earlier record, or its folder, to compare with.")
 @click.option(
     "--max-slowdown", type=options.NumberOption(1), help="Largest time allowed relative to --baseline.  [default: 1.1]"

@@ -45,7 +45,7 @@ def show(name: str, as_json: bool) -> None:
 
 @cases.command(short_help="Make rows of a family, as many as you like.")
 @click.argument("family", metavar="FAMILY", type=options.Names(options.families))
-@click.option("--seed", type=options.IntegerOption(0, options.LARGEST_SEED), default=1, show_default=True)
+@options.SEED
 @click.option("--count", type=options.IntegerOption(1), default=100, show_default=True, help="Number of rows.")
 @click.option(
     "--format", "format_name", type=click.Choice(_FORMATS), help="By default the ending of --output, or json."

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 about_one_implementation = options.with_options(
     options.QUESTION,
     options.PRECISION,
-    click.option("--domain", metavar="JSON", help="The domain to ask in, instead of the declared domain."),
+    options.DOMAIN,
     click.option("--regimes", metavar="NAMES", help="any, or a>=1 or c2>=a or both.  [default: as declared]"),
     options.TOLERANCE,
     options.with_limits,
@@ -108,7 +108,7 @@ Ends with 0 if no answer was wrong beyond the tolerance (which proves nothing), 
     type=options.IntegerOption(1),
     help="Largest number of rows to ask; without --budget, a run is reproducible.",
 )
-@click.option("--seed", type=options.IntegerOption(0, options.LARGEST_SEED), default=1, show_default=True)
+@options.SEED
 @click.option(
     "--show",
     type=options.IntegerOption(0),
@@ -273,7 +273,7 @@ Ends with 0 if the answer is right or tolerated, 1 if it is not, 5 if SPEC canno
 @click.option("--json", "as_json", is_flag=True, help="One JSON object, its proof in exact numbers.")
 @options.PRECISION
 @options.QUESTION
-@click.option("--domain", metavar="JSON", help="The domain where it must be right, instead of the declared domain.")
+@options.DOMAIN
 @options.TOLERANCE
 @options.with_limits
 @click.pass_context
@@ -333,7 +333,7 @@ hypcheck explain ring --format json
 
 @click.command(help=_HELP, short_help="Explain a cause of wrong answers by its id.")
 @click.argument("name", metavar="[ID]", required=False, type=options.Names(options.causes))
-@click.option("--format", "form", type=click.Choice(["text", "json"]), default="text", show_default=True)
+@options.FORMAT
 def explain(name: str | None, form: str) -> None:
     """Explain, and print the result."""
     from hypcheck.runs import explain as known

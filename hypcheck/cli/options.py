@@ -278,15 +278,34 @@ SEE = click.option(
     help="A further file or folder that the isolated implementation sees; may be given often.",
 )
 
+SEED = click.option(
+    "--seed", type=IntegerOption(0, LARGEST_SEED), default=1, show_default=True, help="Seed of the random numbers."
+)
+FORMAT = click.option(
+    "--format",
+    "form",
+    type=click.Choice(["text", "json"]),
+    default="text",
+    show_default=True,
+    help="The format of the output.",
+)
 QUESTION = click.option(
-    "--question", metavar="WHAT", help="position, exterior, interior or contact.  [default: as declared]"
+    "--question", metavar="WHAT", help="position, exterior, interior, contact or passage.  [default: as declared]"
 )
 PRECISION = click.option(
     "--precision", metavar="FORMAT", help="The precision whose unit roundoff is u.  [default: as declared]"
 )
+DOMAIN = click.option(
+    "--domain", metavar="JSON", help="The domain where it must be right, as JSON.  [default: as declared]"
+)
 TOLERANCE = click.option(
     "--tolerance", type=NumberOption(0), default=8.0, show_default=True, help="Backward error that passes, in u."
 )
+
+
+def workers(wanted: str) -> Callable[[Command], Command]:
+    """The option --workers of a command; `wanted` is its help."""
+    return click.option("--workers", type=IntegerOption(1, MOST_PROCESSES), help=wanted)
 
 
 def with_options(*options: Callable[[Command], Command]) -> Callable[[Command], Command]:

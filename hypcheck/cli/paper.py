@@ -79,23 +79,14 @@ def _write(lines: Iterable[str], output: str) -> None:
             file.write(f"{line}\n".encode())
 
 
-SEED = click.option("--seed", type=options.IntegerOption(0, options.LARGEST_SEED), default=1, show_default=True)
 OUT = click.option("--out", type=options.OutputPath(), help="A folder for the JSON and the pictures.")
 CONTINUOUS = click.option("--continuous", is_flag=True, help="Also decide exactly what happens between the positions.")
 ENDS = click.option(
     "--ends", is_flag=True, help="Also decide exactly beside what ends, not by the centre's height alone."
 )
-FORMAT = click.option(
-    "--format",
-    "form",
-    type=click.Choice(["text", "json"]),
-    default="text",
-    show_default=True,
-    help="The format of the output.",
-)
 SHOW = click.option("--show-scene", is_flag=True, help="Print the file of a shipped scene, for you to change, and end.")
 
-common = options.with_options(SEED, CONTINUOUS, ENDS, OUT, FORMAT, SHOW)
+common = options.with_options(options.SEED, CONTINUOUS, ENDS, OUT, options.FORMAT, SHOW)
 """A decorator of commands: the options that both simulations have."""
 
 
@@ -171,11 +162,7 @@ def forest(name: str, steps: int | None, seed: int, out: Path | None, form: str,
     metavar="DEGREES",
     help="Fly the table with a quadcopter tilted by this angle into its movement, and count the wrong answers.",
 )
-@click.option(
-    "--workers",
-    type=options.IntegerOption(1, options.MOST_PROCESSES),
-    help="Processes for the table.  [default: one a processor]",
-)
+@options.workers("Processes for the table.  [default: one a processor]")
 @common
 def tower(
     name: str,

@@ -129,6 +129,7 @@ def installation() -> dict[str, Any]:
     from hypcheck.implementations.meshes import COAL, FCL
     from hypcheck.kernel.choice import choice, most_threads
     from hypcheck.kernel.core import HEADER
+    from hypcheck.record.writer import library_version
     from hypcheck.runs.oracles import ORACLES
     from hypcheck.version import VERSION
 
@@ -139,7 +140,7 @@ def installation() -> dict[str, Any]:
         "python": platform.python_version(),
         "executable": sys.executable,
         "system": f"{platform.system()} {platform.machine()}",
-        "versions": {name: _version(name) for name in LIBRARIES},
+        "versions": {name: library_version(name) for name in LIBRARIES},
         "kernel": {"name": chosen.kernel, "level": chosen.level, "reason": chosen.reason, "threads": threads},
         "header": str(HEADER),
         "oracles": {name: _availability_of(oracle.available()) for name, oracle in ORACLES.items()},
@@ -149,16 +150,6 @@ def installation() -> dict[str, Any]:
 
 def _availability_of(reason: str | None) -> dict[str, Any]:
     return {"available": reason is None, "reason": reason}
-
-
-def _version(name: str) -> str | None:
-    """The version of a library from its metadata, so that it is not loaded; None if it is not installed."""
-    from importlib.metadata import PackageNotFoundError, version
-
-    try:
-        return version(name)
-    except PackageNotFoundError:
-        return None
 
 
 def _lines(facts: dict[str, Any]) -> list[str]:

@@ -184,13 +184,7 @@ _THOROUGH = 10
     help="Number of generated rows of each family.",
 )
 @click.option("--thorough", is_flag=True, help="Ten times as many generated rows, for narrower faults.")
-@click.option(
-    "--seed",
-    type=options.IntegerOption(0, options.LARGEST_SEED),
-    default=1,
-    show_default=True,
-    help="Seed of the generated rows.",
-)
+@options.SEED
 @options.TOLERANCE
 @click.option("--oracles", default="exact,nearest,roots,heights,mesh", show_default=True, help="The oracles to ask.")
 @click.option(
@@ -210,14 +204,10 @@ _THOROUGH = 10
 @click.option(
     "--meshes", type=_COUNT, default=2000, show_default=True, help="Total number of rows for the mesh oracle."
 )
-@click.option(
-    "--workers",
-    type=options.IntegerOption(1, options.MOST_PROCESSES),
-    help="Number of processes.  [default: one a processor; with SPEC, of large runs]",
-)
-@click.option("--precision", help="With SPEC: used instead of the declared precision.")
-@click.option("--question", help="With SPEC: used instead of the declared question.")
-@click.option("--domain", help="With SPEC: used instead of the declared domain; JSON.")
+@options.workers("Number of processes.  [default: one a processor; with SPEC, of large runs]")
+@options.PRECISION
+@options.QUESTION
+@options.DOMAIN
 @click.option(
     "--max-abstained",
     type=options.IntegerOption(0),

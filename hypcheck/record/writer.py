@@ -319,6 +319,10 @@ class Recorder:
             self._check = check
 
 
+LIBRARIES = ("numpy", "sympy", "mpmath", "python-fcl", "coal", "click", "matplotlib")
+"""The libraries that a run can use."""
+
+
 def header(options: Mapping[str, Any], started: datetime, provenance: Provenance | None = None) -> HeaderLine:
     """The first line: versions, machine, options and provenance of the run."""
     known = {} if provenance is None else vars(provenance)
@@ -327,7 +331,7 @@ def header(options: Mapping[str, Any], started: datetime, provenance: Provenance
         hypcheck=VERSION,
         started=started.isoformat(timespec="seconds"),
         python=platform.python_version(),
-        versions=dict(_versions()),
+        versions={name: found for name in LIBRARIES if (found := library_version(name)) is not None},
         machine=Machine(
             system=platform.system(),
             architecture=platform.machine(),
@@ -340,13 +344,12 @@ def header(options: Mapping[str, Any], started: datetime, provenance: Provenance
 
 
 @cache
-def _versions() -> Mapping[str, str]:
-    """The versions of the libraries a run can use, from their metadata, so that none is loaded."""
-    versions = {}
-    for name in ("numpy", "sympy", "mpmath", "python-fcl", "coal", "click", "matplotlib"):
-        with suppress(PackageNotFoundError):
-            versions[name] = version(name)
-    return versions
+def library_version(name: str) -> str | None:
+    """The version of a library from its metadata, so that it is not loaded; None if it is not installed."""
+    try:
+        return version(name)
+    except PackageNotFoundError:
+        return None
 
 
 def processor_name(listed: Path = Path("/proc/cpuinfo")) -> str:
