@@ -2,12 +2,18 @@
 
 If a worker dies, dask reassigns its tasks. dask blames every task that the worker had, and gives up a task that it has
 blamed too often; such a task raises WorkerLost here.
+
+The files that a SPEC names by their paths are sent to workers that lack them. A program on the PATH is not sent: each
+worker uses its own. A Python module is not sent either, but must have the same content everywhere.
 """
 
 from __future__ import annotations
 
 import asyncio
 import concurrent.futures
+import hashlib
+import json
+import os
 import shutil
 import tempfile
 import threading
@@ -26,16 +32,10 @@ from distributed import KilledWorker, Worker, WorkerPlugin, get_worker
 from hypcheck.errors import InputError, system_reason
 from hypcheck.implementations.implementation import Implementation
 from hypcheck.implementations.session import Allowance
+from hypcheck.implementations.spec import is_file, parse_spec
 from hypcheck.runs.cluster import CLOSE, CONNECT, OTHER_FILES, START_TRIES, call_with_timeout
 from hypcheck.runs.executors import keep_freed_memory
-from hypcheck.runs.fingerprint import (
-    ShippedFile,
-    code_fingerprint,
-    files_to_ship,
-    module_sha256,
-    require_same_sha256,
-    spec_on_worker,
-)
+from hypcheck.runs.fingerprint import code_fingerprint, files_of, sha256
 from hypcheck.runs.results import JudgingRules
 from hypcheck.runs.schedule import ImplementationOpener, Step, TaskExecution, TaskResult, WorkerLost, perform_task
 
@@ -197,6 +197,75 @@ class DaskExecutor(Executor):
             if trouble:
                 for future in list(self._running):
                     self._fail(future, self.lost(trouble))
+
+
+@dataclass(frozen=True, slots=True)
+class ShippedFile:
+    """A file that word `word` of a SPEC names: its absolute path where the run began, its content, its permissions."""
+
+    word: int
+    path: str
+    content: bytes
+    mode: int
+
+    @property
+    def sha256(self) -> str:
+        """The sha256 of the content, in hexadecimal."""
+        return hashlib.sha256(self.content).hexdigest()
+
+
+def files_to_ship(text: str) -> tuple[ShippedFile, ...]:
+    """The files that a SPEC names by their paths. Raises InputError if one cannot be read."""
+    files = []
+    for named in files_of(text):
+        if named.searched:
+            continue
+        path = named.path.absolute()
+        try:
+            files.append(ShippedFile(named.word, str(path), path.read_bytes(), path.stat().st_mode & 0o777))
+        except OSError as error:
+            raise InputError(f"{path} cannot be sent to a cluster: {system_reason(error)}") from None
+    return tuple(files)
+
+
+def spec_on_worker(text: str, files: tuple[ShippedFile, ...], worker: str, folder: Path) -> str:
+    """The SPEC as a worker can open it: files that the worker lacks are written into the folder.
+
+    Raises InputError if a file on the worker has different content.
+    """
+    spec = parse_spec(text)
+    words = list(spec.words)
+    for file in files:
+        words[file.word] = _path_on_worker(file, worker, folder)
+    if spec.kind == "command":
+        return f"command:{json.dumps(words)}"
+    return f"{spec.kind}:{':'.join(words)}" if files else text
+
+
+def _path_on_worker(file: ShippedFile, worker: str, folder: Path) -> str:
+    path = Path(file.path)
+    if not path.is_file():
+        place = folder / str(file.word) / os.path.basename(file.path)
+        place.parent.mkdir()
+        place.write_bytes(file.content)
+        place.chmod(file.mode)
+        return str(place)
+    require_same_sha256(file.path, file.sha256, sha256(path), worker)
+    return file.path
+
+
+def require_same_sha256(what: str, here: str, there: str, worker: str) -> None:
+    """Raise InputError naming the worker if the two hashes differ."""
+    if here != there:
+        raise InputError(f"{what} is another file on worker {worker}: sha256 {there} there, and {here} here")
+
+
+def module_sha256(text: str) -> str:
+    """The sha256 of the file of a SPEC's Python module, as it is found here; empty if the SPEC names no module."""
+    spec = parse_spec(text)
+    if spec.kind != "python" or is_file(spec.words[0]):
+        return ""
+    return next((sha256(file.path) for file in files_of(text)), "(not found)")
 
 
 @dataclass(eq=False)

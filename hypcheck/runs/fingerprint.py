@@ -1,8 +1,9 @@
-"""Fingerprints (SHA-256) of the files under test and of hypcheck's own code; files that the workers of a cluster lack.
+"""The files of a run and their fingerprints (SHA-256): those that a SPEC names or starts, and hypcheck's own.
 
-The SPEC of a command names the program, if it is a path, and the words that are files on this machine. A program on the
-PATH is not sent: each worker uses its own. A Python module is not sent either, but must have the same content
-everywhere.
+A SPEC names a library, a Python file or module, or the words of a command that are files. It starts further files:
+those in the shell syntax of a word (`sh -c './prog --fast'`), the modules beside a Python file that it imports, and the
+libraries that an ELF file needs and finds by its own search path. Nothing is imported or run to find them. The key
+`not_hashed` of the record's header names what cannot be known.
 
 Two machines may have the same version of hypcheck but other files, if it is installed from a repository. Code under
 test runs as the same user as hypcheck: it could overwrite the judge, or itself, during a run.
@@ -10,45 +11,57 @@ test runs as the same user as hypcheck: it could overwrite the judge, or itself,
 
 from __future__ import annotations
 
+import ast
 import hashlib
-import json
 import os
+import shlex
 import shutil
 import struct
 import sys
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache
 from importlib.machinery import PathFinder
 from importlib.util import cache_from_source
 from pathlib import Path
 
 import hypcheck
-from hypcheck.errors import InputError, system_reason
-from hypcheck.implementations.spec import is_file, parse_spec
+from hypcheck.errors import system_reason
+from hypcheck.implementations.spec import Spec, is_file, parse_spec
 from hypcheck.record import Recorder
 from hypcheck.record.lines import DriftLine
-from hypcheck.runs.started_files import started_files
 from hypcheck.vectors.frozen import folder
-
-_BLOCK_BYTES = 1 << 20
 
 
 def fingerprints(specs: Iterable[str], *others: Path | None) -> dict[str, str]:
     """The sha256 of the files that SPECs name or start, and of other files, by path, as far as they exist."""
-    named = [path for spec in specs for path in (*(file.path for file in files_of(spec)), *_started(spec))]
-    paths = [*named, *(path for path in others if path is not None)]
-    return {str(path): sha256(path) for path in dict.fromkeys(paths)}
-
-
-def _started(spec: str) -> list[Path]:
-    return [Path(path) for path in started_files(spec).paths]
+    paths = [path for spec in specs for path in (*(file.path for file in files_of(spec)), *started_files(spec).paths)]
+    every = map(str, [*paths, *(path for path in others if path is not None)])
+    return {path: sha256(Path(path)) for path in dict.fromkeys(every)}
 
 
 def not_hashed(specs: Iterable[str]) -> list[str]:
     """The files that SPECs start and that only running them would show, in words without a full stop; once each."""
     return list(dict.fromkeys(sentence for spec in specs for sentence in started_files(spec).missing))
+
+
+_BLOCK_BYTES = 1 << 20
+
+
+def sha256(path: Path) -> str:
+    """The sha256 of a file's content, in hexadecimal; if it cannot be read, or is a pipe or device, the reason."""
+    digest = hashlib.sha256()
+    try:
+        if path.exists() and not path.is_file():  # a pipe may block for ever
+            return "is not a regular file"
+        file = path.open("rb")
+    except OSError as error:
+        return system_reason(error)
+    with file:
+        while block := file.read(_BLOCK_BYTES):
+            digest.update(block)
+    return digest.hexdigest()
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,21 +89,6 @@ def files_of(text: str) -> Iterator[NamedFile]:
             yield NamedFile(word, Path(path), module or program)
 
 
-def sha256(path: Path) -> str:
-    """The sha256 of a file's content, in hexadecimal; if it cannot be read, or is a pipe or device, the reason."""
-    digest = hashlib.sha256()
-    try:
-        if path.exists() and not path.is_file():  # a pipe may block for ever
-            return "is not a regular file"
-        file = path.open("rb")
-    except OSError as error:
-        return system_reason(error)
-    with file:
-        while block := file.read(_BLOCK_BYTES):
-            digest.update(block)
-    return digest.hexdigest()
-
-
 def _module_file(name: str) -> str | None:
     """The file of a module, found as the worker finds it: from the working directory first."""
     places: list[str] | None = [os.getcwd(), *sys.path]
@@ -103,78 +101,246 @@ def _module_file(name: str) -> str | None:
     return origin
 
 
-@dataclass(frozen=True, slots=True)
-class ShippedFile:
-    """A file that word `word` of a SPEC names: its absolute path where the run began, its content, its permissions."""
-
-    word: int
-    path: str
-    content: bytes
-    mode: int
-
-    @property
-    def sha256(self) -> str:
-        """The sha256 of the content, in hexadecimal."""
-        return hashlib.sha256(self.content).hexdigest()
-
-
-def files_to_ship(text: str) -> tuple[ShippedFile, ...]:
-    """The files that a SPEC names by their paths. Raises InputError if one cannot be read."""
-    files = []
-    for named in files_of(text):
-        if named.searched:
-            continue
-        path = named.path.absolute()
-        try:
-            files.append(ShippedFile(named.word, str(path), path.read_bytes(), path.stat().st_mode & 0o777))
-        except OSError as error:
-            raise InputError(f"{path} cannot be sent to a cluster: {system_reason(error)}") from None
-    return tuple(files)
-
-
-def spec_on_worker(text: str, files: tuple[ShippedFile, ...], worker: str, folder: Path) -> str:
-    """The SPEC as a worker can open it: files that the worker lacks are written into the folder.
-
-    Raises InputError if a file on the worker has different content.
-    """
-    spec = parse_spec(text)
-    words = list(spec.words)
-    for file in files:
-        words[file.word] = _path_on_worker(file, worker, folder)
-    if spec.kind == "command":
-        return f"command:{json.dumps(words)}"
-    return f"{spec.kind}:{':'.join(words)}" if files else text
-
-
-def _path_on_worker(file: ShippedFile, worker: str, folder: Path) -> str:
-    path = Path(file.path)
-    if not path.is_file():
-        place = folder / str(file.word) / os.path.basename(file.path)
-        place.parent.mkdir()
-        place.write_bytes(file.content)
-        place.chmod(file.mode)
-        return str(place)
-    require_same_sha256(file.path, file.sha256, sha256(path), worker)
-    return file.path
-
-
-def require_same_sha256(what: str, here: str, there: str, worker: str) -> None:
-    """Raise InputError naming the worker if the two hashes differ."""
-    if here != there:
-        raise InputError(f"{what} is another file on worker {worker}: sha256 {there} there, and {here} here")
-
-
-def module_sha256(text: str) -> str:
-    """The sha256 of the file of a SPEC's Python module, as it is found here; empty if the SPEC names no module."""
-    spec = parse_spec(text)
-    if spec.kind != "python" or is_file(spec.words[0]):
-        return ""
-    return next((sha256(file.path) for file in files_of(text)), "(not found)")
-
-
 _PACKAGE = Path(hypcheck.__file__).parent
+
+
+_PYTHON = (".py", ".pyw")
+
+
+MOST_FILES = 2000
+"""The most files of a SPEC that are hashed; further files are not."""
+
+
+_DYNAMIC = frozenset(
+    {"__import__", "import_module", "exec", "run_path", "run_module", "spec_from_file_location", "CDLL"}
+)
+"""Functions that load what a look at the source does not tell."""
+
+
+@dataclass
+class StartedFiles:
+    """The files in the order in which they were found, and sentences without a full stop about missing files."""
+
+    paths: dict[str, None] = field(default_factory=dict)
+    missing: dict[str, None] = field(default_factory=dict)
+
+    def add(self, path: str, folders: Sequence[str]) -> None:
+        """Add a file and what it loads; Python looks for modules in these folders."""
+        if path in self.paths or not os.path.isfile(path):
+            return
+        if len(self.paths) >= MOST_FILES:
+            self.missing[f"what is beyond {MOST_FILES:,} files"] = None
+            return
+        self.paths[path] = None
+        with suppress(OSError):
+            if path.endswith(_PYTHON):
+                self._add_imports(path, folders)
+            elif Path(path).stat().st_size:
+                for needed in _needed(path):
+                    self.add(needed, folders)
+
+    def _add_imports(self, path: str, folders: Sequence[str]) -> None:
+        try:
+            tree = ast.parse(Path(path).read_bytes())
+        except (SyntaxError, ValueError, RecursionError, MemoryError):
+            self.missing[f"what {path} imports, as it cannot be parsed"] = None
+            return
+        for node in ast.walk(tree):
+            for name in _imported(node, path):
+                for module in _modules(name, folders):
+                    self.add(module, folders)
+            if isinstance(node, ast.Call) and _name_of(node.func) in _DYNAMIC:
+                self.missing[f"what {path} loads as it runs ({_name_of(node.func)})"] = None
+
+
+def started_files(text: str) -> StartedFiles:
+    """The files of a SPEC that exist, with what they load. Raises InputError if the text is not a SPEC."""
+    spec, files = parse_spec(text), StartedFiles()
+    if spec.kind == "library":
+        files.add(spec.words[0], ())
+    elif spec.kind == "python":
+        _add_function(spec, files)
+    elif spec.kind == "command":
+        _add_command(spec, files)
+    return files
+
+
+def _add_function(spec: Spec, files: StartedFiles) -> None:
+    target = spec.words[0]
+    if is_file(target):
+        files.add(target, [os.path.dirname(target), *_python_path()])
+        return
+    folders = [os.getcwd(), *_python_path()]
+    for path in _modules(target, folders):
+        files.add(path, folders)
+
+
+def _add_command(spec: Spec, files: StartedFiles) -> None:
+    """Add the files in the words. Other files that a program from the PATH reads are not known, except for Python."""
+    program = spec.words[0]
+    known = program if os.sep in program else shutil.which(program)
+    python = os.path.basename(program).startswith("python")
+    if known is not None:
+        files.add(known, [os.path.dirname(known), *_python_path()])
+    for before, word in zip(spec.words, spec.words[1:], strict=False):
+        if python and before == "-m":
+            folders = [os.getcwd(), *_python_path()]
+            for path in (*_modules(word, folders), *_modules(f"{word}.__main__", folders)):
+                files.add(path, folders)
+            continue
+        for token in _tokens(word, first_is_program=before == "-c"):
+            if os.path.isdir(token) and token not in (".", ".."):
+                files.missing[f"the folder {token}"] = None
+            files.add(token, [os.path.dirname(token), *_python_path()])
+    interpreter = len(spec.words) > 1 and os.sep not in program
+    script = known is not None and not known.endswith(_PYTHON) and _is_script(known)
+    if not python and (interpreter or script):
+        files.missing[f"what {program} loads besides"] = None
+
+
+def _tokens(word: str, *, first_is_program: bool) -> Iterator[str]:
+    """The parts of a word that may be a file: the word, its words in shell syntax, values after =, parts of a path."""
+    if os.path.exists(word):
+        yield word
+        return
+    try:
+        words = shlex.split(word)
+    except ValueError:
+        words = word.split()
+    for place, token in enumerate(words):
+        program = shutil.which(token) if first_is_program and not place and os.sep not in token else None
+        if program is not None:
+            yield program
+        for part in token.rpartition("=")[2].split(os.pathsep):
+            if part and (os.path.isfile(part) or os.path.isdir(part)):
+                yield part
+
+
+def _is_script(path: str) -> bool:
+    """Whether a file begins with #!."""
+    with suppress(OSError), open(path, "rb") as file:
+        return file.read(2) == b"#!"
+    return False
+
+
+def _python_path() -> list[str]:
+    return [folder for folder in os.environ.get("PYTHONPATH", "").split(os.pathsep) if folder]
+
+
+def _imported(node: ast.AST, path: str) -> Iterator[str]:
+    """The names of modules that a statement may import: relative ones as paths from the file's folder."""
+    if isinstance(node, ast.Import):
+        yield from (alias.name for alias in node.names)
+    elif isinstance(node, ast.ImportFrom):
+        stem = node.module or ""
+        if node.level:
+            parent = os.path.join(os.path.dirname(path), *[os.pardir] * (node.level - 1))
+            stem = os.path.normpath(os.path.join(parent, *stem.split("."))) + os.sep
+            yield stem
+            yield from (os.path.join(stem, alias.name) for alias in node.names)
+            return
+        yield stem
+        yield from (f"{stem}.{alias.name}" for alias in node.names)
+
+
+def _modules(name: str, folders: Sequence[str]) -> Iterator[str]:
+    """The files of a module and of the packages around it, in the first of the folders that has any of them."""
+    if os.sep in name:
+        yield from _existing(name.rstrip(os.sep))
+        return
+    parts = [part for part in name.split(".") if part]
+    for top in folders:
+        paths = [path for depth in range(1, len(parts) + 1) for path in _existing(os.path.join(top, *parts[:depth]))]
+        if paths:
+            yield from paths
+            return
+
+
+def _existing(stem: str) -> Iterator[str]:
+    """The files of the module with that path, without hypcheck's own files, whose hashes the record has."""
+    for path in (f"{stem}.py", os.path.join(stem, "__init__.py"), *_extensions(stem)):
+        if os.path.isfile(path) and _PACKAGE.resolve() not in Path(path).resolve().parents:
+            yield path
+
+
+def _extensions(stem: str) -> list[str]:
+    parent, name = os.path.split(stem)
+    with suppress(OSError):
+        entries = sorted(os.listdir(parent or "."))
+        names = (entry for entry in entries if entry.startswith(f"{name}.") and entry.endswith((".so", ".pyd")))
+        return [os.path.join(parent, entry) for entry in names]
+    return []
+
+
+def _name_of(function: ast.expr) -> str:
+    return function.attr if isinstance(function, ast.Attribute) else getattr(function, "id", "")
+
+
+_LARGEST = 1 << 30
+
+
+_LOADED, _DYNAMIC_SEGMENT = 1, 2
+
+
+_NEEDED, _STRINGS, _RPATH, _RUNPATH = 1, 5, 15, 29
+
+
+def _needed(path: str) -> list[str]:
+    """The libraries that an ELF file needs, from the folders that it or LD_LIBRARY_PATH names; no system libraries."""
+    size = os.path.getsize(path)
+    with open(path, "rb") as file:
+        head = file.read(64)
+        if head[:4] != b"\x7fELF" or len(head) < 64 or size > _LARGEST:
+            return []
+        content = head + file.read()
+    try:
+        tags = _dynamic_strings(content)
+    except (struct.error, ValueError):
+        return []
+    origin = os.path.dirname(path) or "."
+    searched = [path for kind in (_RPATH, _RUNPATH) for text in tags.get(kind, ()) for path in text.split(":")]
+    folders = [folder.replace("${ORIGIN}", origin).replace("$ORIGIN", origin) for folder in searched if folder]
+    folders += [folder for folder in os.environ.get("LD_LIBRARY_PATH", "").split(":") if folder]
+    libraries = []
+    for name in tags.get(_NEEDED, ()):
+        places = [name] if "/" in name else [os.path.join(folder, name) for folder in folders]
+        libraries += [os.path.normpath(place) for place in places if os.path.isfile(place)][:1]
+    return libraries
+
+
+def _dynamic_strings(content: bytes) -> dict[int, list[str]]:
+    """The texts of the dynamic section by tag: needed libraries and search paths. Raises struct.error or ValueError."""
+    wide, order = content[4] == 2, "<" if content[5] == 1 else ">"
+    offset, entry, number = (
+        struct.unpack_from(f"{order}Q", content, 32)[0] if wide else struct.unpack_from(f"{order}I", content, 28)[0],
+        *struct.unpack_from(f"{order}HH", content, 54 if wide else 42),
+    )
+    layout = f"{order}IIQQQQ" if wide else f"{order}IIIIII"
+    segments = []  # kind, offset in the file, address, bytes
+    for place in range(number):
+        values = struct.unpack_from(layout, content, offset + place * entry)
+        segments.append((values[0], values[2], values[3], values[5]) if wide else (*values[:3], values[4]))
+    pairs = []
+    for kind, start, _, length in segments:
+        if kind == _DYNAMIC_SEGMENT:
+            end = start + length - length % (16 if wide else 8)
+            pairs = list(struct.iter_unpack(f"{order}QQ" if wide else f"{order}II", content[start:end]))
+    address = next((value for tag, value in pairs if tag == _STRINGS), 0)
+    loaded = [(start, at, length) for kind, start, at, length in segments if kind == _LOADED]
+    table = next((address - at + start for start, at, length in loaded if at <= address < at + length), None)
+    if table is None:
+        return {}
+    texts: dict[int, list[str]] = {}
+    for tag, value in pairs:
+        if tag in (_NEEDED, _RPATH, _RUNPATH):
+            end = content.index(b"\0", table + value)
+            texts.setdefault(tag, []).append(os.fsdecode(content[table + value : end]))
+    return texts
+
+
 MAX_FILES_NAMED = 5
 """The most changed files that a message names; a checkout of another commit changes hundreds."""
+
 
 _HEADER = 16
 """Bytes of the header of compiled Python: version, flags, and time and size of the source, four bytes each."""

@@ -13,7 +13,7 @@ import pytest
 from hypcheck.cli.main import main
 from hypcheck.errors import InputError
 from hypcheck.runs import fingerprint
-from hypcheck.runs.fingerprint import MAX_FILES_NAMED, FileSnapshot, files_to_ship, sha256
+from hypcheck.runs.fingerprint import MAX_FILES_NAMED, FileSnapshot, sha256
 from hypcheck.runs.hunt_surfaces import _ratio
 from hypcheck.runs.intermediates import relative_error
 from hypcheck.runs.known_failures import read_known_failures
@@ -76,7 +76,7 @@ def test_a_file_of_known_failures_may_name_a_generated_case(tmp_path):
 def test_families_of_hyperboloids_that_end_are_refused_together_where_the_implementation_takes_none(tmp_path, capsys):
     options = ("--families", "ended-r*", "--count", "0", "--out", str(tmp_path / "out"))
     assert main(["verify", "builtin:table-2-float64", *options]) == 2
-    refusal = "ended-r*: these are families of hyperboloids that end, and table-2-float64 does not take them; "
+    refusal = "ended-r*: these are families of hyperboloids that end, and table-2-float64 takes none; "
     assert f'{refusal}its description must say "takes": ["heights"]' in capsys.readouterr().err
 
 
@@ -91,19 +91,6 @@ def test_a_file_that_cannot_be_read_has_the_reason_in_the_place_of_a_digest(tmp_
     assert sha256(tmp_path / "none") == "no such file or directory"
     os.mkfifo(tmp_path / "pipe")
     assert sha256(tmp_path / "pipe") == "is not a regular file"
-
-
-def test_a_file_that_cannot_be_sent_to_a_cluster_is_named(tmp_path, monkeypatch):
-    path = tmp_path / "mine.py"
-    path.write_text("def f(rows): ...")
-    assert [each.content for each in files_to_ship(f"python:{path}:f")] == [b"def f(rows): ..."]
-
-    def unreadable(self):
-        raise PermissionError(13, "Permission denied")
-
-    monkeypatch.setattr(Path, "read_bytes", unreadable)
-    with pytest.raises(InputError, match=r"mine\.py cannot be sent to a cluster: permission denied"):
-        files_to_ship(f"python:{path}:f")
 
 
 def test_changed_files_of_hypcheck_and_of_the_implementation_are_named_and_many_are_counted(monkeypatch, tmp_path):

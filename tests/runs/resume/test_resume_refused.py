@@ -17,8 +17,7 @@ from hypcheck.record import Recorder, read
 from hypcheck.record.fields import as_json
 from hypcheck.record.reader import FILE, GROWING
 from hypcheck.record.writer import FolderInUseError, folder_locked
-from hypcheck.runs.fingerprint import fingerprints, not_hashed, sha256
-from hypcheck.runs.started_files import MOST_FILES
+from hypcheck.runs.fingerprint import MOST_FILES, fingerprints, not_hashed, sha256
 from tests.report.record_samples import text_and_record
 from tests.runs.interruption import in_small_steps, paused_bytes, started, wait_for, words
 from tests.runs.resume.test_interrupted import needs_proc

@@ -5,11 +5,16 @@ from __future__ import annotations
 import json
 import shutil
 import sys
+from pathlib import Path
 
 import pytest
 
 from hypcheck.errors import InputError
-from hypcheck.runs.fingerprint import files_of, files_to_ship, fingerprints, module_sha256, sha256, spec_on_worker
+from hypcheck.runs.fingerprint import files_of, fingerprints, sha256
+
+pytest.importorskip("distributed")
+
+from hypcheck.runs.dask_executor import files_to_ship, module_sha256, spec_on_worker
 
 
 @pytest.fixture
@@ -70,3 +75,16 @@ def test_file_with_other_content_on_a_worker_is_refused(files, tmp_path):
     (files / "run.sh").write_text("another")
     with pytest.raises(InputError, match=r"run\.sh is another file on worker w: sha256 \w{64} there, and \w{64} here"):
         spec_on_worker("command:./run.sh", sent, "w", tmp_path)
+
+
+def test_a_file_that_cannot_be_sent_to_a_cluster_is_named(tmp_path, monkeypatch):
+    path = tmp_path / "mine.py"
+    path.write_text("def f(rows): ...")
+    assert [each.content for each in files_to_ship(f"python:{path}:f")] == [b"def f(rows): ..."]
+
+    def unreadable(self):
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr(Path, "read_bytes", unreadable)
+    with pytest.raises(InputError, match=r"mine\.py cannot be sent to a cluster: permission denied"):
+        files_to_ship(f"python:{path}:f")
