@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from decimal import Decimal
 from functools import cache, lru_cache
 from itertools import product
@@ -14,17 +14,17 @@ import numpy as np
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import SIZES, Groups, Pair, trouble_with_row
-from hypcheck.geometry.rows import PAIRS, SWEEPS, Layout, Rows
+from hypcheck.geometry.rows import PAIRS, SWEEPS, Layout, Row, Rows
 from hypcheck.messages import counted
 from hypcheck.runs import hunt
 from hypcheck.runs.hunt_surfaces import MOVERS, border_factors, columns_of, place_of_row
 from hypcheck.runs.judge import Status, WrongCase
-from hypcheck.runs.replay import ReplayCase, of_question
+from hypcheck.runs.replay import ReplayCase, of_question, require_taken
 from hypcheck.runs.score import Score
 from hypcheck.runs.tally import STATUSES
+from hypcheck.tables.numbers import decimals_of
 from hypcheck.vectors.double_roots import AXIAL_COLUMNS, RADIAL_COLUMNS
 
-Row = tuple[float, ...]
 Complexity = tuple[int, int, int]
 
 DIGITS = range(1, 17)
@@ -249,6 +249,7 @@ def minimise(target: hunt.HuntTarget, case: ReplayCase) -> Minimised:
     """
     run = Minimised(target)
     row = _row_of(target, case)
+    require_taken(replace(case, row=row), target.implementation.description)
     run.steps.append(_start(run, row))
     while any(_improve(run, variant) for variant in _VARIANTS[target.layout.groups(row)]):
         pass
@@ -266,8 +267,6 @@ def _row_of(target: hunt.HuntTarget, case: ReplayCase) -> Row:
 
 def _start(run: Minimised, row: Row) -> hunt.HuntFinding:
     rows, layout = np.array([row]), run.target.layout
-    if layout.has_axis(rows) and not layout.has_heights(rows) and not run.target.implementation.description.tilt:
-        raise InputError('the row has an axis, and the implementation does not declare "tilt": true')
     if not len(run.target.claimed(rows)):
         raise InputError("the implementation does not claim to answer this row; --regimes any asks it anyway")
     scored = _ask(run, rows)
@@ -316,6 +315,6 @@ def minimised_lines(run: Minimised) -> Iterator[str]:
     """The report of a minimisation."""
     steps = len(run.steps) - 1
     yield f"{hunt.name_of_target(run.target)}: {counted(steps, 'step')}, {counted(run.asked, 'row')} asked"
-    yield hunt.titled("given", f"{hunt.decimals(run.first.case.row)}, {hunt.how_wrong(run.first)}")
+    yield hunt.titled("given", f"{decimals_of(run.first.case.row)}, {hunt.how_wrong(run.first)}")
     yield hunt.titled("where", run.last.place.words)
     yield from hunt.finding_lines(run.last, run.target)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from fractions import Fraction
 from pathlib import Path
 
@@ -225,7 +225,11 @@ def require_named(plan: ConformancePlan, used: Description) -> None:
                 f"leave it out, or name an implementation whose question is {_QUESTION_ABOUT[family.layout]}"
             )
         if lacking:
-            raise InputError(f"--families names {name}, {_HAS_MORE[lacking].format(used.name)}")
+            kind, declared = _LACKING[lacking]
+            raise InputError(
+                f"--families names {name}, a family of {kind}, and {used.name} takes none; leave it out, or let its "
+                f"description say {declared}"
+            )
         reasons = _reasons_for(plan, family, rules)
         if reasons:
             raise InputError(
@@ -237,18 +241,17 @@ def require_named(plan: ConformancePlan, used: Description) -> None:
 
 _QUESTION_ABOUT = {PAIRS: "position", SWEEPS: "passage"}
 
-_HAS_MORE = {
-    "heights": "a family of hyperboloids that end, and {} takes no heights; leave it out, or let its description say "
-    '"takes": ["heights"]',
-    "tilt": 'a family of tilted spheroids, and {} takes none; leave it out, or let its description say "tilt": true',
+_LACKING = {
+    "tilt": ("tilted spheroids", '"tilt": true'),
+    "heights": ("hyperboloids that end", '"takes": ["heights"], and "axis" besides where spheroids are tilted'),
 }
-"""What rows of a family have that the named implementation does not take, and the remedy."""
+"""The subjects of families that an implementation may not take, and what the description of one that does says."""
 
 
 def _reasons_for(plan: ConformancePlan, family: Family, rules: JudgingRules) -> dict[str, int]:
     """The reasons why none of a family's frozen vectors and first generated rows is tested; empty if one is."""
     counts: Counter[str] = Counter()
-    for rows in _first_rows(plan, family):
+    for rows in rows_of(plan, family, BLOCK):
         inside, reasons = rules.asked_of(family.name, rows)
         if len(inside):
             return {}
@@ -256,12 +259,13 @@ def _reasons_for(plan: ConformancePlan, family: Family, rules: JudgingRules) -> 
     return dict(counts)
 
 
-def _first_rows(plan: ConformancePlan, family: Family) -> Iterator[Rows]:
-    """A family's frozen vectors, and its first generated rows, which are made only if they are looked at."""
+def rows_of(plan: ConformancePlan, family: Family, most: int) -> Iterator[Rows]:
+    """A family's frozen vectors, and at most so many of its rows of each seed, made only if they are looked at."""
     if frozen_count(family.name):
         yield frozen_vectors(family.name).rows
-    if plan.count:
-        yield family.rows(plan.seed, min(plan.count, BLOCK))
+    for seed in (plan.seed, plan.fresh):
+        if seed is not None and plan.count:
+            yield family.rows(seed, min(plan.count * family.times, most))
 
 
 def steps_of(plan: ConformancePlan, used: Description) -> Iterator[Step]:
@@ -271,21 +275,15 @@ def steps_of(plan: ConformancePlan, used: Description) -> Iterator[Step]:
     takes no tilt, or with the other layout.
     """
     families = chosen_families(plan, used)
-    tilted = chosen_families(plan, replace(used, tilt=True))
-    if not families and not tilted and chosen_families(plan, replace(used, tilt=True, heights=True)):
-        raise InputError(
-            f"{', '.join(plan.families)}: these are families of hyperboloids that end, and {used.name} does not take "
-            'them; its description must say "takes": ["heights"], and "axis" besides where spheroids are tilted'
-        )
-    if not families and not tilted:
-        raise InputError(
-            f"{', '.join(plan.families)}: none of these families has cases for the question {used.question!r}"
-        )
     if not families:
-        raise InputError(
-            f"{', '.join(plan.families)}: these are families of tilted spheroids, and {used.name} takes none; its "
-            'description must say "tilt": true'
-        )
+        names, lacking = ", ".join(plan.families), {_lacking(used, family) for family in select(plan.families, None)}
+        for reason, (kind, declared) in _LACKING.items():
+            if reason in lacking:
+                raise InputError(
+                    f"{names}: these are families of {kind}, and {used.name} takes none; its description must say "
+                    f"{declared}"
+                )
+        raise InputError(f"{names}: none of these families has cases for the question {used.question!r}")
     last: tuple[SearchStep | InvalidRows, ...] = (*searches(plan, used), *invalid_rows(used))
     return steps_of_chunks(_chunks(plan, families, used), last, plan.pace)
 

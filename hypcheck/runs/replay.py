@@ -24,7 +24,7 @@ from hypcheck.geometry.pair import (
     Position,
     trouble_with_row,
 )
-from hypcheck.geometry.rows import CANNOT_SAY, PAIRS, SWEEPS, Layout, layout_with
+from hypcheck.geometry.rows import CANNOT_SAY, PAIRS, SWEEPS, Layout, Row, layout_with
 from hypcheck.implementations.description import Description
 from hypcheck.implementations.domain import representable
 from hypcheck.implementations.implementation import Implementation
@@ -52,8 +52,6 @@ from hypcheck.vectors.showing import case_named
 
 _RECORDED = re.compile(r"(.+):([0-9]+)", re.ASCII | re.DOTALL)
 _HEXADECIMAL = re.compile(r"[ \t]*[+-]?0x", re.ASCII | re.IGNORECASE)
-
-Row = tuple[float, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -206,16 +204,7 @@ def replay(case: ReplayCase, implementation: Implementation, criterion: Criterio
     declared, used = implementation.declared, implementation.description
     case = of_question(case, used)
     layout = used.asked.layout
-    if layout.has_heights(case.row) and not used.heights:
-        raise InputError(
-            f"{case.name} has heights at which the hyperboloid ends, and {used.name} takes none; its description must "
-            'have "takes": ["heights"]'
-        )
-    if layout.has_axis(case.row) and not layout.has_heights(case.row) and not used.tilt:
-        raise InputError(
-            f'{case.name} has an axis, but {used.name} takes only upright spheroids; its description must have "tilt": '
-            "true"
-        )
+    require_taken(case, used)
     known = (case, str(implementation.spec), declared, used, criterion)
     if case.at_fault:
         return Replay(*known, None, _refused(case, implementation))
@@ -242,6 +231,22 @@ def of_question(case: ReplayCase, used: Description) -> ReplayCase:
     if case.layout is None and (trouble := trouble_with_row(case.row, layout.upright)) is not None:
         raise InputError(trouble)
     return replace(case, layout=layout)
+
+
+def require_taken(case: ReplayCase, used: Description) -> None:
+    """Raise InputError if the row of a case has an axis or heights that an implementation does not take."""
+    layout = used.asked.layout
+    if layout.has_heights(case.row):
+        if not used.heights:
+            raise InputError(
+                f"{case.name} has heights at which the hyperboloid ends, and {used.name} takes none; its description "
+                'must have "takes": ["heights"]'
+            )
+    elif layout.has_axis(case.row) and not used.tilt:
+        raise InputError(
+            f"{case.name} has an axis, but {used.name} takes only upright spheroids; its description must have "
+            '"tilt": true'
+        )
 
 
 def _causes(truth: ProvedTruth, judgement: ReplayJudgement, criterion: Criterion) -> tuple[Cause, ...]:
