@@ -44,6 +44,9 @@ Mask = NDArray[np.bool_]
 Rows = NDArray[np.float64]
 """Shape (n, 7), unless a function says otherwise."""
 
+Row = tuple[float, ...]
+"""The numbers of one row."""
+
 Positions = NDArray[np.int8]
 """Shape (n,): +1 exterior, 0 contact, −1 interior, or one of the codes REFUSED and CANNOT_SAY."""
 

@@ -207,6 +207,11 @@ def row_fields(row: Sequence[float], layout: Layout = PAIRS) -> dict[str, Any]:
     return {"row": others[: len(COLUMNS)]} | {name: part or UNSET for name, part in parts.items()}
 
 
+def row_parts(case: _CasePart) -> dict[str, Any]:
+    """The fields row, end, axis and heights of a case, for another struct about it."""
+    return {"row": case.row, "end": case.end, "axis": case.axis, "heights": case.heights}
+
+
 def layout_of(case: _CasePart) -> Layout:
     """The layout of a case's row: of a sweep if it has an end."""
     return SWEEPS if case.end else PAIRS

@@ -19,7 +19,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
-from msgspec import UNSET, Meta, UnsetType
+from msgspec import UNSET, Meta, UnsetType, field
 
 from hypcheck.record import fields
 
@@ -325,7 +325,7 @@ class ImplementationLine(fields.RecordLine, frozen=True, kw_only=True):
     declared: DescriptionPart
     used: DescriptionPart
     restarts: fields.Count
-    again: Retest
+    retest: Retest = field(name="again")
     broke_protocol_throughout: bool
     troubles: list[str]
     not_asked: dict[str, fields.Counts] | UnsetType = UNSET

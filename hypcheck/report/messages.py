@@ -145,7 +145,7 @@ def implementation_claims(
     if not_asked and left_out:
         yield f"not asked: {'; '.join(not_asked)}"
     yield from spread(line)
-    again, restarts = line.again, line.restarts
+    again, restarts = line.retest, line.restarts
     other = again.within + again.beyond
     repetition = f"asked again about {counted(again.asked, 'case')}, {other:,} answered otherwise"
     beyond = f" ({again.beyond:,} beyond the tolerance)"

@@ -334,7 +334,7 @@ def _implementation(
         declared=fields.decoded(whole.declared, Claims),
         judged_as=fields.decoded(whole.used, Claims),
         restarts=whole.restarts,
-        asked_again=whole.again,
+        asked_again=whole.retest,
         causes=[_cause(line) for line in causes] or UNSET,
         fresh=UNSET if total.fresh is None else total.fresh,
         not_asked=total.not_asked,

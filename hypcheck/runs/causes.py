@@ -130,10 +130,6 @@ class Cause:
         return self.scope is Scope.ROUNDING and self.subject == "upright"
 
 
-def _texts() -> dict[str, dict[str, str]]:
-    return toml.shipped("hypcheck.runs", "causes.toml")
-
-
 def cause(
     name: str,
     rule: Rule,
@@ -144,7 +140,7 @@ def cause(
     certain: Callable[[AnsweredRows], Mask] | None = None,
 ) -> Cause:
     """The cause with the texts of that name in causes.toml."""
-    texts = _texts()[name]
+    texts = toml.shipped("hypcheck.runs", "causes.toml")[name]
     return Cause(name=name, rule=rule, scope=scope, subject=subject, slack=slack, certain=certain, **texts)
 
 

@@ -21,7 +21,7 @@ from hypcheck.record.lines import UNEXPLAINED, CauseLine, DriftLine, GroupLine, 
 from hypcheck.record.progress import Tally
 from hypcheck.runs import spread, tally
 from hypcheck.runs.consistency import require_all_tallied
-from hypcheck.runs.diagnosis import causes_of, wrong_case
+from hypcheck.runs.diagnosis import causes_of, measured_worst
 from hypcheck.runs.executors import execution_here, execution_in_pool, keep_freed_memory
 from hypcheck.runs.judge import UNANSWERED, Status
 from hypcheck.runs.known_failures import no_longer_failing
@@ -209,7 +209,7 @@ class ImplementationLines:
                 declared=recorded_description(self.declared),
                 used=recorded_description(self.used),
                 restarts=self.plan.limits.restarts - state.left.restarts,
-                again=total.retest,
+                retest=total.retest,
                 broke_protocol_throughout=total.broke_protocol_throughout,
                 troubles=list(self._troubles(total, groups, finished=finished)),
                 not_asked=families_not_asked(self.plan, self.used),
@@ -239,8 +239,7 @@ class ImplementationLines:
             family for family, tallied in tallies.items() if {Status.RIGHT.value} == tallied.counts.keys() - _NOT_ASKED
         ]
         for counted_cause in causes_of(tallies, clean, self.rules.criterion, self.rules.domain):
-            kept = counted_cause.worst.worst
-            worst = tally.worst_case(wrong_case(counted_cause.worst), kept.place, kept.case, self.rules.criterion)
+            worst = measured_worst(counted_cause.worst, self.rules.criterion.question)
             yield CauseLine(
                 spec=self.spec,
                 method=self.used.name,

@@ -84,7 +84,7 @@ def require_lines(lines: Sequence[RecordLine], whole: ImplementationLine, plan: 
 def _lacks_trouble(whole: ImplementationLine, groups: Sequence[GroupLine], plan: ConformancePlan) -> bool:
     """Whether the line lacks a reason why the implementation fails as a whole."""
     abstained = sum(line.counts.get(Status.ABSTAINED.value, 0) for line in groups) > plan.max_abstained
-    changed = plan.deterministic and whole.again.within > 0
+    changed = plan.deterministic and whole.retest.within > 0
     return bool(abstained or changed) and not whole.troubles
 
 
@@ -117,7 +117,7 @@ def require_state(state: RunState, steps: Iterable[Step], plan: ConformancePlan,
     waiting = _require_steps(state, steps)
     for trouble in (
         _of_allowance(state, plan),
-        *(_of_open(pending, waiting, rules) for pending in total.pending),
+        *(_of_pending(pending, waiting, rules) for pending in total.pending),
         *(_of_tally(family, tally, rules) for family, tally in total.tallies.items()),
         *(_of_fresh(family, tally, plan, unfinished=True) for family, tally in total.tallies.items()),
         _of_result(total, rules),
@@ -172,7 +172,7 @@ def _of_allowance(state: RunState, plan: ConformancePlan) -> str:
     return "cases were not asked, though the implementation was not given up" if stopped and not left.over else ""
 
 
-def _of_open(pending: PendingRetest, waiting: Sequence[CaseChunk], rules: JudgingRules) -> str:
+def _of_pending(pending: PendingRetest, waiting: Sequence[CaseChunk], rules: JudgingRules) -> str:
     """Pending cases must be part of a planned chunk, and each must have an answer that the question allows."""
     chunk, indices = pending.chunk, pending.indices
     known = (*QUESTIONS[rules.criterion.question].answers, CANNOT_SAY)
@@ -193,7 +193,7 @@ Bins = Sequence[Sequence[int]]
 
 
 def _of_sums(
-    family: str, sums: GroupLine | Tally, exponents: Mapping[str, Mapping[str, int]], bins: tuple[Bins, Bins]
+    family: str, sums: GroupLine | Tally, octaves: Mapping[str, Mapping[str, int]], bins: tuple[Bins, Bins]
 ) -> str:
     """The numbers about one family in a line or a tally must agree with each other."""
     counts = Counter(sums.counts)
@@ -206,10 +206,10 @@ def _of_sums(
     answers = [number for row in (sums.answers or {}).values() for number in row.values()]
     asked_agree = asked_agree and (not answers or sum(answers) == sums.asked) and min(answers, default=0) >= 0
     if family in INVALID_CONTENTS:
-        agree = not (sums.mistakes or answers or exponents or any(bins) or sums.worst)
+        agree = not (sums.mistakes or answers or octaves or any(bins) or sums.worst)
     else:
         measured: Counter[str] = Counter()
-        for counted in exponents.values():
+        for counted in octaves.values():
             measured.update(counted)
         binned = {(sum(row[2] for row in rows), sum(row[3] for row in rows)) for rows in bins}
         agree = (
@@ -266,15 +266,15 @@ def _is_judged_so(case: WorstCase, rules: JudgingRules) -> bool:
 def _of_result(total: CasesResult, rules: JudgingRules) -> str:
     """The numbers about all families together must agree."""
     counts: Counter[str] = sum((Counter(tally.counts) for tally in total.tallies.values()), Counter())
-    again, known = total.retest, rules.known
+    retest, known = total.retest, rules.known
     answered = total.pending or any(counts[status.value] for status in (Status.RIGHT, *_OFF, Status.ABSTAINED))
     outcomes = {outcome for outcome in _ENDED_AS if counts[outcome.label]} | ({Outcome.ANSWERED} if answered else set())
     if not outcomes <= total.outcomes:
         return "cases have a status with which no question ended"
-    if again.within + again.beyond > again.asked or again.asked > counts.total():
-        return f"{again.asked} cases were asked again, but there are only {counts.total()}"
-    if again.beyond != counts[Status.NONDETERMINISTIC.value]:
-        return f"{again.beyond} answers changed, but {counts[Status.NONDETERMINISTIC.value]} are counted"
+    if retest.within + retest.beyond > retest.asked or retest.asked > counts.total():
+        return f"{retest.asked} cases were asked again, but there are only {counts.total()}"
+    if retest.beyond != counts[Status.NONDETERMINISTIC.value]:
+        return f"{retest.beyond} answers changed, but {counts[Status.NONDETERMINISTIC.value]} are counted"
     excused = counts[Status.EXCUSED.value] > 0
     if excused != bool(total.excusing) or not total.excusing <= {*range(len(known))}:
         return "known failures excused cases that they do not cover"

@@ -88,20 +88,12 @@ def kept_case(case: WrongCase, place: Place, name: str, layout: Layout, error: f
     )
 
 
-def wrong_case(explained: Explained) -> WrongCase:
-    """The worst of some wrong answers, as it was judged."""
-    worst = explained.worst
-    return WrongCase(
-        index=0,
-        row=row_of(worst),
-        truth=worst.truth,
-        answer=worst.answer,
-        mistake=Mistake(worst.mistake),
-        status=Status(worst.status),
-        exponent=float(explained.exponent),
-        time=worst.time,
-        least=float(worst.error),
-    )
+def measured_worst(explained: Explained, question: str) -> WorstCase:
+    """The worst of some wrong answers with its measured error."""
+    worst, exponent, least = explained.worst, float(explained.exponent), float(explained.worst.error)
+    mistake, status = Mistake(worst.mistake), Status(worst.status)
+    case = WrongCase(0, row_of(worst), worst.truth, worst.answer, mistake, status, exponent, worst.time, least)
+    return structs.replace(worst, error=Unsigned(judge.measured(case, question)))
 
 
 def _joined(parts: Sequence[Explained]) -> Explained:

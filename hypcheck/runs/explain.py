@@ -15,18 +15,17 @@ from typing import Any
 import numpy as np
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.rows import Floats, Mask
+from hypcheck.geometry.rows import Floats, Mask, Row
 from hypcheck.implementations.description import QUESTIONS
 from hypcheck.messages import suggestion
 from hypcheck.runs import judge
 from hypcheck.runs.causes import AnsweredRows, Cause, Scope
 from hypcheck.runs.diagnosis import CAUSES
 from hypcheck.runs.judge import Criterion
+from hypcheck.tables.numbers import decimals_of
 from hypcheck.truth.passage_error import passage_of
 from hypcheck.vectors.families import is_extreme
 from hypcheck.vectors.frozen import NAMES, SWEEP_NAMES, TILTED_NAMES, load
-
-Row = tuple[float, ...]
 
 BY_ID: Mapping[str, Cause] = {cause.name: cause for cause in CAUSES}
 
@@ -109,7 +108,7 @@ def _witness_in(cause: Cause, name: str) -> Witness | None:
             time = None if answered.times is None or answered.given[place] != 1 else float(answered.times[place])
             row = tuple((answered.rows[place] + 0.0).tolist())  # no −0
             witnesses.append(Witness(ids[row], row, int(answered.truth[place]), int(answers[place]), time))
-    return min(witnesses, key=lambda witness: len(_numbers(witness.row)), default=None)
+    return min(witnesses, key=lambda witness: len(decimals_of(witness.row)), default=None)
 
 
 def _possible_answers(rows: Floats, truth: Any, criterion: Criterion) -> Iterator[AnsweredRows]:  # noqa: ANN401 - Positions
@@ -175,7 +174,7 @@ def explained_lines(cause: Cause) -> Iterator[str]:
         ("paper", f"{cause.claim}; `hypcheck derive --claim {cause.claim!r}` proves what is wrong" * bool(cause.claim)),
         ("shows", f"{_recognise(cause)}."),
         ("fix", f"{cause.remedy}."),
-        ("row", f"{_numbers(shown.row)}  ({shown.case})"),
+        ("row", f"{decimals_of(shown.row)}  ({shown.case})"),
         ("", f"{', '.join(_columns(shown.row, cause))}"),
         ("right", _answer_text(shown.truth, first)),
         ("wrong", _answer_text(shown.answer, shown.time)),
@@ -197,11 +196,6 @@ def _answer_text(answer: int, time: float | None) -> str:
 def _columns(row: Row, cause: Cause) -> tuple[str, ...]:
     question = "passage" if cause.subject == "way" else "position"
     return tuple(QUESTIONS[question].layout.columns(len(row)))
-
-
-def _numbers(row: Row) -> str:
-    """The numbers of a row as the commands take them."""
-    return ",".join(repr(value).removesuffix(".0") for value in row)
 
 
 def _witness_as_json(shown: Witness) -> dict[str, Any]:

@@ -26,7 +26,7 @@ from hypcheck.runs.hunt_surfaces import RowPlace, place_of_row
 from hypcheck.runs.judge import DEFAULT_TOLERANCE, Criterion, Mistake, Status, WrongCase
 from hypcheck.runs.score import Score, score, unanswered_case
 from hypcheck.runs.tally import STATUSES, counts_of
-from hypcheck.tables.numbers import hex_of
+from hypcheck.tables.numbers import decimals_of, hex_of
 from hypcheck.truth.passage_error import first_contact
 from hypcheck.vectors.draw import Integers
 
@@ -289,7 +289,7 @@ def _cluster_lines(number: int, cluster: FindingCluster, target: HuntTarget) -> 
     tolerated = f", and {cluster.tolerated:,} within tolerance" if cluster.tolerated else ""
     times = "once" if cluster.beyond == 1 else f"{cluster.beyond:,} times"
     yield titled("found", f"{times}{tolerated}; the worst from {worst.source}")
-    yield titled("simplify", _command(target, "minimise", target.spec, decimals(worst.case.row)))
+    yield titled("simplify", _command(target, "minimise", target.spec, decimals_of(worst.case.row)))
 
 
 def finding_lines(finding: HuntFinding, target: HuntTarget) -> Iterator[str]:
@@ -303,7 +303,7 @@ def finding_lines(finding: HuntFinding, target: HuntTarget) -> Iterator[str]:
     if case.time is not None:
         lower, upper = first_contact(case.row)
         yield titled("time", f"answered: {case.time!r}; first contact between {lower!r} and {upper!r}")
-    yield titled("replay", _command(target, "replay", decimals(case.row), target.spec))
+    yield titled("replay", _command(target, "replay", decimals_of(case.row), target.spec))
 
 
 def _command(target: HuntTarget, *words: str) -> str:
@@ -314,13 +314,8 @@ def _command(target: HuntTarget, *words: str) -> str:
     return shlex.join(("hypcheck", *words, *options))
 
 
-def decimals(row: Sequence[float]) -> str:
-    """The decimal text of a row that the command line reads back exactly."""
-    return ",".join(repr(value).removesuffix(".0") for value in np.add(row, 0.0).tolist())
-
-
 def _row(row: Sequence[float], target: HuntTarget) -> str:
-    return f"{decimals(row)}  ({', '.join(target.layout.columns(len(row)))})"
+    return f"{decimals_of(row)}  ({', '.join(target.layout.columns(len(row)))})"
 
 
 def how_wrong(finding: HuntFinding) -> str:

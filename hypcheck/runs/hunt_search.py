@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hypcheck.geometry.pair import Groups
-from hypcheck.geometry.rows import PAIRS, SWEEPS, Floats, Layout, Mask, Rows, as_wide, invalid
+from hypcheck.geometry.rows import PAIRS, SWEEPS, Floats, Layout, Mask, Row, Rows, as_wide, invalid
 from hypcheck.runs.hunt import ClusterKey, Hunt
 from hypcheck.runs.hunt_surfaces import (
     EXPONENTS,
@@ -29,8 +29,6 @@ from hypcheck.runs.hunt_surfaces import (
     strata,
 )
 from hypcheck.vectors.draw import Draw, Integers, stepped
-
-Row = tuple[float, ...]
 
 FIRST_STEP = 0.5
 LAST_STEP = 2.0**-44

@@ -38,7 +38,7 @@ from hypcheck.geometry.pair import (
     Pair,
     Position,
 )
-from hypcheck.geometry.rows import PAIRS, SWEEPS, FixedSizes, Floats, Layout, Mask, Positions, Rows, fits, invalid
+from hypcheck.geometry.rows import PAIRS, SWEEPS, FixedSizes, Floats, Layout, Mask, Positions, Row, Rows, fits, invalid
 from hypcheck.runs.judge import truth_of
 from hypcheck.truth import exact
 from hypcheck.truth.kinds import Kind
@@ -235,7 +235,7 @@ def _ratio(top: int, bottom: int) -> float:
         return math.inf
 
 
-def sweep_place(row: tuple[float, ...]) -> RowPlace:
+def sweep_place(row: Row) -> RowPlace:
     """The place of a sweep: the events on it, and its direction; findings are grouped by the first name."""
     start, end = row[len(SIZES) : len(COLUMNS)], row[len(COLUMNS) : len(SWEEP_COLUMNS)]
     passage, length = passage_of(row), sweep_in_radii(row)
@@ -258,7 +258,7 @@ def sweep_place(row: tuple[float, ...]) -> RowPlace:
     return _first_that_holds(signs, ORDINARY_SWEEP)
 
 
-def _crosses_the_ring(row: tuple[float, ...]) -> bool:
+def _crosses_the_ring(row: Row) -> bool:
     """Whether an upright spheroid's centre is on or near the ring when its sweep crosses the waist's plane."""
     alpha, gamma, b, d, x, y, z, end_x, end_y, end_z = row
     radius = _ring_radius(alpha / b, gamma / d)

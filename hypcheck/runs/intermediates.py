@@ -20,8 +20,9 @@ from hypcheck.derivation.float_arithmetic import float_arithmetic, unit_roundoff
 from hypcheck.derivation.formulas import FORMULAS, Formula
 from hypcheck.derivation.program import BOOLEAN, OPERATIONS, Program, Step, cut, line_of, steps_of
 from hypcheck.errors import InputError
-from hypcheck.geometry.arithmetic import QuadraticSurd
+from hypcheck.geometry.arithmetic import QuadraticSurd, root_of
 from hypcheck.geometry.pair import COLUMNS, Position
+from hypcheck.geometry.rows import Row
 from hypcheck.implementations.alternatives import DISTANCES, searched
 from hypcheck.implementations.description import Description
 from hypcheck.implementations.implementation import Implementation
@@ -30,7 +31,6 @@ DIGITS = 8
 _GUARD = 8
 
 Number = Fraction | QuadraticSurd
-Row = tuple[float, ...]
 
 
 def number_of(value: Any) -> bool | float | Fraction:  # noqa: ANN401 - any scalar of numpy
@@ -50,15 +50,8 @@ def rational(value: Number, bits: int = 64) -> Fraction:
     # p and q√h of equal sign cannot cancel. Else p + q√h = (p² − q²h)/(p − q√h), and p, −q√h have equal sign.
     if value.p * value.q < 0:
         return (value.p**2 - value.q**2 * value.h) / rational(QuadraticSurd(value.p, -value.q, value.h), bits + 1)
-    return value.p + value.q * _root(value.h, bits + 1)
-
-
-def _root(value: Fraction, bits: int) -> Fraction:
-    """√value within a relative 2^−bits: isqrt drops less than 1 of an integer of more than bits + 1 bits."""
-    # value·4^k with 4^k large enough that its integer part has 2·bits + 4 bits, hence its root bits + 2.
-    size = value.numerator.bit_length() - value.denominator.bit_length()
-    shift = max(0, (2 * bits + 6 - size) // 2 + 1)
-    return Fraction(math.isqrt((value.numerator << 2 * shift) // value.denominator), 1 << shift)
+    # root_of rounds √h down to a multiple of 2^−s, where √h > 2^(bits + 1 − s): its relative error is below 2^−(bits + 1).
+    return value.p + value.q * root_of(value.h, bits + 1)
 
 
 def number_text(value: object, digits: int = DIGITS) -> str:

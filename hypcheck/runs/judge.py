@@ -28,7 +28,7 @@ from numpy.typing import NDArray
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Pair, Position
-from hypcheck.geometry.rows import CANNOT_SAY, PAIRS, SWEEPS, Floats, Indices, Layout, Mask, Positions, Rows
+from hypcheck.geometry.rows import CANNOT_SAY, PAIRS, SWEEPS, Floats, Indices, Layout, Mask, Positions, Row, Rows
 from hypcheck.implementations.description import QUESTIONS
 from hypcheck.implementations.domain import PRECISIONS, UNIT_ROUNDOFF
 from hypcheck.implementations.sweeps import rough_exponents
@@ -121,7 +121,7 @@ class WrongCase:
     """
 
     index: int
-    row: tuple[float, ...]
+    row: Row
     truth: int
     answer: int
     mistake: Mistake
@@ -163,7 +163,7 @@ def is_amiss(
     return wrong
 
 
-def time_is_right(row: tuple[float, ...], time: float, criterion: Criterion) -> bool:
+def time_is_right(row: Row, time: float, criterion: Criterion) -> bool:
     """Whether a time of first contact, from 0 to 1, is right within the tolerance, on a sweep with contact."""
     return passage_error.time_is_tolerated(row, time, criterion.tolerance, criterion.unit)
 
@@ -322,14 +322,14 @@ def _judged_sweeps(
                 yield _wrong_time(index, row, float(times[index]))
 
 
-def _wrong_time(index: int, row: tuple[float, ...], time: float) -> WrongCase:
+def _wrong_time(index: int, row: Row, time: float) -> WrongCase:
     mistake = Mistake.LATE if time > passage_of(row).first_upper else Mistake.EARLY
     off = passage_error.radii_off(row, time)
     exponent = math.floor(math.log2(off)) if 0 < off < math.inf else (-math.inf if not off else math.inf)
     return WrongCase(index, row, HIT, HIT, mistake, Status.WRONG, exponent, time)
 
 
-def _wrong_hit(index: int, row: tuple[float, ...], answer: int, criterion: Criterion, near: float) -> WrongCase:
+def _wrong_hit(index: int, row: Row, answer: int, criterion: Criterion, near: float) -> WrongCase:
     change = passage_error.tolerance(row, criterion.tolerance, criterion.unit)
     within = bool(change) and (passage_of(row).grazes or passage_error.is_tolerated(row, bool(answer), change))
     status, truth = Status.TOLERATED if within else Status.WRONG, CLEAR if answer else HIT

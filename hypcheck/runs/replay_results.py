@@ -9,13 +9,13 @@ from typing import Any
 
 from hypcheck.answer import kind_as_text
 from hypcheck.geometry.pair import REFUSED, Pair, Position
-from hypcheck.geometry.rows import CANNOT_SAY
+from hypcheck.geometry.rows import CANNOT_SAY, Row
 from hypcheck.implementations.description import Description
 from hypcheck.proof_text import proof_as_json, proof_lines
 from hypcheck.record import plain
 from hypcheck.runs.causes import Cause
 from hypcheck.runs.intermediates import FormulaChoice, FormulaComparison, Intermediate, number_text
-from hypcheck.runs.replay import ProvedTruth, Replay, Row
+from hypcheck.runs.replay import ProvedTruth, Replay
 from hypcheck.tables.numbers import hex_of
 from hypcheck.truth import passage_error
 from hypcheck.truth.passage_error import SWEEP_ANSWERS, sweep_in_radii

@@ -224,7 +224,7 @@ def saved_result(result: CasesResult) -> SavedResult:
     """The result in the form of a progress line."""
     return SavedResult(
         tallies=dict(result.tallies),
-        pending=[_saved_open(pending) for pending in result.pending],
+        pending=[_saved_pending(pending) for pending in result.pending],
         retest=result.retest,
         outcomes=sorted(outcome.label for outcome in result.outcomes),
         excusing=sorted(result.excusing),
@@ -236,7 +236,7 @@ def restored_result(content: SavedResult) -> CasesResult:
     """The result in a line of progress. Raises as restored_state does."""
     return CasesResult(
         tallies=content.tallies,
-        pending=tuple(map(_restored_open, content.pending)),
+        pending=tuple(map(_restored_pending, content.pending)),
         retest=content.retest,
         outcomes=frozenset(outcome for outcome in Outcome if outcome.label in content.outcomes),
         excusing=frozenset(content.excusing),
@@ -244,7 +244,7 @@ def restored_result(content: SavedResult) -> CasesResult:
     )
 
 
-def _saved_open(pending: PendingRetest) -> PendingCases:
+def _saved_pending(pending: PendingRetest) -> PendingCases:
     return PendingCases(
         chunk=astuple(pending.chunk),
         indices=_runs(pending.indices),
@@ -253,7 +253,7 @@ def _saved_open(pending: PendingRetest) -> PendingCases:
     )
 
 
-def _restored_open(content: PendingCases) -> PendingRetest:
+def _restored_pending(content: PendingCases) -> PendingRetest:
     """Pending cases; their indices are made only if there are as many answers."""
     chunk = CaseChunk(*content.chunk)
     answers = np.frombuffer(bytes.fromhex(content.answers), dtype=np.int8)

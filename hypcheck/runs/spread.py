@@ -7,7 +7,7 @@ coordinates without any.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from itertools import combinations
 from types import MappingProxyType
 
@@ -20,12 +20,11 @@ from hypcheck.implementations.description import Description
 from hypcheck.kernel.classify import classify
 from hypcheck.record.lines import SlicesPart
 from hypcheck.runs.border_search import SearchStep, beside_border, far_numbers, first_of, rows_at
-from hypcheck.runs.cases import frozen_count, frozen_vectors
-from hypcheck.runs.plan import ConformancePlan, chosen_families, searches
+from hypcheck.runs.cases import frozen_count
+from hypcheck.runs.plan import ConformancePlan, chosen_families, rows_of, searches
 from hypcheck.runs.results import JudgingRules
 from hypcheck.vectors import crossed
 from hypcheck.vectors.border_lines import HIGHEST, RATIO_OCTAVES, RUNGS, STRATA_FARTHEST, STRATA_NEAREST, octaves_of
-from hypcheck.vectors.family import Family
 
 DISTANCE = "distance to contact"
 
@@ -98,7 +97,7 @@ def slices_of(plan: ConformancePlan, used: Description, rules: JudgingRules) -> 
     first = first_of(rules.criterion)
     for family in chosen_families(plan, used):
         if family.name in _FAMILIES.values():
-            rows = _asked(rules, family.name, np.concatenate([*_rows_of(plan, family)]))
+            rows = _asked(rules, family.name, np.concatenate([*rows_of(plan, family, MOST)]))
             if family.name in steps:
                 beside = beside_border(steps[family.name], first)
                 rows = np.concatenate([rows, _asked(rules, steps[family.name].family, beside)])
@@ -160,15 +159,6 @@ def _is_full(a: NDArray[np.float64], b: NDArray[np.float64], parts: int) -> bool
     inside = (a >= 0) & (a < 1) & (b >= 0) & (b < 1)
     cells = np.floor(a[inside] * parts).astype(np.int64) * parts + np.floor(b[inside] * parts).astype(np.int64)
     return len(np.unique(cells)) == parts * parts
-
-
-def _rows_of(plan: ConformancePlan, family: Family) -> Iterator[Rows]:
-    """Frozen and generated rows of the plan."""
-    if frozen_count(family.name):
-        yield frozen_vectors(family.name).rows
-    for seed in (plan.seed, plan.fresh):
-        if seed is not None:
-            yield family.rows(seed, min(plan.count * family.times, MOST))
 
 
 def crossed_of(plan: ConformancePlan, used: Description) -> dict[str, tuple[int, int]]:

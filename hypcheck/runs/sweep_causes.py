@@ -11,7 +11,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from hypcheck.geometry.rows import SWEEPS, Floats
+from hypcheck.geometry.rows import SWEEPS, Floats, Row
 from hypcheck.implementations import sweeps
 from hypcheck.kernel.classify import classify
 from hypcheck.runs.causes import SILENT, AnsweredRows, Answers, Rule, Scope, silent
@@ -74,7 +74,7 @@ def _other_sweeps(*order: int) -> Rule:
     return rule
 
 
-def _where_time(answered: AnsweredRows, holds: Callable[[tuple[float, ...], float], bool]) -> Answers:
+def _where_time(answered: AnsweredRows, holds: Callable[[Row, float], bool]) -> Answers:
     """The given answer where it is a right hit and `holds` is true of its sweep and its time; SILENT elsewhere."""
     answers = silent(answered)
     if answered.times is not None:
@@ -92,7 +92,7 @@ def _times_from_the_end(answered: AnsweredRows) -> Answers:
 def _times_off(answered: AnsweredRows, *, late: bool) -> Answers:
     """The given answer where only its time is wrong, `late` or early, by less than a thousandth of the sweep."""
 
-    def is_off(row: tuple[float, ...], time: float) -> bool:
+    def is_off(row: Row, time: float) -> bool:
         off = time - passage_of(row).first_lower
         return 0 < abs(off) < _SLIGHTLY and (off > 0) is late and not time_is_right(row, time, answered.criterion)
 
@@ -102,7 +102,7 @@ def _times_off(answered: AnsweredRows, *, late: bool) -> Answers:
 def _sampled(answered: AnsweredRows) -> Answers:
     """The given answer where its time is one of contact, by a thousandth of the sweep or more after the first."""
 
-    def is_late(row: tuple[float, ...], time: float) -> bool:
+    def is_late(row: Row, time: float) -> bool:
         return time - passage_of(row).first_lower >= _SLIGHTLY and not time_is_right(row, time, answered.criterion)
 
     touches = _touches(answered, 0.0 if answered.times is None else np.nan_to_num(answered.times))

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from hypcheck.geometry.rows import Mask, Positions, Rows
 from hypcheck.record import lines
-from hypcheck.record.fields import Histogram, Unsigned, row_of
+from hypcheck.record.fields import Histogram, Unsigned, row_of, row_parts
 from hypcheck.record.lines import GroupLine
 from hypcheck.record.progress import Place, Tally, UnansweredCase, WorstCase
 from hypcheck.runs import diagnosis, judge
@@ -202,15 +202,7 @@ def _unanswered_lines(tallied: Tally) -> list[lines.FaultPart]:
     others = [fault for fault in tallied.faults if fault not in first]
     chosen = [*first, *others[: max(0, UNANSWERED_KEPT - len(first))]]
     return [
-        lines.FaultPart(
-            case=fault.case,
-            row=fault.row,
-            end=fault.end,
-            axis=fault.axis,
-            heights=fault.heights,
-            status=fault.status,
-            reason=fault.reason,
-        )
+        lines.FaultPart(case=fault.case, **row_parts(fault), status=fault.status, reason=fault.reason)
         for fault in sorted(chosen, key=lambda fault: fault.place)
     ]
 
@@ -278,10 +270,7 @@ def worst_line(case: WorstCase, criterion: Criterion) -> lines.WrongAnswer:
     """The worst case for a line of the record, its error in units of the precision too."""
     return lines.WrongAnswer(
         case=case.case,
-        row=case.row,
-        end=case.end,
-        axis=case.axis,
-        heights=case.heights,
+        **row_parts(case),
         truth=case.truth,
         answer=case.answer,
         mistake=case.mistake,

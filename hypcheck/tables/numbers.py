@@ -11,6 +11,7 @@ from __future__ import annotations
 import json
 import math
 import re
+from collections.abc import Sequence
 from decimal import Context, Decimal, InvalidOperation
 from fractions import Fraction
 
@@ -155,6 +156,11 @@ _LONGEST_RATIONAL = 100_000
 def decimal_of(value: float) -> str:
     """The shortest decimal that float64 reads back as `value`, as JSON; an infinity or NaN is a string."""
     return repr(value) if math.isfinite(value) else f'"{value}"'
+
+
+def decimals_of(row: Sequence[float]) -> str:
+    """The decimals of a row as the command line takes them and reads them back; a zero has no sign."""
+    return ",".join(repr(value + 0.0).removesuffix(".0") for value in row)
 
 
 def hex_of(value: float) -> str:

@@ -210,7 +210,7 @@ def _gated_value(tested: model.UnderTest) -> document.Text:
     name: document.Text = (document.Code(tested.name), ", ", document.Code(line.spec))
     if isinstance(line, NotStartedLine):
         return (name, f", was not started: {line.trouble}.")
-    again = line.again
+    again = line.retest
     troubles = "".join(f" {trouble}." for trouble in line.troubles)
     excused = sum(group.counts.get("excused", 0) for group in tested.groups)
     known = f" {counted(excused, 'case')} excused as known failures." if excused else ""

@@ -47,7 +47,7 @@ def test_retest_sends_the_largest_proven_batch(gate, name, code):
     busy = ("--count", "4000", "--timeout", "60")  # enough to grow, though the machine be busy
     ended, record = gate(name, *(busy if code else ("--count", "1")))
     assert ended == code
-    assert counts(record)["tower-body"].get("nondeterministic", 0) == record.of(ImplementationLine)[0].again.beyond
+    assert counts(record)["tower-body"].get("nondeterministic", 0) == record.of(ImplementationLine)[0].retest.beyond
     assert FULL_QUESTION > 4096
 
 
@@ -64,15 +64,15 @@ def test_one_case_in_a_hundred_of_a_large_family_is_retested(gate):
     assert code == 0
     (line,) = record.of(ImplementationLine)
     asked = sum(each.asked for each in record.of(GroupLine))
-    assert asked / 100 < line.again.asked < asked / 50
-    assert line.again.within == line.again.beyond == 0
+    assert asked / 100 < line.retest.asked < asked / 50
+    assert line.retest.within == line.retest.beyond == 0
 
 
 @pytest.mark.thorough
 def test_answer_that_changes_within_the_tolerance_fails_only_with_deterministic(gate):
     families = ("--families", "tangent,tower-body")
     code, record = gate("forgets_a_little", *families)
-    assert record.of(ImplementationLine)[0].again.within > 0
+    assert record.of(ImplementationLine)[0].retest.within > 0
     assert set(counts(record)["tangent"]) == {"right", "tolerated"}
     assert code == 0
     assert gate("forgets_a_little", *families, "--deterministic")[0] == 1

@@ -71,7 +71,7 @@ def test_a_right_implementation_of_tilted_spheroids_passes_on_upright_and_tilted
     assert set(found[LEANING].counts) <= {"right", "skipped"}
     (line,) = record.of(ImplementationLine)
     assert line.declared.tilt is line.used.tilt is True
-    assert line.again.asked > 30
+    assert line.retest.asked > 30
 
 
 def test_an_implementation_that_answers_an_axis_without_a_direction_is_wrong_on_the_tilted_invalid_rows_alone(

@@ -67,8 +67,8 @@ def test_right_passage_function_passes_and_repeats_its_times_in_the_retest(tmp_p
     assert group.counts == {"right": ASKED}
     assert list(refused.counts) == ["refused"]
     (line,) = read(tmp_path).of(ImplementationLine)
-    assert line.again.asked >= 6
-    assert (line.again.within, line.again.beyond) == (0, 0)
+    assert line.retest.asked >= 6
+    assert (line.retest.within, line.retest.beyond) == (0, 0)
 
 
 @pytest.mark.slow
