@@ -36,9 +36,9 @@ from hypcheck.vectors.frozen import folder
 
 def fingerprints(specs: Iterable[str], *others: Path | None) -> dict[str, str]:
     """The sha256 of the files that SPECs name or start, and of other files, by path, as far as they exist."""
-    paths = [path for spec in specs for path in (*(file.path for file in files_of(spec)), *started_files(spec).paths)]
-    every = map(str, [*paths, *(path for path in others if path is not None)])
-    return {path: sha256(Path(path)) for path in dict.fromkeys(every)}
+    named = [path for spec in specs for path in (*(file.path for file in files_of(spec)), *started_files(spec).paths)]
+    paths = map(Path, [*named, *(path for path in others if path is not None)])
+    return {str(path): sha256(path) for path in dict.fromkeys(paths)}
 
 
 def not_hashed(specs: Iterable[str]) -> list[str]:

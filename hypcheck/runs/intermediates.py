@@ -50,7 +50,7 @@ def rational(value: Number, bits: int = 64) -> Fraction:
     # p and q√h of equal sign cannot cancel. Else p + q√h = (p² − q²h)/(p − q√h), and p, −q√h have equal sign.
     if value.p * value.q < 0:
         return (value.p**2 - value.q**2 * value.h) / rational(QuadraticSurd(value.p, -value.q, value.h), bits + 1)
-    # root_of rounds √h down to a multiple of 2^−s, and √h > 2^(bits + 1 − s): the relative error is below 2^−(bits + 1).
+    # root_of rounds √h down to a multiple of 2^−s, and √h > 2^(bits + 1 − s): the error is below 2^−(bits + 1) · √h.
     return value.p + value.q * root_of(value.h, bits + 1)
 
 
