@@ -36,8 +36,10 @@ from hypcheck.vectors.frozen import folder
 
 def fingerprints(specs: Iterable[str], *others: Path | None) -> dict[str, str]:
     """The sha256 of the files that SPECs name or start, and of other files, by path, as far as they exist."""
-    named = [path for spec in specs for path in (*(file.path for file in files_of(spec)), *started_files(spec).paths)]
-    paths = map(Path, [*named, *(path for path in others if path is not None)])
+    paths: list[Path] = []
+    for spec in specs:
+        paths += [*(file.path for file in files_of(spec)), *map(Path, started_files(spec).paths)]
+    paths += [path for path in others if path is not None]
     return {str(path): sha256(path) for path in dict.fromkeys(paths)}
 
 

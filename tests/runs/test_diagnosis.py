@@ -11,8 +11,9 @@ from hypcheck.derivation.formulas import FORMULAS, answers
 from hypcheck.geometry.pair import COLUMNS
 from hypcheck.implementations.domain import EVERYWHERE
 from hypcheck.implementations.session import Answered
+from hypcheck.record.fields import row_of
 from hypcheck.runs.causes import SILENT, AnsweredRows, Scope
-from hypcheck.runs.diagnosis import CAUSES, PLACE_CAUSES, Diagnosis, causes_of, diagnose, merged, wrong_case
+from hypcheck.runs.diagnosis import CAUSES, PLACE_CAUSES, Diagnosis, causes_of, diagnose, merged
 from hypcheck.runs.judge import Criterion, Mistake, Status, WrongCase
 from hypcheck.runs.score import score
 from hypcheck.vectors.frozen import load
@@ -153,7 +154,9 @@ def test_wrong_answers_that_no_rule_gives_at_all_are_counted_as_unexplained():
     case = WrongCase(0, tuple(answered.rows[0].tolist()), 1, 7, Mistake.FALSE_CONTACT, Status.WRONG, -1.0)
     diagnoses = {"uniform": diagnose(answered, [case], [], [((0, 0), "uniform-0000")])}
     (counted,) = causes_of(diagnoses, [], ORDINARY, EVERYWHERE)
-    assert (counted.cause, counted.families, wrong_case(counted.worst)) == (None, {"uniform": 1}, case)
+    assert (counted.cause, counted.families) == (None, {"uniform": 1})
+    kept = counted.worst.worst
+    assert (row_of(kept), kept.answer, kept.mistake, counted.worst.exponent) == (case.row, 7, case.mistake, -1.0)
 
 
 def test_causes_toml_has_no_unused_entry():
