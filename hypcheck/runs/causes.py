@@ -4,14 +4,16 @@ A cause explains a wrong answer only if its rule, evaluated at that row, gives t
 diagnosis.py judges over a whole run whether the implementation has this rule: if the rule is wrong at rows where the
 implementation is right, it has not.
 
-This file defines a cause, and has the causes that are limited to some places: on the ring, outside a regime, where
-rounding decides. formula_errors.py has the causes that apply to every row: a wrong sign, a column taken for another, an
-axis that is ignored; sweep_causes.py has those of sweeps. causes.toml has the texts of all causes.
+This file defines a cause, rules that answer changed rows, and the numbers of the plain formula with bounds of their
+rounding errors. place_causes.py
+has the causes that are limited to some places: on the ring, outside a regime, where rounding decides.
+formula_errors.py has the causes that apply to every row: a wrong sign, a column taken for another, a time counted from
+the wrong end. causes.toml has the texts of all causes.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
 from functools import cached_property
@@ -20,17 +22,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck import toml
-from hypcheck.geometry.pair import COLUMNS, Pair, Position
-from hypcheck.geometry.rows import Floats, Indices, Mask, Positions, Rows
-from hypcheck.implementations.domain import UNIT_ROUNDOFF
+from hypcheck.geometry.pair import COLUMNS, REFUSED, Pair, Position
+from hypcheck.geometry.rows import PAIRS, Floats, Indices, Mask, Positions, Rows
+from hypcheck.kernel.classify import classify
 from hypcheck.kernel.emission.dialects import DIALECTS
 from hypcheck.runs import judge
 from hypcheck.runs.judge import Criterion
 from hypcheck.truth import exact
 from hypcheck.truth.kinds import Kind
-from hypcheck.truth.pencil import cubic
 
 Answers = NDArray[np.int8]
+
 
 SILENT = 100
 """What a rule gives for a row about which it says nothing."""
@@ -144,6 +146,11 @@ def cause(
     return Cause(name=name, rule=rule, scope=scope, subject=subject, slack=slack, certain=certain, **texts)
 
 
+def causes_about(subject: str, rules: Mapping[str, Rule], scope: Scope = Scope.EVERYWHERE) -> tuple[Cause, ...]:
+    """The causes about a subject: "upright", "tilted" or "way", one for each of the rules by name."""
+    return tuple(cause(name, rule, scope, subject=subject) for name, rule in rules.items())
+
+
 @dataclass(frozen=True, eq=False)
 class Numbers:
     """A, B, P, Q, c1, c2, Δ, g'(B) and g'(−A) of rows (n, 7) in float64; values that overflow are not finite."""
@@ -181,7 +188,7 @@ class Numbers:
         e0, e1 = 8 * unit * A * B, 12 * unit * (A * B + A + B + B * P + A * Q)
         e2 = 8 * unit * (A + B + 1 + P + Q)
         if roots:
-            N = _greatest(np.abs(self.c2), np.sqrt(np.abs(self.c1)), np.cbrt(A * B))
+            N = greatest_of(np.abs(self.c2), np.sqrt(np.abs(self.c1)), np.cbrt(A * B))
             e0, e1, e2 = e0 + 1024 * unit * N**3, e1 + 1024 * unit * N**2, e2 + 1024 * unit * N
         return e0, e1, e2
 
@@ -237,9 +244,44 @@ class Numbers:
             return np.asarray(small & (np.abs(self.slope_at_B) <= share * size) & (self.A < self.B**2))
 
 
+def greatest_of(*values: Floats) -> Floats:
+    """The greatest of some numbers in each place."""
+    return np.asarray(np.max(values, axis=0))
+
+
 def silent(answered: AnsweredRows) -> Answers:
     """An answer to no row."""
     return np.full(len(answered.rows), SILENT, dtype=np.int8)
+
+
+def always(answer: int) -> Rule:
+    """The rule that gives this answer to every row."""
+    return lambda answered: np.full(len(answered.rows), answer, dtype=np.int8)
+
+
+def of_changed_rows(change: Callable[[Rows], Rows]) -> Rule:
+    """The rule that answers the changed rows exactly; SILENT where a changed row is not valid."""
+
+    def rule(answered: AnsweredRows) -> Answers:
+        with np.errstate(all="ignore"):
+            rows = change(answered.rows.copy())
+        positions = classify(np.ascontiguousarray(rows), on_invalid="flag")
+        return answered.answers_at(np.where(positions == REFUSED, SILENT, positions).astype(np.int8))
+
+    return rule
+
+
+def with_columns(**columns: Callable[[dict[str, Floats]], Floats]) -> Rule:
+    """The change of rows that replaces some columns by values computed from all columns."""
+
+    def change(rows: Rows) -> Rows:
+        names = PAIRS.columns(rows.shape[1])
+        before = dict(zip(names, rows.copy().T, strict=True))
+        for name, compute in columns.items():
+            rows[:, names.index(name)] = compute(before)
+        return rows
+
+    return of_changed_rows(change)
 
 
 def where_kind(candidates: Mask, answered: AnsweredRows, kind: Kind, position: Position) -> Answers:
@@ -249,194 +291,3 @@ def where_kind(candidates: Mask, answered: AnsweredRows, kind: Kind, position: P
         if answered.kind(place) is kind:
             positions[place] = position
     return answered.answers_at(positions)
-
-
-def _ring(answered: AnsweredRows) -> Answers:
-    """Proposition 3 on the ring: Δ = 0 is contact."""
-    at = (answered.truth == Position.EXTERIOR) & (answered.rows[:, 6] == 0) & answered.numbers.near_the_ring(2.0**-30)
-    return where_kind(at, answered, Kind.EXTERIOR_RING, Position.CONTACT)
-
-
-def _unless_rounded(answered: AnsweredRows, answers: Answers) -> Answers:
-    """The answers, but SILENT where the given answer is right and may be right by rounding."""
-    luck = answered.numbers.possible(2 * max(unit_of(answered), FLOAT64), printed=True)[:, 1]
-    right = answered.given == answered.answers_at(answered.truth)
-    return np.where(right & luck, SILENT, answers).astype(np.int8)
-
-
-def _groove(answered: AnsweredRows) -> Answers:
-    """Proposition 3 where c² < a: three positive roots are exterior, though all are at B or beyond."""
-    n = answered.numbers
-    with np.errstate(all="ignore"):
-        at = (answered.truth == Position.CONTACT) & (n.B**2 <= n.A * (1 + 2.0**-40)) & (n.c2 <= 0) & (n.c1 >= 0)
-    return _unless_rounded(answered, where_kind(at, answered, Kind.CROSSING_GROOVE_TWO_CURVES, Position.EXTERIOR))
-
-
-def _throat(answered: AnsweredRows) -> Answers:
-    """Proposition 5 where a < 1: two negative roots are interior, though both are at −A or below."""
-    at = (answered.truth == Position.CONTACT) & (answered.numbers.A < 1)
-    return _unless_rounded(answered, where_kind(at, answered, Kind.CROSSING_THROAT_TWO_CURVES, Position.INTERIOR))
-
-
-def _zero_coefficient(answered: AnsweredRows) -> Answers:
-    """Proposition 5 where c1 or c2 is 0: not interior."""
-    n = answered.numbers
-    with np.errstate(all="ignore"):
-        small = (np.abs(n.c1) <= 2.0**-40 * (1 + n.A * n.B + n.A + n.B + n.B * n.P + n.A * n.Q)) | (
-            np.abs(n.c2) <= 2.0**-40 * (1 + n.A + n.B + n.P + n.Q)
-        )
-
-    positions = silent(answered)
-    for place in np.flatnonzero((answered.truth == Position.INTERIOR) & small).tolist():
-        g = cubic(Pair.from_row(answered.rows[place].tolist()).lengths)
-        if g.n1 == 0 or g.n2 == 0:
-            positions[place] = Position.CONTACT
-    return answered.answers_at(positions)
-
-
-def _coefficients_are_exact(answered: AnsweredRows) -> Mask:
-    """The rows where c1 and c2 are computed without a rounding, whatever the order of operations (_on_a_grid)."""
-    n = answered.numbers
-    with np.errstate(all="ignore"):
-        size = n.A * n.B + n.A + n.B + n.B * n.P + n.A * n.Q
-        return _on_a_grid(answered, 16 * (1 + size), 4)
-
-
-def _delta_is_exact(answered: AnsweredRows) -> Mask:
-    """The rows where Δ is computed without a rounding, whatever the order of operations and the form of Δ."""
-    n = answered.numbers
-    with np.errstate(all="ignore"):
-        m0, m1, m2 = n.A * n.B, n.A * n.B + n.A + n.B + n.B * n.P + n.A * n.Q, 1 + n.A + n.B + n.P + n.Q
-        return _on_a_grid(answered, 128 * (m2**3 * m0 + m2**2 * m1**2 + m1**3 + m0**2), 12)
-
-
-def _on_a_grid(answered: AnsweredRows, size: Floats, power: int) -> Mask:
-    """A mask of the rows where the declared precision represents numbers up to this size exactly.
-
-    The numbers are polynomials of degree `power` in the lengths. After a division by powers of two, the lengths are
-    multiples of 1, ½, ¼ or 1/64.
-    """
-    alpha, gamma, b, d, x, y, z = answered.rows[:, : len(COLUMNS)].T
-    lengths = np.column_stack([alpha / b, gamma / d, x / b, y / b, z / d])
-    halved = (np.frexp(b)[0] == 0.5) & (np.frexp(d)[0] == 0.5)
-    exactly = np.zeros(len(answered.rows), dtype=bool)
-    for digits in (0, 1, 2, 6):
-        on_grid = (np.ldexp(lengths, digits) % 1 == 0).all(axis=1)
-        exactly |= halved & on_grid & (np.ldexp(size, power * digits) < 1 / max(unit_of(answered), FLOAT64))
-    return exactly
-
-
-def _tangency(kind: Kind, clear: Position) -> Rule:
-    """The rule that answers a tangency of this kind with the clear position of which it is the limit."""
-
-    def rule(answered: AnsweredRows) -> Answers:
-        at = (answered.truth == Position.CONTACT) & answered.numbers.possible(2.0**-50)[:, 1]
-        return where_kind(at, answered, kind, clear)
-
-    return rule
-
-
-FLOAT64 = 2.0**-53
-"""The unit of float64."""
-
-
-def unit_of(answered: AnsweredRows) -> float:
-    """The unit u of the declared precision; 0 if no rounding is tolerated."""
-    return float(UNIT_ROUNDOFF[answered.criterion.precision])
-
-
-def rounded(
-    answered: AnsweredRows, unit: float, at: Mask | bool = True, *, printed: bool = False, roots: bool = False
-) -> Answers:
-    """The given answers, at those of the rows `at` where roundings of this unit can produce them (Numbers.possible)."""
-    answers = judge.expected(np.array([-1, 0, 1], dtype=np.int8), answered.criterion.question)
-    possible = answered.numbers.possible(unit, printed=printed, roots=roots)
-    agrees = (possible & (answers[None, :] == answered.given[:, None])).any(axis=1)
-    return np.where(agrees & at, answered.given, SILENT).astype(np.int8)
-
-
-def _lost_beside_the_ring(answered: AnsweredRows) -> Answers:
-    """Beside the ring the rounded Δ has no reliable sign, and is taken for 0 or less."""
-    at = (answered.truth == Position.EXTERIOR) & answered.numbers.near_the_ring(2.0**-12)
-    return rounded(answered, 2 * max(unit_of(answered), FLOAT64), at)
-
-
-def _lost(answered: AnsweredRows) -> Answers:
-    """A sign that the rounding errors of a plain evaluation can change."""
-    unit = unit_of(answered)
-    return rounded(answered, 2 * unit) if unit >= FLOAT64 else silent(answered)
-
-
-def _lost_outside(answered: AnsweredRows) -> Answers:
-    """A sign that roundings can change in the printed rules, at contacts outside the regimes of these rules."""
-    n = answered.numbers
-    with np.errstate(all="ignore"):
-        outside = (answered.truth == Position.CONTACT) & ((n.A < 1) | (n.B**2 < n.A))
-    return rounded(answered, 2 * max(unit_of(answered), FLOAT64), outside, printed=True)
-
-
-def _lost_in_float64(answered: AnsweredRows) -> Answers:
-    """A sign that float64 cannot determine, though the declared precision is higher."""
-    return rounded(answered, 2 * FLOAT64) if unit_of(answered) < FLOAT64 else silent(answered)
-
-
-def _half_lost(answered: AnsweredRows) -> Answers:
-    """A sign that half the digits of the precision cannot determine."""
-    return rounded(answered, 2 * max(unit_of(answered), FLOAT64) ** 0.5)
-
-
-_RANGES = {"float16": (-14, 16), "bfloat16": (-126, 128), "float32": (-126, 128), "float64": (-1022, 1024)}
-"""The binary exponents of the least normal number and of the greatest, plus one."""
-
-
-def _out_of_range(answered: AnsweredRows) -> Answers:
-    """A square or a product of the plain formula overflows or underflows in the format, so that Δ has no sign."""
-    if answered.criterion.precision not in _RANGES:
-        return silent(answered)
-    least, greatest = _RANGES[answered.criterion.precision]
-    with np.errstate(all="ignore"):
-        alpha, gamma, b, d, x, y, z = np.log2(np.abs(answered.rows[:, : len(COLUMNS)].T))
-        r = np.maximum(x, y)
-        A, B, P, Q = 2 * (alpha - b), 2 * (gamma - d), 2 * (r - b), 2 * (z - d)
-        M2, M1 = _greatest(A, B, P, Q, 0 * A), _greatest(A + B, A, B, B + P, A + Q)
-        squares = [2 * b, A, B, 2 * (A + B), P, Q, 2 * x, 2 * y]
-        too_small = np.any([(exponent < least) & np.isfinite(exponent) for exponent in squares], axis=0)
-        too_large = np.any(
-            [exponent >= greatest for exponent in (*squares, 3 * M1, 3 * M2 + A + B, 2 * (M1 + M2))], axis=0
-        )
-    return np.where(too_small | too_large, answered.given, SILENT).astype(np.int8)
-
-
-def _greatest(*values: Floats) -> Floats:
-    return np.asarray(np.max(values, axis=0))
-
-
-PLACES: tuple[Cause, ...] = (
-    cause("ring", _ring, Scope.PLACE, slack=4, certain=_delta_is_exact),
-    cause("groove", _groove, Scope.PLACE),
-    cause("throat", _throat, Scope.PLACE),
-    cause("zero-coefficient", _zero_coefficient, Scope.PLACE, slack=4, certain=_coefficients_are_exact),
-    *(
-        Cause(
-            name=kind.value,
-            sentence=f"it takes a tangency for clear ({kind.contact_set} in common, {kind.value})",
-            why=f"{kind.description} There Δ = 0, as the roots of g are: {kind.roots}. Touching is contact",
-            remedy="a tangency is contact: exterior and interior must also require: Δ > 0",
-            rule=_tangency(kind, kind.limit_of),
-            scope=Scope.PLACE,
-        )
-        for kind in Kind
-        if kind.limit_of is not None
-    ),
-    cause("out-of-range", _out_of_range, Scope.ROUNDING),
-    cause("lost-beside-the-ring", _lost_beside_the_ring, Scope.ROUNDING),
-    cause("lost-to-rounding", _lost, Scope.ROUNDING),
-    cause("lost-outside-the-regime", _lost_outside, Scope.ROUNDING),
-)
-"""The causes about places, those in exact arithmetic first."""
-
-WIDER_ROUNDINGS: tuple[Cause, ...] = (
-    cause("float64-for-more", _lost_in_float64, Scope.ROUNDING),
-    cause("half-the-digits", _half_lost, Scope.ROUNDING),
-)
-"""Roundings of a narrower format than the declared one, which explain what no other rounding does."""

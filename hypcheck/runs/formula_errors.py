@@ -1,8 +1,12 @@
-"""Causes about every row of positions: a sign or a term of a formula wrong, a column taken for another.
+"""Causes about every row: a sign or a term of a formula wrong, a column taken for another, another question answered.
 
 Each is a whole rule. A rule about the input changes the row as its sentence in causes.toml says, and then answers
 exactly. A rule about a formula is evaluated in float64. If most of its answers agree with the given ones, it is
 evaluated in whole numbers at the rows where they disagree.
+
+A rule about a sweep tests positions in place of the sweep, or takes columns for others. A rule about times gives the
+given answer where only the time is wrong, in its way. Places at times between the ends are rounded: they name a cause,
+and judge nothing.
 """
 
 from __future__ import annotations
@@ -13,16 +17,33 @@ from typing import Any
 
 import numpy as np
 
-from hypcheck.geometry.pair import COLUMNS, REFUSED
-from hypcheck.geometry.rows import PAIRS, Floats, Rows
+from hypcheck.geometry.pair import COLUMNS
+from hypcheck.geometry.rows import SWEEPS, Columns, Floats, Row, Rows
+from hypcheck.implementations import sweeps
 from hypcheck.kernel.classify import classify
-from hypcheck.runs.causes import SILENT, AnsweredRows, Answers, Cause, Rule, Scope, cause
+from hypcheck.runs.causes import (
+    SILENT,
+    AnsweredRows,
+    Answers,
+    Cause,
+    Rule,
+    Scope,
+    always,
+    causes_about,
+    of_changed_rows,
+    silent,
+    with_columns,
+)
+from hypcheck.runs.judge import time_is_right
+from hypcheck.truth.passage_error import passage_of
 
 _MOSTLY = 0.5
 """A formula is evaluated exactly, too, where it gives this share of the wrong answers in float64."""
 
+
 Number = Any
 """An array of float64, or of Python's integers."""
+
 
 Lengths = Mapping[str, Number]
 """The columns by name, float64 or whole numbers in a radial and an axial unit, on which no position depends."""
@@ -75,7 +96,10 @@ _COEFFICIENTS: dict[str, dict[str, Callable[[Terms], Number]]] = {
     },
     "c2": {"A": lambda t: t.A, "B": lambda t: -t.B, "1": lambda t: t.U, "P": lambda t: -t.P, "Q": lambda t: -t.Q},
 }
+
+
 _WRITTEN = {"c0": "c0 = −AB", "c1": "c1 = −AB + A − B + BP − AQ", "c2": "c2 = A − B + 1 − P − Q"}
+
 
 _DELTA = {"c2³ c0": -4, "c2² c1²": 1, "c2 c1 c0": 18, "c1³": -4, "c0²": -27}
 """The factors of the terms of Δ, equation (13)."""
@@ -158,50 +182,17 @@ def _terms(**changed: Callable[[Lengths], Number]) -> Rule:
     return SlippedRule(lambda row: replace(Terms.of(row), **{name: compute(row) for name, compute in changed.items()}))
 
 
-def _changed(change: Callable[[Rows], Rows]) -> Rule:
-    """The rule that answers the changed rows exactly; SILENT where a changed row is not valid."""
-
-    def rule(answered: AnsweredRows) -> Answers:
-        with np.errstate(all="ignore"):
-            rows = change(answered.rows.copy())
-        positions = classify(np.ascontiguousarray(rows), on_invalid="flag")
-        return answered.answers_at(np.where(positions == REFUSED, SILENT, positions).astype(np.int8))
-
-    return rule
-
-
-def _put(**columns: Callable[[dict[str, Floats]], Floats]) -> Rule:
-    """The change of rows that replaces some columns by values computed from all columns."""
-
-    def change(rows: Rows) -> Rows:
-        names = PAIRS.columns(rows.shape[1])
-        before = dict(zip(names, rows.copy().T, strict=True))
-        for name, compute in columns.items():
-            rows[:, names.index(name)] = compute(before)
-        return rows
-
-    return _changed(change)
-
-
 def _swapped(first: str, second: str) -> Rule:
-    return _put(**{first: lambda c: c[second], second: lambda c: c[first]})
+    return with_columns(**{first: lambda c: c[second], second: lambda c: c[first]})
 
 
 def _ignored(name: str) -> Rule:
-    return _put(**{name: lambda c: 0 * c[name]})
+    return with_columns(**{name: lambda c: 0 * c[name]})
 
 
-def _larger(c: dict[str, Floats]) -> Floats:
-    return np.maximum(c["b"], c["d"])
-
-
-def _smaller(c: dict[str, Floats]) -> Floats:
-    return np.minimum(c["b"], c["d"])
-
-
-def always(answer: int) -> Rule:
-    """The rule that gives this answer to every row."""
-    return lambda answered: np.full(len(answered.rows), answer, dtype=np.int8)
+def _ball(radius: Callable[[Floats, Floats], Floats]) -> Rule:
+    """The rule that answers a ball, whose radius is computed from b and d."""
+    return with_columns(b=lambda c: radius(c["b"], c["d"]), d=lambda c: radius(c["b"], c["d"]))
 
 
 def _gap(answered: AnsweredRows) -> Floats:
@@ -213,11 +204,6 @@ def _gap(answered: AnsweredRows) -> Floats:
 def _horizontally(answered: AnsweredRows) -> Answers:
     gap, b = _gap(answered), answered.rows[:, 2]
     return answered.answers_at(np.where(gap > b, 1, np.where(gap < -b, -1, 0)).astype(np.int8))
-
-
-def causes_about(subject: str, rules: Mapping[str, Rule], scope: Scope = Scope.EVERYWHERE) -> tuple[Cause, ...]:
-    """The causes about a subject: "upright", "tilted" or "way", one for each of the rules by name."""
-    return tuple(cause(name, rule, scope, subject=subject) for name, rule in rules.items())
 
 
 UPRIGHT_FORMULA_ERRORS = (
@@ -239,22 +225,22 @@ UPRIGHT_FORMULA_ERRORS = (
             "x-ignored": _ignored("x"),
             "y-ignored": _ignored("y"),
             "z-ignored": _ignored("z"),
-            "x-for-y": _put(y=lambda c: c["x"]),
-            "city-block": _put(x=lambda c: np.abs(c["x"]) + np.abs(c["y"]), y=lambda c: 0 * c["y"]),
-            "chessboard": _put(x=lambda c: np.maximum(np.abs(c["x"]), np.abs(c["y"])), y=lambda c: 0 * c["y"]),
-            "z-below": _put(z=lambda c: np.maximum(c["z"], 0)),
-            "x-below": _put(x=lambda c: np.maximum(c["x"], 0)),
-            "z-from-the-bottom": _put(z=lambda c: c["z"] - c["gamma"]),
-            "ball-of-b": _put(d=lambda c: c["b"]),
-            "ball-of-d": _put(b=lambda c: c["d"]),
-            "ball-around": _put(b=_larger, d=_larger),
-            "ball-within": _put(b=_smaller, d=_smaller),
-            "half-spheroid": _put(b=lambda c: c["b"] / 2, d=lambda c: c["d"] / 2),
-            "double-spheroid": _put(b=lambda c: c["b"] * 2, d=lambda c: c["d"] * 2),
-            "half-waist": _put(alpha=lambda c: c["alpha"] / 2),
-            "gamma-is-alpha": _put(gamma=lambda c: c["alpha"]),
-            "input-in-float32": _changed(lambda rows: rows.astype(np.float32).astype(np.float64)),
-            "input-in-float16": _changed(lambda rows: rows.astype(np.float16).astype(np.float64)),
+            "x-for-y": with_columns(y=lambda c: c["x"]),
+            "city-block": with_columns(x=lambda c: np.abs(c["x"]) + np.abs(c["y"]), y=lambda c: 0 * c["y"]),
+            "chessboard": with_columns(x=lambda c: np.maximum(np.abs(c["x"]), np.abs(c["y"])), y=lambda c: 0 * c["y"]),
+            "z-below": with_columns(z=lambda c: np.maximum(c["z"], 0)),
+            "x-below": with_columns(x=lambda c: np.maximum(c["x"], 0)),
+            "z-from-the-bottom": with_columns(z=lambda c: c["z"] - c["gamma"]),
+            "ball-of-b": with_columns(d=lambda c: c["b"]),
+            "ball-of-d": with_columns(b=lambda c: c["d"]),
+            "ball-around": _ball(np.maximum),
+            "ball-within": _ball(np.minimum),
+            "half-spheroid": with_columns(b=lambda c: c["b"] / 2, d=lambda c: c["d"] / 2),
+            "double-spheroid": with_columns(b=lambda c: c["b"] * 2, d=lambda c: c["d"] * 2),
+            "half-waist": with_columns(alpha=lambda c: c["alpha"] / 2),
+            "gamma-is-alpha": with_columns(gamma=lambda c: c["alpha"]),
+            "input-in-float32": of_changed_rows(lambda rows: rows.astype(np.float32).astype(np.float64)),
+            "input-in-float16": of_changed_rows(lambda rows: rows.astype(np.float16).astype(np.float64)),
             "A-not-squared": _terms(A=lambda row: row["alpha"] * row["b"] * row["d"] ** 2),
             "B-not-squared": _terms(B=lambda row: row["gamma"] * row["d"] * row["b"] ** 2),
             "Q-not-squared": _terms(Q=lambda row: abs(row["z"]) * row["d"] * row["b"] ** 2),
@@ -265,10 +251,8 @@ UPRIGHT_FORMULA_ERRORS = (
 )
 """The simplest first."""
 
-Axes = tuple[Floats, Floats, Floats]
 
-
-def _axis(compute: Callable[[Floats, Floats, Floats], Axes]) -> Rule:
+def _axis(compute: Callable[[Floats, Floats, Floats], Columns]) -> Rule:
     """The change of rows that replaces the axis; upright if the new axis has no direction."""
 
     def change(rows: Rows) -> Rows:
@@ -276,13 +260,13 @@ def _axis(compute: Callable[[Floats, Floats, Floats], Axes]) -> Rule:
         rows[~rows[:, 7:].any(axis=1), 7:] = (0.0, 0.0, 1.0)
         return rows
 
-    return _changed(change)
+    return of_changed_rows(change)
 
 
 def _angle(turn: Callable[[Floats], Floats]) -> Rule:
     """The change of rows that turns the axis to another angle from the vertical, in radians."""
 
-    def compute(x: Floats, y: Floats, z: Floats) -> Axes:
+    def compute(x: Floats, y: Floats, z: Floats) -> Columns:
         across = np.hypot(x, y)
         angle = turn(np.arctan2(across, z))
         scale = np.sin(angle) / np.where(across == 0, 1, across)
@@ -291,12 +275,12 @@ def _angle(turn: Callable[[Floats], Floats]) -> Rule:
     return _axis(compute)
 
 
-def _in_float32(*values: Floats) -> Axes:
+def _in_float32(*values: Floats) -> Columns:
     x, y, z = (value.astype(np.float32).astype(np.float64) for value in values)
     return x, y, z
 
 
-def _direction_in_float32(x: Floats, y: Floats, z: Floats) -> Axes:
+def _direction_in_float32(x: Floats, y: Floats, z: Floats) -> Columns:
     length = np.sqrt(x * x + y * y + z * z)
     return _in_float32(x / length, y / length, z / length)
 
@@ -310,7 +294,7 @@ def _along(factor: Callable[[Rows], Floats]) -> Rule:
         rows[:, 3] = 1 / np.sqrt(np.where(square > 0, square, 1e-12))
         return rows
 
-    return _changed(change)
+    return of_changed_rows(change)
 
 
 TILTED_FORMULA_ERRORS = causes_about(
@@ -338,10 +322,127 @@ TILTED_FORMULA_ERRORS = causes_about(
         "axis-over-greatest": _along(lambda v: (v * v).sum(axis=1) / np.abs(v).max(axis=1) ** 2),
         "axis-in-float32": _axis(_in_float32),
         "direction-in-float32": _axis(_direction_in_float32),
-        "axis-is-d": _put(d=lambda c: np.sqrt(c["axis_x"] ** 2 + c["axis_y"] ** 2 + c["axis_z"] ** 2)),
+        "axis-is-d": with_columns(d=lambda c: np.sqrt(c["axis_x"] ** 2 + c["axis_y"] ** 2 + c["axis_z"] ** 2)),
         "tilted-b-d": _swapped("b", "d"),
-        "tilted-ball-around": _put(b=_larger, d=_larger),
-        "tilted-ball-within": _put(b=_smaller, d=_smaller),
+        "tilted-ball-around": _ball(np.maximum),
+        "tilted-ball-within": _ball(np.minimum),
     },
 )
 """The axis ignored, read, normalised or turned wrongly; other bodies. The simplest first."""
+
+
+SAME_TIME = 1e-9
+"""Two times of a sweep, from 0 to 1, that a rule and an implementation may compute differently."""
+
+
+_SLIGHTLY = 1e-3
+"""Times that are off by less were computed inexactly; those that are later by more are of another position."""
+
+
+_MOST_SWEEPS = 512
+"""A sweep that bounds do not decide costs milliseconds, so at most this many sweeps of a chunk are tested again."""
+
+
+def _touches(answered: AnsweredRows, times: Floats | float) -> Answers:
+    """Whether the spheroid is in contact at these times of the sweeps: 0 is the start, 1 the end."""
+    rows, times = answered.rows, np.full((1, len(answered.rows)), times).T
+    start, end = rows[:, 4:7], rows[:, 7:10]
+    with np.errstate(over="ignore"):  # rounded beyond the largest float64, a centre would be no valid row
+        centres = np.clip((1 - times) * start + times * end, np.minimum(start, end), np.maximum(start, end))
+    return np.asarray(classify(np.hstack([rows[:, :4], centres, rows[:, 10:]])) == 0, dtype=np.int8)
+
+
+def _timed(answered: AnsweredRows, hits: Answers, times: Floats | float) -> Answers:
+    """The hits, but SILENT where the given answer is a hit at a time other than this rule's."""
+    if answered.times is None:
+        return hits
+    with np.errstate(invalid="ignore"):
+        other = (hits == 1) & (answered.given == 1) & ~(np.abs(answered.times - times) <= SAME_TIME)
+    return np.where(other, SILENT, hits).astype(np.int8)
+
+
+def _at_both_ends(answered: AnsweredRows) -> Answers:
+    first = _touches(answered, 0.0)
+    return _timed(answered, np.maximum(first, _touches(answered, 1.0)), np.where(first == 1, 0.0, 1.0))
+
+
+def _between(answered: AnsweredRows) -> Answers:
+    """The rule that answers clear where both ends are clear and the sweep between them is not."""
+    first, last = _touches(answered, 0.0), _touches(answered, 1.0)
+    missed = (answered.truth == 1) & (answered.given == 0) & (first == 0) & (last == 0)
+    return np.where(missed, 0, SILENT).astype(np.int8)
+
+
+def _other_sweeps(*order: int) -> Rule:
+    """The rule that answers sweeps whose columns are in this order; SILENT about tilted spheroids."""
+
+    def rule(answered: AnsweredRows) -> Answers:
+        answers, times = silent(answered), np.zeros(len(answered.rows))
+        if SWEEPS.has_axis(answered.rows):
+            return answers
+        answers[:_MOST_SWEEPS], times[:_MOST_SWEEPS] = sweeps.certified_times(
+            np.ascontiguousarray(answered.rows[:_MOST_SWEEPS, order])
+        )
+        return _timed(answered, answers, times)
+
+    return rule
+
+
+def _where_time(answered: AnsweredRows, holds: Callable[[Row, float], bool]) -> Answers:
+    """The given answer where it is a right hit and `holds` is true of its sweep and its time; SILENT elsewhere."""
+    answers = silent(answered)
+    if answered.times is not None:
+        for place in np.flatnonzero((answered.given == 1) & (answered.truth == 1)).tolist():
+            if holds(tuple(answered.rows[place].tolist()), float(answered.times[place])):
+                answers[place] = 1
+    return answers
+
+
+def _times_from_the_end(answered: AnsweredRows) -> Answers:
+    """The given answer where its time is right if it is counted from the sweep's end."""
+    return _where_time(answered, lambda row, time: time_is_right(row, 1 - time, answered.criterion))
+
+
+def _times_off(answered: AnsweredRows, holds: Callable[[float], bool]) -> Answers:
+    """The given answer where only its time is wrong, and `holds` is true of the time since the first contact."""
+
+    def is_off(row: Row, time: float) -> bool:
+        return holds(time - passage_of(row).first_lower) and not time_is_right(row, time, answered.criterion)
+
+    return _where_time(answered, is_off)
+
+
+def _sampled(answered: AnsweredRows) -> Answers:
+    """The given answer where its time is one of contact, by a thousandth of the sweep or more after the first."""
+    touches = _touches(answered, 0.0 if answered.times is None else np.nan_to_num(answered.times))
+    late = _times_off(answered, lambda off: off >= _SLIGHTLY)
+    return np.where(touches == 1, late, SILENT).astype(np.int8)
+
+
+SWEEP_CAUSES = (
+    *causes_about("way", {"between-positions": _between}, Scope.PLACE),
+    *causes_about(
+        "way",
+        {
+            "late-times": lambda answered: _times_off(answered, lambda off: 0 < off < _SLIGHTLY),
+            "early-times": lambda answered: _times_off(answered, lambda off: -_SLIGHTLY < off < 0),
+        },
+        Scope.ROUNDING,
+    ),
+    *causes_about(
+        "way",
+        {
+            "only-the-start": lambda answered: _timed(answered, _touches(answered, 0.0), 0.0),
+            "only-the-end": lambda answered: _timed(answered, _touches(answered, 1.0), 1.0),
+            "only-the-ends": _at_both_ends,
+            "way-x-z": _other_sweeps(0, 1, 2, 3, 6, 5, 4, 9, 8, 7),
+            "way-b-d": _other_sweeps(0, 1, 3, 2, 4, 5, 6, 7, 8, 9),
+            "way-level": _other_sweeps(0, 1, 2, 3, 4, 5, 6, 7, 8, 6),
+            "way-always-0": always(0),
+            "way-always-1": lambda answered: _timed(answered, always(1)(answered), 0.0),
+            "times-from-the-end": _times_from_the_end,
+        },
+    ),
+    *causes_about("way", {"sampled-times": _sampled}, Scope.PLACE),
+)
+"""Positions tested in place of the sweep, columns and times mistaken. The simplest first."""

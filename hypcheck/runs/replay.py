@@ -33,9 +33,10 @@ from hypcheck.record import read
 from hypcheck.record.fields import layout_of, numbers_of
 from hypcheck.record.reader import file_of, recorded_cases
 from hypcheck.runs import judge
-from hypcheck.runs.causes import PLACES, WIDER_ROUNDINGS, AnsweredRows, Cause, Scope
+from hypcheck.runs.causes import AnsweredRows, Cause, Scope
 from hypcheck.runs.intermediates import FormulaChoice, choose_formula
 from hypcheck.runs.judge import Criterion, Mistake, Status, WrongCase
+from hypcheck.runs.place_causes import PLACES, WIDER_ROUNDINGS
 from hypcheck.runs.score import Score, score, status_of
 from hypcheck.runs.tally import STATUSES
 from hypcheck.tables.numbers import number_of_text
