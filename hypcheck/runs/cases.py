@@ -27,6 +27,9 @@ from hypcheck.vectors.family import BLOCK, Family
 _SMALLEST = 1e-300
 """Below this distance the float in a frozen vector is too inaccurate."""
 
+_MEASURED = frozenset({*vectors.NAMES, *vectors.TILTED_NAMES})
+"""The files whose vectors hold distances to other positions."""
+
 
 @dataclass(frozen=True, slots=True)
 class FrozenVectors:
@@ -49,10 +52,9 @@ def frozen_vectors(name: str) -> FrozenVectors:
     if name not in _LOADED:
         vectors_of_family = vectors.load(name)
         exponents = np.full(len(vectors_of_family.rows), math.nan)
-        if name in vectors.NAMES:
-            exponents = np.array([_exponent(vector) for vector in vectors_of_family.cases])
-        elif name in vectors.TILTED_NAMES:
-            exponents = np.array([_tilted_exponent(vector) for vector in vectors_of_family.cases])
+        if name in _MEASURED:
+            upright = name in vectors.NAMES
+            exponents = np.array([_exponent(vector, upright=upright) for vector in vectors_of_family.cases])
         _LOADED[name] = FrozenVectors(
             vectors_of_family.ids, vectors_of_family.rows, vectors_of_family.positions, exponents
         )
@@ -69,26 +71,23 @@ def keep_loaded(some: Mapping[str, FrozenVectors]) -> None:
     _LOADED.update(some)
 
 
-def _tilted_exponent(vector: Vector) -> float:
-    """The exponent of the distance's lower bound, or of its upper bound if the lower is 0; −inf for a tangency."""
+def _exponent(vector: Vector, *, upright: bool) -> float:
+    """The exponent of the distance to the nearest other position; −inf for a tangency.
+
+    Upright distances are rounded up, so the exponent k is that of a distance above 2^k, and at most 2^(k+1); it is NaN
+    below _SMALLEST. Tilted distances have two bounds: the exponent is that of the lower one, or of the upper one if the
+    lower is 0.
+    """
     clear = vector.position is not Position.CONTACT
     ends = [vector.flips[Position.CONTACT]] if clear else list(vector.flips.values())
-    least = min(end.lower for end in ends) or min(end.upper for end in ends)
-    if least == 0:
-        return -math.inf
-    return math.frexp(least)[1] - 1 if math.isfinite(least) else least
-
-
-def _exponent(vector: Vector) -> float:
-    """The exponent k of distances that are rounded up: above 2^k, and at most 2^(k+1). NaN below _SMALLEST."""
-    clear = vector.position is not Position.CONTACT
-    nearest = vector.flips[Position.CONTACT].upper if clear else min(flip.upper for flip in vector.flips.values())
-    if nearest == 0:
-        return -math.inf
-    if nearest < _SMALLEST:
+    least = 0.0 if upright else min(end.lower for end in ends)
+    nearest = least or min(end.upper for end in ends)
+    if nearest == 0 or math.isinf(nearest):
+        return nearest or -math.inf
+    if upright and nearest < _SMALLEST:
         return math.nan
     mantissa, exponent = math.frexp(nearest)
-    return exponent - (2 if mantissa == 0.5 else 1) if math.isfinite(nearest) else nearest
+    return exponent - (2 if upright and mantissa == 0.5 else 1)
 
 
 CHUNK_ROWS = 64 * BLOCK
@@ -268,7 +267,7 @@ def flip_exponents_of(made: ChunkCases, indices: NDArray[np.intp]) -> NDArray[np
     spheroids either, because its proof would take longer than the rest of the run.
     """
     chunk, measured = made.chunk, indices[indices < made.chunk.measured]
-    frozen = chunk.seed is None and chunk.family in (*vectors.NAMES, *vectors.TILTED_NAMES)
+    frozen = chunk.seed is None and chunk.family in _MEASURED
     if not len(measured) or not (frozen or len(made.columns) == len(COLUMNS)):
         return np.empty(0)
     if chunk.seed is not None:

@@ -177,6 +177,9 @@ def add_exit_codes(recorded: Iterable[RecordLine], outcome: RunOutcome) -> None:
 
 _NOT_ASKED = {Status.SKIPPED.value}
 
+_NO_CAUSE = (UNEXPLAINED, "no known cause gives these answers", "look at the worst of them with replay", "")
+"""The name, sentence, remedy and claim of the line about wrong answers that no cause explains."""
+
 
 @dataclass(frozen=True)
 class ImplementationLines:
@@ -240,15 +243,17 @@ class ImplementationLines:
         ]
         for counted_cause in causes_of(tallies, clean, self.rules.criterion, self.rules.domain):
             worst = measured_worst(counted_cause.worst, self.rules.criterion.question)
+            name, sentence, remedy, claim = _NO_CAUSE
+            if (cause := counted_cause.cause) is not None:
+                remedy = cause.remedy_in(self.used.language)
+                name, sentence, claim = cause.name, cause.sentence, cause.claim
             yield CauseLine(
                 spec=self.spec,
                 method=self.used.name,
-                cause=counted_cause.cause.name if counted_cause.cause else UNEXPLAINED,
-                sentence=counted_cause.cause.sentence if counted_cause.cause else "no known cause gives these answers",
-                remedy=counted_cause.cause.remedy_in(self.used.language)
-                if counted_cause.cause
-                else "look at the worst of them with replay",
-                claim=counted_cause.cause.claim if counted_cause.cause else "",
+                cause=name,
+                sentence=sentence,
+                remedy=remedy,
+                claim=claim,
                 cases=counted_cause.cases,
                 families=dict(counted_cause.families),
                 worst=tally.worst_line(worst, self.rules.criterion),
