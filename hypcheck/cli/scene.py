@@ -167,7 +167,7 @@ def emit(
 ) -> None:
     """Write the kernel of a scene, or the code for one pair."""
     from hypcheck.errors import InputError
-    from hypcheck.kernel.emission.kernel import require_prefix
+    from hypcheck.kernel.emission.dialects import require_prefix
     from hypcheck.kernel.emission.pair import emitted_pair, emitted_scene, needs_routine
     from hypcheck.kernel.printing.coq import proof_of
     from hypcheck.tables.streams import write_files
@@ -226,15 +226,12 @@ def _kernel(
     model: SceneModel, language: str, precision: str, command: list[str], prefix: str, *, whole: bool
 ) -> tuple[ScenePlan, str]:
     """The plan of a scene, or of the whole scene, and its kernel."""
-    if whole:
-        from hypcheck.kernel.emission.whole import whole as whole_text
-        from hypcheck.kernel.emission.whole import whole_plan
-
-        plan = whole_plan(model, precision)
-        return plan, whole_text(model, plan, language, command, prefix)
-    from hypcheck.kernel.emission.kernel import emitted
+    from hypcheck.kernel.emission.kernel import emitted, emitted_whole, whole_plan
     from hypcheck.kernel.specialise.plan import plan_of
 
+    if whole:
+        plan = whole_plan(model, precision)
+        return plan, emitted_whole(model, plan, language, command, prefix)
     plan = plan_of(model, precision)
     return plan, emitted(plan, language, command, prefix)
 

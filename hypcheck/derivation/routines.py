@@ -2,7 +2,7 @@
 
 Its parts are steps of programs, calls and loops, in the order of evaluation, and nothing branches: a decision is a
 `select`. The steps of its bodies are those of derivation/program.py, so what is proved of a program is proved of every
-round of a loop over it. Kernels are printed from routines (kernel/emission/routines.py); `run` evaluates one.
+round of a loop over it. Kernels are printed from routines (kernel/emission/dialects.py); `run` evaluates one.
 
 A name is a number, a truth value, a pair of numbers (whose sum a double-double is), or an answer, a whole number.
 """

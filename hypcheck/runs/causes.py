@@ -24,7 +24,7 @@ from hypcheck import toml
 from hypcheck.geometry.pair import COLUMNS, REFUSED, Pair, Position
 from hypcheck.geometry.rows import PAIRS, Floats, Indices, Mask, Positions, Rows
 from hypcheck.kernel.classify import classify
-from hypcheck.kernel.emission.dialects import DIALECTS
+from hypcheck.kernel.emission.dialects import LANGUAGES
 from hypcheck.runs import judge
 from hypcheck.runs.judge import Criterion
 from hypcheck.truth import exact
@@ -123,7 +123,7 @@ class Cause:
         """The remedy for an implementation in that language; a command in the text can be typed without changes."""
         name = {"c++": "cpp"}.get(language.lower(), language.lower())
         command = "hypcheck emit --method exact"
-        return self.remedy.replace(command, f"{command} --language {name}") if name in DIALECTS else self.remedy
+        return self.remedy.replace(command, f"{command} --language {name}") if name in LANGUAGES else self.remedy
 
     @property
     def rounds(self) -> bool:

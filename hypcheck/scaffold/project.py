@@ -171,9 +171,9 @@ class Project:
     @property
     def emit(self) -> str:
         """The command line that writes a right predicate in the place of the stub; empty where there is none."""
-        from hypcheck.kernel.emission.dialects import DIALECTS  # noqa: PLC0415 - only what is printed last needs it
+        from hypcheck.kernel.emission import dialects  # noqa: PLC0415 - only what is printed last needs it
 
-        if self.stub != "position" or self.language.name not in DIALECTS:
+        if self.stub != "position" or self.language.name not in dialects.LANGUAGES:
             return ""
         return f"hypcheck emit --method exact --language {self.language.name} --output {self.predicate}"
 

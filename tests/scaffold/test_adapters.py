@@ -21,7 +21,7 @@ from hypcheck.implementations.implementation import open_implementation
 from hypcheck.implementations.session import Limits
 from hypcheck.scaffold.project import LANGUAGES, Language, Project
 from hypcheck.vectors.families import FAMILIES
-from tests.support.inside import DIALECTS
+from tests.support.inside import EMITTED_LANGUAGES
 from tests.support.without_drawing import COMMAND
 from tests.tools.miniatures import restarts_of
 
@@ -348,7 +348,7 @@ def test_generated_stub_passes_on_the_scenes_of_the_paper_and_fails_on_the_ring(
     assert failed["implementations"][0]["name"] == "stub"
 
 
-@pytest.mark.parametrize("built", [name for name in LANGUAGES if name in DIALECTS], indirect=True)
+@pytest.mark.parametrize("built", [name for name in LANGUAGES if name in EMITTED_LANGUAGES], indirect=True)
 def test_the_last_command_that_init_prints_writes_a_predicate_that_passes_the_gate(
     built, tmp_path, monkeypatch, text_reports
 ):

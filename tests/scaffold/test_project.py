@@ -15,7 +15,7 @@ from hypcheck.cli.main import main
 from hypcheck.implementations.spec import parse_spec
 from hypcheck.scaffold import project as languages
 from hypcheck.scaffold.project import LANGUAGES, LONGEST_NAME, STUBS, Project, safe_name, shared_files
-from tests.support.inside import DIALECTS
+from tests.support.inside import EMITTED_LANGUAGES
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -56,7 +56,7 @@ def test_init_writes_every_file_of_a_language_and_prints_the_next_commands(langu
     assert [line.split("   ")[0] for line in listed] == [str(tmp_path / path) for path in expected]
     assert nothing.startswith("nothing to install was named: edit the step")
     typed = [line.strip() for line in printed.splitlines() if line.startswith("    ")]
-    assert typed == [*project.commands, *([project.emit] if language.name in DIALECTS else [])]
+    assert typed == [*project.commands, *([project.emit] if language.name in EMITTED_LANGUAGES else [])]
     assert f"in {tmp_path}:" in printed
 
 

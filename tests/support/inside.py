@@ -23,8 +23,9 @@ from hypcheck.kernel.classify import classify
 from hypcheck.kernel.compiled_kernel import answer_sweeps
 from hypcheck.kernel.core import HEADER, generate
 from hypcheck.kernel.core.generate import TARGET, header
-from hypcheck.kernel.emission.dialects import DIALECTS
-from hypcheck.kernel.emission.kernel import description, emitted
+from hypcheck.kernel.emission.dialects import LANGUAGES as EMITTED_LANGUAGES
+from hypcheck.kernel.emission.dialects import dialect_of
+from hypcheck.kernel.emission.kernel import description, emitted, emitted_whole, whole_plan
 from hypcheck.kernel.emission.pair import UPRIGHT as METHODS
 from hypcheck.kernel.emission.pair import emitted_pair
 from hypcheck.kernel.emission.plan_text import (
@@ -34,7 +35,6 @@ from hypcheck.kernel.emission.plan_text import (
     plan_lines,
     printed_operations,
 )
-from hypcheck.kernel.emission.whole import whole, whole_plan
 from hypcheck.kernel.in_use import kernel
 from hypcheck.kernel.integers import position as integers_whole_position
 from hypcheck.kernel.integers import upright_position as integers_position
@@ -152,8 +152,8 @@ __all__ = [
     "COEFFICIENTS",
     "COMPLEX",
     "CONSTANTS",
-    "DIALECTS",
     "DISCRIMINANT",
+    "EMITTED_LANGUAGES",
     "EXTENSION",
     "FLOAT64_BITS",
     "FORMATS",
@@ -228,11 +228,13 @@ __all__ = [
     "decide",
     "decided_by",
     "description",
+    "dialect_of",
     "discriminant",
     "distance_exponents",
     "distance_to_mesh",
     "emitted",
     "emitted_pair",
+    "emitted_whole",
     "ended_clearance",
     "ended_enclosure",
     "entry",
@@ -323,6 +325,5 @@ __all__ = [
     "truth_nearest",
     "value",
     "verdict",
-    "whole",
     "whole_plan",
 ]

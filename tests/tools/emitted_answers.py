@@ -25,7 +25,7 @@ from hypcheck.scene.reading import read_scene, shipped_scenes
 from hypcheck.vectors.fixed_sizes import families_for
 from tests.kernel.emission.building import COMMAND, COMMANDS, asking, built_of
 from tests.kernel.emission.test_tilted import SCENES as TILTED
-from tests.support.inside import DIALECTS, ScenePlan, description, emitted, plan_of
+from tests.support.inside import EMITTED_LANGUAGES, ScenePlan, description, dialect_of, emitted, plan_of
 
 ROWS = 40
 TIMES = 5
@@ -43,7 +43,8 @@ def plans() -> Iterator[tuple[str, ScenePlan]]:
 def texts() -> Iterator[tuple[str, str, ScenePlan, str]]:
     """Name, language, plan and text of every kernel."""
     for name, plan in plans():
-        for language, dialect in DIALECTS.items():
+        for language in EMITTED_LANGUAGES:
+            dialect = dialect_of(language)
             if plan.format.name in dialect.numbers:
                 yield f"{name}.{dialect.extension}", language, plan, emitted(plan, language, COMMAND)
 

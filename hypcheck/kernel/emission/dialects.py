@@ -1,21 +1,53 @@
-"""The forms of an emitted kernel in each language: templates, constants, conditions, answers, tables, statements.
+"""The languages of emitted code: their phrases and templates, descriptions and prefixes, and routines in them.
 
-In a template ${name} within a line is replaced by its text; on a line of its own, by its lines with the same indent.
+templates/ has a file of phrases for each language, NAME.toml, and a template for each kind of file, which C and C++
+share. In both ${name} is replaced by a text. In a template, a name that is alone on its line is replaced by the lines
+of its text, with the indent that it has.
+
+The description is what a file says of itself: a text of JSON, or an object of its language, a line for each setting.
+
+A routine is printed as a head, a statement for each part, and a result; steps are printed as those of programs are.
+The phrases say how a function begins and ends, how a number is kept from round to round, and what a loop and a call
+are. No function here knows a language.
 """
 
 from __future__ import annotations
 
+import json
 import re
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache, partial
 from importlib import resources
+from typing import Any
 
-from hypcheck.derivation.program import Program
-from hypcheck.derivation.routines import ANSWER, PAIR
+from hypcheck import toml
+from hypcheck.derivation.program import NUMBER, Program, Step
+from hypcheck.derivation.routines import (
+    PAIR,
+    Call,
+    Half,
+    Loop,
+    Part,
+    Result,
+    Routine,
+    Stored,
+    called,
+    kind_of_part,
+    names_read,
+)
 from hypcheck.errors import InputError
-from hypcheck.kernel.printing.languages import statements_in
+from hypcheck.kernel.printing.languages import Spelling, argument_of, spelling_of, statements_in, value_of
+from hypcheck.messages import escaped
+
+LANGUAGES = ("c", "cpp", "rust", "javascript", "python")
+"""What `emit --language` takes."""
+
+INDENT = "    "
+WIDTH = 120
 
 _MARK = re.compile(r"^( *)\$\{(\w+)\}$|\$\{(\w+)\}", re.MULTILINE)
+_ESCAPED_MARK = re.compile(r"\$\{\{(\w+)\}\}")
 
 
 def filled(package: str, name: str, parts: Mapping[str, str]) -> str:
@@ -35,29 +67,31 @@ def filled(package: str, name: str, parts: Mapping[str, str]) -> str:
 
 @dataclass(frozen=True)
 class Dialect:
-    """A language: its types of numbers, and its phrases.
+    """A language: its types of numbers, and its phrases, as its file in templates/ has them.
 
-    `extension` is that of its source files, `templates` that of its templates, which C and C++ share. `comment` begins
-    a line of the head. `numbers` has the type for each format that the language computes in, as printing/languages.py
-    has it. `phrases` are templates with {name}, {value}, {condition}, {left} and {right}; the keys are those of
-    _C_LIKE. `suffixes` end literals of a format. `axis` has what a kernel's text says besides where it takes an axis:
-    how one is declared, given on, read from a row. `exports`: its kernels have functions that a linker sees; the
-    others' names are their module's. `by_block`: they have loops over many centres that compilers make vectors of.
-    `types` are those of pairs and of answers, `capitals` whether types are CalledSo.
+    `extension` is that of its source files, `templates` that of its templates. `comment` begins a line of the head,
+    and `between` separates two functions. `numbers` has the type for each format that the language computes in, as
+    printing/languages.py has it; `suffixes` end literals of a format. `types` are those of pairs and of answers,
+    `capitals` whether types are CalledSo. `phrases` are formats of str.format; `whole` replaces and adds those of a
+    whole scene's kernel. `axis` has what a kernel's text says besides where it takes an axis: how one is declared,
+    given on, read from a row. `exports`: its kernels have functions that a linker sees; the others' names are their
+    module's. `by_block`: they have loops over many centres that compilers make vectors of.
     """
 
     name: str
     extension: str
     templates: str
     comment: str
+    between: str
+    exports: bool
+    by_block: bool
+    capitals: bool
     numbers: Mapping[str, str]
+    suffixes: Mapping[str, str]
+    types: Mapping[str, str]
     phrases: Mapping[str, str]
+    whole: Mapping[str, str]
     axis: Mapping[str, str]
-    suffixes: Mapping[str, str] = field(default_factory=dict)
-    exports: bool = False
-    by_block: bool = False
-    types: Mapping[str, str] = field(default_factory=lambda: {PAIR: "", ANSWER: ""})
-    capitals: bool = False
 
     def number_of(self, precision: str) -> str:
         """The type of numbers for a format; raises InputError where the language has none."""
@@ -77,277 +111,278 @@ class Dialect:
         """The language's template of that name with its marks filled in, as `filled` does. Raises KeyError."""
         return filled("hypcheck.kernel.emission", f"{name}.{self.templates}.tmpl", parts)
 
+    @property
+    def asked_of_compiler(self) -> str:
+        """The options that a compiler must not be given; nothing if no option changes the language's arithmetic."""
+        return self.filled("arithmetic", {}) if self.by_block else ""
+
     def say(self, phrase: str, **words: object) -> str:
-        """A phrase with its words filled in; {place} is the setting's number and {number} the type of numbers."""
+        """A phrase with its words filled in; `place` is the setting's number and `number` the type of numbers."""
         return self.phrases[phrase].format(**words)
 
 
-_CHOOSE = (
-    "if (has_sizes(sizes, {sizes}){also}) {{\n    *one = position_{place}, *many = many_{place};\n    return TRUE;\n}}"
-)
-
-_SUM = "Double-double: the sum of two doubles, the second at most half a unit in the last place of the first."
-_DOUBLES_ALONE = """#if FLT_EVAL_METHOD != 0
-#error "compile for doubles that are computed as doubles, as with -msse2: double-double rests on it"
-#endif
-"""
-
-_C_LIKE = {
-    "constant": "const {number} {name} = {value};",
-    "begin": "static int position_{place}({number} x, {number} y, {number} z{axis})\n{{",
-    "end": "}}",
-    "return": "return {value};",
-    "return if": "if ({condition}) return {value};",
-    "if": "if ({condition}) {{",
-    "end if": "}}",
-    "and": "{left} && {right}",
-    "not": "!{value}",
-    "select": "{condition} ? {left} : {right}",
-    "truth": "{condition}",
-    "search": "search(R, zz, height, &setting_{place})",
-    "setting": "static const setting setting_{place} = {{{values}}};",
-    "frame": "static const frame frame_{place} = {{{values}}};",
-    "sizes": "static const sizes_of_frame sizes_{place} = {{{values}}};",
-    "fixed search": "tilted_search(x, y, z, &frame_{place})",
-    "found": "const int found = {value};",
-    "free search": "tilted_search_free(x, y, z, axis[0], axis[1], axis[2], &sizes_{place})",
-    "has axis": " && axis[0] == {axis[0]} && axis[1] == {axis[1]} && axis[2] == {axis[2]}",
-    "field": ".{name} = {value}",
-    "choose": _CHOOSE.replace("TRUE", "1"),
-    "note": "/* {text} */",
-    "unused": "(void){name};",
-    "function": "/* {meaning} */\nstatic {type} {name}({inputs})\n{{",
-    "input": "{type} {name}",
-    "record": "typedef struct {{\n{fields}\n}} {record};",
-    "record field": "{type} {name};",
-    "given record": ", const {record} *of",
-    "unpack": "const {type} {name} = of->{name};",
-    "pair type": f"{_DOUBLES_ALONE}\n/* {_SUM} */\ntypedef struct {{{{\n    double hi, lo;\n}}}} dd;",
-    "pair": "(dd){{{high}, {low}}}",
-    "high": "{pair}.hi",
-    "low": "{pair}.lo",
-    "both": "",
-    "stored": "const volatile {type} {name} = {value};",
-    "opaque": "const volatile {type} {name} = {value};",
-    "includes": "#include <math.h>\n#include <stddef.h>\n#include <stdint.h>",
-    "linkage": "",
-    "end linkage": "",
-    "keep": "{number} {name} = {value};",
-    "keep on": "{name} = {value};",
-    "loop": "for (int round = 0; round < {times}; round++) {{",
-    "leave if": "if ({condition}) break;",
-    "table": "static const {number} {name}[{rows}][{columns}] = {{\n{body}\n}};",
-    "table row": "{{{values}}}",
-    "loop over": "for (int round = 0; round < {times}; round++) {{",
-    "cell": "const {number} {name} = {table}[round][{index}];",
-    "told": "const double told = {value};",
-}
-
-_CPP = {
-    **_C_LIKE,
-    "constant": "constexpr {number} {name} = {value};",
-    "search": "search(R, zz, height, setting_{place})",
-    "setting": "constexpr Setting setting_{place} = {{{values}}};",
-    "frame": "constexpr Frame frame_{place} = {{{values}}};",
-    "sizes": "constexpr SizesOfFrame sizes_{place} = {{{values}}};",
-    "fixed search": "tilted_search(x, y, z, frame_{place})",
-    "free search": "tilted_search_free(x, y, z, axis[0], axis[1], axis[2], sizes_{place})",
-    "field": "{value}",
-    "choose": _CHOOSE.replace("TRUE", "true"),
-    "note": "// {text}",
-    "function": "// {meaning}\nstatic {type} {name}({inputs})\n{{",
-    "includes": "#include <cmath>\n#include <math.h>\n#include <stddef.h>\n#include <stdint.h>",
-    "linkage": 'extern "C" {{',
-    "end linkage": "}}",
-    "record": "struct {record} {{\n{fields}\n}};",
-    "given record": ", const {record} &of",
-    "unpack": "const {type} {name} = of.{name};",
-    "pair type": f"{_DOUBLES_ALONE}\n// {_SUM}\nstruct dd {{{{\n    double hi, lo;\n}}}};",
-    "pair": "{{{high}, {low}}}",
-}
-
-_RUST = {
-    **_C_LIKE,
-    "constant": "const {name}: {number} = {value};",
-    "begin": "fn position_{place}(x: {number}, y: {number}, z: {number}{axis}) -> i8 {{",
-    "return if": "if {condition} {{\n    return {value};\n}}",
-    "if": "if {condition} {{",
-    "select": "if {condition} {{ {left} }} else {{ {right} }}",
-    "truth": "i8::from({condition})",
-    "search": "search(R, zz, height, &SETTING_{place})",
-    "setting": "const SETTING_{place}: Setting = Setting {{{values}}};",
-    "frame": "const FRAME_{place}: Frame = Frame {{{values}}};",
-    "sizes": "const SIZES_{place}: SizesOfFrame = SizesOfFrame {{{values}}};",
-    "fixed search": "tilted_search(x, y, z, &FRAME_{place})",
-    "found": "let found = {value};",
-    "free search": "tilted_search_free(x, y, z, axis[0], axis[1], axis[2], &SIZES_{place})",
-    "has axis": " && axis == &[{axis[0]}, {axis[1]}, {axis[2]}]",
-    "field": "{name}: {value}",
-    "unused": "let _ = {name};",
-    "choose": "if has_sizes(sizes, [{sizes}]){also} {{\n    return Some(position_{place});\n}}",
-    "note": "// {text}",
-    "function": "/// {meaning}\nfn {name}({inputs}) -> {type} {{",
-    "input": "{name}: {type}",
-    "record": "struct {record} {{\n{fields}\n}}",
-    "record field": "{name}: {type},",
-    "given record": ", of: &{record}",
-    "unpack": "let {name} = of.{name};",
-    "pair type": f"/// {_SUM}\n#[derive(Clone, Copy)]\nstruct Dd {{{{\n    hi: f64,\n    lo: f64,\n}}}}",
-    "pair": "Dd {{ hi: {high}, lo: {low} }}",
-    "stored": "let {name} = {value};",
-    "opaque": "let {name} = std::hint::black_box({value});",
-    "keep": "let mut {name} = {value};",
-    "loop": "for _ in 0..{times} {{",
-    "leave if": "if {condition} {{\n    break;\n}}",
-    "table": "static {name}: [[{number}; {columns}]; {rows}] = [\n{body}\n];",
-    "table row": "[{values}]",
-    "loop over": "for row in &{table} {{",
-    "cell": "let {name} = row[{index}];",
-    "told": "let told = {value};",
-}
-
-_JAVASCRIPT = {
-    **_C_LIKE,
-    "constant": "const {name} = {value};",
-    "begin": "function position_{place}(x, y, z{axis}) {{",
-    "truth": "{condition} ? 1 : 0",
-    "search": "search(R, zz, height, setting_{place})",
-    "setting": "const setting_{place} = {{{values}}};",
-    "frame": "const frame_{place} = {{{values}}};",
-    "sizes": "const sizes_{place} = {{{values}}};",
-    "fixed search": "tilted_search(x, y, z, frame_{place})",
-    "found": "const found = {value};",
-    "free search": "tilted_search_free(x, y, z, axis[0], axis[1], axis[2], sizes_{place})",
-    "has axis": " && axisX === {axis[0]} && axisY === {axis[1]} && axisZ === {axis[2]}",
-    "field": "{name}: {value}",
-    "unused": "",
-    "choose": "if (alpha === {of[0]} && gamma === {of[1]} && b === {of[2]} && d === {of[3]}{also}) "
-    "return position_{place};",
-    "note": "// {text}",
-    "function": "/** {meaning} */\nfunction {name}({inputs}) {{",
-    "input": "{name}",
-    "pair type": f"// {_SUM}",
-    "pair": "[{high}, {low}]",
-    "high": "{pair}[0]",
-    "low": "{pair}[1]",
-    "stored": "const {name} = {value};",
-    "opaque": "const {name} = new Float64Array([{value}])[0];",
-    "record": "",
-    "record field": "",
-    "given record": ", {{ {inputs} }}",
-    "unpack": "",
-    "keep": "let {name} = {value};",
-    "told": "const told = {value};",
-    "table": "const {name} = [\n{body}\n];",
-    "table row": "[{values}]",
-    "loop over": "for (const row of {table}) {{",
-    "cell": "const {name} = row[{index}];",
-    "loop": "for (let round = 0; round < {times}; round++) {{",
-}
-
-_PYTHON = {
-    "constant": "{name} = {value}",
-    "begin": "def position_{place}(x: float, y: float, z: float{axis}) -> int:",
-    "end": "",
-    "return": "return {value}",
-    "return if": "if {condition}:\n    return {value}",
-    "if": "if {condition}:",
-    "end if": "",
-    "and": "{left} and {right}",
-    "not": "not {value}",
-    "select": "{left} if {condition} else {right}",
-    "truth": "int({condition})",
-    "search": "search(R, zz, height, *SETTING_{place})",
-    "setting": "SETTING_{place} = ({values})",
-    "frame": "FRAME_{place} = ({values})",
-    "sizes": "SIZES_{place} = ({values})",
-    "fixed search": "tilted_search(x, y, z, *FRAME_{place})",
-    "found": "found = {value}",
-    "free search": "tilted_search_free(x, y, z, axis[0], axis[1], axis[2], *SIZES_{place})",
-    "has axis": ", {axis[0]}, {axis[1]}, {axis[2]}",
-    "field": "{value}",
-    "choose": "({sizes}{also}): position_{place},",
-    "note": "# {text}",
-    "unused": "",
-    "function": 'def {name}({inputs}) -> {type}:\n    """{meaning}"""',
-    "input": "{name}: {type}",
-    "pair type": f'DoubleDouble = tuple[float, float]\n"""{_SUM}"""',
-    "pair": "{high}, {low}",
-    "high": "{pair}[0]",
-    "low": "{pair}[1]",
-    "both": "{high}, {low} = {pair}",
-    "stored": "{name} = {value}",
-    "opaque": "{name} = {value}",
-    "record": "",
-    "record field": "",
-    "given record": ", {inputs}",
-    "unpack": "",
-    "keep": "{name} = {value}",
-    "keep on": "{name} = {value}",
-    "loop": "for _ in range({times}):",
-    "leave if": "if {condition}:\n    break",
-    "table": "{name} = (\n{body}\n)",
-    "table row": "({values},)",
-    "loop over": "for row in {table}:",
-    "cell": "{name} = row[{index}]",
-    "told": "told = {value}",
-}
-
-
-_C_AXIS = {
-    "checked": " && has_direction(axis[0], axis[1], axis[2])",
-    "checked_row": " && has_direction(row[7], row[8], row[9])",
-    "axis": ", const double axis[3]",
-    "given": ", axis",
-    "row": ", row + 7",
-    "header": "#include <float.h>\n",
-}
-_RUST_AXIS = {
-    "checked": ".filter(|_| has_direction(axis[0], axis[1], axis[2]))",
-    "axis": ", axis: &[f64; 3]",
-    "given": ", axis",
-    "row": ", &[row[7], row[8], row[9]]",
-    "type": ", &[f64; 3]",
-    "columns": ", axis_x, axis_y, axis_z",
-    "pointer": "axis: *const f64, ",
-    "safety": "`axis` 3, ",
-    "read": "let axis = &*axis.cast::<[f64; 3]>();\n    ",
-}
-_JAVASCRIPT_AXIS = {
-    "checked": " && has_direction(axisX, axisY, axisZ)",
-    "axis": ", axis",
-    "given": ", axis",
-    "row": ", [axisX, axisY, axisZ]",
-    "names": ", axisX, axisY, axisZ",
-}
-_PYTHON_AXIS = {
-    "checked": " or not has_direction(axis_x, axis_y, axis_z)",
-    "axis": ", axis: tuple[float, float, float]",
-    "given": ", axis",
-    "row": ", (axis_x, axis_y, axis_z)",
-    "names": ", axis_x, axis_y, axis_z",
-    "open": "\n    ",
-    "parameters": ",\n    axis_x: float, axis_y: float, axis_z: float,\n",
-}
-
-
-_C_TYPES, _RUST_TYPES = {PAIR: "dd", ANSWER: "int"}, {PAIR: "Dd", ANSWER: "i8"}
-_PYTHON_TYPES = {PAIR: "DoubleDouble", ANSWER: "int"}
-_C_NUMBERS = {"float64": "double", "float32": "float"}
-_C_SUFFIXES = {"float32": "F"}
-_RUST_NUMBERS = {"float64": "f64", "float32": "f32"}
-_JAVASCRIPT_NUMBERS = {"float64": "number", "float32": "float32"}
-
-DIALECTS = {
-    dialect.name: dialect
-    for dialect in (
-        Dialect("c", "c", "c", " * ", _C_NUMBERS, _C_LIKE, _C_AXIS, _C_SUFFIXES, True, True, _C_TYPES),
-        Dialect("cpp", "cpp", "c", " * ", _C_NUMBERS, _CPP, _C_AXIS, _C_SUFFIXES, True, True, _C_TYPES, capitals=True),
-        Dialect(
-            "rust", "rs", "rs", "//! ", _RUST_NUMBERS, _RUST, _RUST_AXIS, {}, True, False, _RUST_TYPES, capitals=True
-        ),
-        Dialect("javascript", "mjs", "mjs", "// ", _JAVASCRIPT_NUMBERS, _JAVASCRIPT, _JAVASCRIPT_AXIS),
-        Dialect("python", "py", "py", "", {"float64": "float"}, _PYTHON, _PYTHON_AXIS, types=_PYTHON_TYPES),
+@cache
+def dialect_of(language: str) -> Dialect:
+    """The language of that name, one of LANGUAGES."""
+    tables = _tables_of(language)
+    phrases, whole = (
+        {name: _format_of(text) for name, text in tables.pop(section).items()} for section in ("phrases", "whole")
     )
-}
-"""By name: what `emit --language` takes."""
+    return Dialect(name=language, phrases=phrases, whole=whole, **tables)
+
+
+def _tables_of(language: str) -> dict[str, Any]:
+    """The file of a language, with what the language that it is based on adds to each of its tables."""
+    own = dict(toml.shipped("hypcheck.kernel.emission", f"templates/{language}.toml"))
+    base = own.pop("based_on", None)
+    if base is None:
+        return own
+    tables = _tables_of(base)
+    added = {key: {**tables[key], **value} if isinstance(value, dict) else value for key, value in own.items()}
+    return {**tables, **added}
+
+
+def _format_of(phrase: str) -> str:
+    """The phrase for str.format."""
+    return _ESCAPED_MARK.sub(r"{\1}", phrase.replace("{", "{{").replace("}", "}}"))
+
+
+LONGEST = 4095
+"""Characters in a string that every compiler of ISO C takes."""
+
+_BY_PARTS = """static const char *const parts[] = {{
+    {parts},
+}};
+static char text[{size}];  /* ISO C has no strings of more than {longest} characters */
+size_t end = 0;
+for (size_t part = 0; part < sizeof parts / sizeof *parts; part++)
+    for (const char *from = parts[part]; *from; from++) text[end++] = *from;
+return text;"""
+
+
+def description_in_language(value: dict[str, Any], language: str, prefix: str) -> str:
+    """The description in a language: in C the body of the function that returns it, in Rust the whole function."""
+    if language == "python":
+        return "\n    ".join(line.rstrip() for line in _lines(value, repr))
+    lines = list(_lines(value, partial(json.dumps, separators=(",", ":"))))  # adapters look for "tilt":true
+    if language == "javascript":
+        return "\n    ".join(line.rstrip() for line in lines)
+    quoted = [json.dumps(line) for line in lines]  # C, C++ and Rust escape quotation marks and backslashes alike
+    if language == "rust":
+        return in_rust(quoted, prefix, *(("tilted", 10) if "tilt" in value else ("predicate", 7)))
+    if language == "c" and sum(map(len, lines)) > LONGEST:
+        size = sum(map(len, lines)) + 1
+        return _BY_PARTS.format(parts=",\n    ".join(quoted), size=size, longest=LONGEST)
+    return "return " + "\n    ".join(quoted) + ";"
+
+
+def in_rust(quoted: Sequence[str], prefix: str, predicate: str, width: int) -> str:
+    """The description in Rust, with the names that the adapter of `hypcheck init` takes from a module.
+
+    `predicate` is that function, `width` the numbers of a row; another function is there and answers none.
+    """
+    columns = str(width)
+    other, other_columns = ("tilted", "10") if predicate == "predicate" else ("predicate", "7")
+    named = {"asked": predicate, "columns": columns, "other": other, "other_columns": other_columns}
+    parts = {"description": ",\n".join(quoted), "prefix": prefix, **named}
+    return dialect_of("rust").filled("description", parts).strip("\n")
+
+
+def _lines(value: dict[str, Any], written: Callable[[Any], str]) -> Iterator[str]:
+    """The text of a value in pieces: the part before its domain's settings, each setting, the end."""
+    settings = value["domain"]["settings"]
+    text = written({**value, "domain": {"settings": []}})  # the settings come last: the text ends with []}}
+    yield text[:-3]
+    for place, setting in enumerate(settings, start=1):
+        yield written(setting) + (", " if place < len(settings) else "")
+    yield text[-3:]
+
+
+PREFIX = "hypcheck"
+"""With it the functions have the names that `verify library:` asks for."""
+
+_PREFIX, _LONGEST_PREFIX = re.compile(r"[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*", re.ASCII), 40
+
+
+def require_prefix(prefix: str, language: str) -> None:
+    """Raise InputError unless functions of a kernel in this language can begin with `prefix`."""
+    if prefix != PREFIX and not dialect_of(language).exports:
+        exporting = ", ".join(name for name in LANGUAGES if dialect_of(name).exports)
+        raise InputError(f"--prefix is for {exporting}: a {language} kernel is a module with names of its own")
+    if not _PREFIX.fullmatch(prefix) or len(prefix) > _LONGEST_PREFIX:
+        raise InputError(
+            f"the prefix is {escaped(repr(prefix), 60)}; it must be a letter, then letters, digits and single "
+            f"underscores between them, {_LONGEST_PREFIX} characters at most"
+        )
+
+
+def routines_text(routines: Sequence[Routine], dialect: Dialect, precision: str) -> str:
+    """The code of the routines, of all routines that they call, each once and before its callers, and of their records.
+
+    Raises ValueError for a name that the language reserves.
+    """
+    printer = _Printer(dialect, precision)
+    every = {part.name: part for routine in routines for part in (*called(routine), routine)}
+    pairs = any(PAIR in (*part.takes, part.gives) for part in every.values())
+    texts = [dialect.say("pair_type")] if pairs else []
+    texts += [
+        text
+        for part in every.values()
+        for text in (*printer.tables(part.needed), printer.record(part), printer.text(part))
+        if text
+    ]
+    return dialect.between.join(texts) + "\n"
+
+
+@dataclass(frozen=True)
+class _Printer:
+    dialect: Dialect
+    precision: str
+
+    @property
+    def spelling(self) -> Spelling:
+        """The spelling of steps in the language."""
+        return spelling_of(self.dialect.name, self.dialect.number_of(self.precision))
+
+    def say(self, phrase: str, **words: object) -> str:
+        """A phrase of the language."""
+        return self.dialect.say(phrase, number=self.dialect.number_of(self.precision), **words)
+
+    def type_of(self, kind: str) -> str:
+        """The name of the language's type for this kind."""
+        if kind in self.dialect.types:
+            return self.dialect.types[kind]
+        return self.spelling.number if kind == NUMBER else self.spelling.boolean
+
+    def record(self, routine: Routine) -> str:
+        """The type of its record; nothing where it has none, or the language needs none."""
+        if not routine.record:
+            return ""
+        lines = (self._named("record_field", name, routine) for name in routine.record)
+        return self.say("record", record=self._type_of_record(routine), fields="\n".join(INDENT + one for one in lines))
+
+    def tables(self, parts: Iterable[Part]) -> Iterator[str]:
+        """The code of the tables whose rows the loops of the parts read."""
+        for part in parts:
+            if isinstance(part, Loop):
+                if part.table is not None:
+                    rows = (", ".join(map(repr, row)) for row in part.table.rows)
+                    body = "\n".join(f"{INDENT}{self.say('table_row', values=row)}," for row in rows)
+                    size = {"rows": part.times, "columns": len(part.given)}
+                    yield self.say("table", name=part.table.name, body=body, **size)
+                yield from self.tables(part.body)
+
+    def text(self, routine: Routine) -> str:
+        """The function."""
+        inputs = ", ".join(self._named("input", name, routine) for name in routine.inputs)
+        if routine.record:
+            of = ", ".join(self._named("input", name, routine) for name in routine.record)
+            inputs += self.say("given_record", inputs=of, record=self._type_of_record(routine))
+        unpacked = [self._named("unpack", name, routine) for name in routine.record]
+        read = names_read(routine)
+        constants = [
+            self.say("constant", name=name, value=repr(value))
+            for name, value in routine.constants.items()
+            if name in read
+        ]
+        head = self.say(
+            "function", type=self.type_of(routine.gives), name=routine.name, inputs=inputs, meaning=routine.meaning
+        )
+        parts = self._parts(routine.needed, dict(routine.given))
+        body = [*filter(None, unpacked), *constants, *parts, *self._result(routine.result)]
+        return "\n".join([*_broken(head), *_indented(body), *filter(None, [self.say("end")])])
+
+    def _named(self, phrase: str, name: str, routine: Routine) -> str:
+        return self.say(phrase, name=name, type=self.type_of(routine.given[name]))
+
+    def _type_of_record(self, routine: Routine) -> str:
+        words = routine.record_name.split("_")
+        return "".join(map(str.capitalize, words)) if self.dialect.capitals else routine.record_name
+
+    def _parts(self, parts: Iterable[Part], kinds: dict[str, str]) -> Iterator[str]:
+        """The statements; `kinds`, of the names before, gets those of the names that they make."""
+        several = list(parts)
+        for part, next_part in zip(several, (*several[1:], None), strict=False):
+            if isinstance(part, Loop):
+                yield from self._loop(part, kinds)
+                continue
+            self._require_free(part.name)
+            if part.name in kinds:  # it came with the half before
+                continue
+            kinds[part.name] = kind_of_part(part, kinds)
+            low = _low_half(part, next_part) if self.dialect.phrases["both"] else None
+            if low is not None:
+                kinds[low.name] = NUMBER
+                yield self.say("both", high=part.name, low=low.name, pair=low.pair)
+            elif isinstance(part, Stored):
+                phrase = "opaque" if part.opaque else "stored"
+                yield self.say(phrase, name=part.name, value=part.value, type=self.type_of(NUMBER))
+            else:
+                words = {"type": self.type_of(kinds[part.name]), "name": part.name, "value": self._value(part)}
+                yield self.spelling.declaration.format(**words)
+
+    def _value(self, part: Step | Call | Half) -> str:
+        if isinstance(part, Step):
+            return value_of(part, self.spelling)
+        if isinstance(part, Half):
+            return self.say("low" if part.low else "high", pair=part.pair)
+        arguments = ", ".join(argument_of(argument, self.spelling) for argument in part.arguments)
+        return f"{part.routine.name}({arguments})"
+
+    def _loop(self, loop: Loop, kinds: dict[str, str]) -> Iterator[str]:
+        for name, start, _ in loop.kept:
+            kinds[name] = NUMBER
+            self._require_free(name)
+            yield self.say("keep", name=name, value=start)
+        table = loop.table
+        if table is None:
+            yield self.say("loop", times=loop.times)
+        else:
+            yield self.say("loop_over", times=loop.times, table=table.name)
+            cells = enumerate(table.columns)
+            yield from _indented(self.say("cell", name=name, index=index, table=table.name) for index, name in cells)
+        inside = {**kinds, **dict.fromkeys(loop.given, NUMBER)}
+        ends = [self.say("keep_on", name=name, value=end) for name, _, end in loop.kept]
+        until = [] if loop.until is None else self.say("leave_if", condition=loop.until).splitlines()
+        yield from _indented([*self._parts(loop.body, inside), *ends, *until])
+        yield from filter(None, [self.say("end_if")])
+
+    def _require_free(self, name: str) -> None:
+        if name in self.spelling.reserved:
+            raise ValueError(f"{name} is not a name in {self.dialect.name}")
+
+    def _result(self, result: Result) -> Iterator[str]:
+        if isinstance(result, str):
+            yield self.say("return", value=result)
+        elif isinstance(result, tuple):
+            high, low = (argument_of(argument, self.spelling) for argument in result)
+            yield self.say("return", value=self.say("pair", high=high, low=low))
+        else:
+            for name, value in result.choices:
+                yield from self.say("return_if", condition=name, value=value).splitlines()
+            yield self.say("return", value=result.otherwise)
+
+
+def _low_half(part: Part, next_part: Part | None) -> Half | None:
+    """The next part, where the two are the halves of one pair, the first number first."""
+    if isinstance(part, Half) and isinstance(next_part, Half) and part.pair == next_part.pair:
+        return next_part if next_part.low and not part.low else None
+    return None
+
+
+def _broken(head: str) -> Iterator[str]:
+    """The lines of a function's head; a line that is too long is broken after commas."""
+    for line in head.splitlines():
+        inputs = line.split(", ") if len(line) > WIDTH else [line]
+        begun, *others = inputs
+        for parameter in others:
+            if len(begun) + len(parameter) + 3 > WIDTH:
+                yield f"{begun},"
+                begun = f"{2 * INDENT}{parameter}"
+            else:
+                begun = f"{begun}, {parameter}"
+        yield begun
+
+
+def _indented(lines: Iterable[str]) -> list[str]:
+    return [f"{INDENT}{line}" for line in lines]

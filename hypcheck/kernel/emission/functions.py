@@ -19,13 +19,11 @@ import numpy as np
 from hypcheck.derivation.program import Program, needed
 from hypcheck.geometry.pair import Position
 from hypcheck.geometry.rows import CANNOT_SAY
-from hypcheck.kernel.emission.dialects import DIALECTS, Dialect
+from hypcheck.kernel.emission.dialects import INDENT, Dialect
 from hypcheck.kernel.emission.plan_text import needs_side, notes, thresholds_asked
 from hypcheck.kernel.specialise.first_stages import CENTRE, Thresholds
 from hypcheck.kernel.specialise.last_stages import Discriminant, DualSearch, TiltedSearch
 from hypcheck.kernel.specialise.plan import ONE_SIDED, ScenePlan, Stages
-
-INDENT = "    "
 
 
 def answer(position: Position, question: str) -> int:
@@ -114,7 +112,7 @@ class _Body(_Statements):
         if stages.setting.cut is not None:
             yield self._note("beyond the modelled height")
             for beyond in self._beyond_height():
-                yield self._say("return if", condition=beyond, value=CANNOT_SAY)
+                yield self._say("return_if", condition=beyond, value=CANNOT_SAY)
         if isinstance(stages.last, Position):
             yield self._say("return", value=answer(stages.last, self._question))
         elif isinstance(stages.last, Thresholds):
@@ -127,7 +125,7 @@ class _Body(_Statements):
         if conditions:
             yield from self._entry(("R",))
         for condition, value in conditions:
-            yield self._say("return if", condition=condition, value=value)
+            yield self._say("return_if", condition=condition, value=value)
         yield self._say("return", value=answer(Position.CONTACT, self._question))
 
     def _stages_in_turn(self, search: DualSearch | TiltedSearch) -> Iterator[str]:
@@ -141,7 +139,7 @@ class _Body(_Statements):
             yield self._return_if(line.holds, line.side)
         yield ""
         yield self._note("so far out, or no number, that something overflows")
-        yield self._say("return if", condition=self._say("not", value=f"({self._within(search)})"), value=CANNOT_SAY)
+        yield self._say("return_if", condition=self._say("not", value=f"({self._within(search)})"), value=CANNOT_SAY)
         if needs_side(stages, self._question):
             yield ""
             yield from self._centre()
@@ -160,7 +158,7 @@ class _Body(_Statements):
         yield from self._side()
         if self._question in ONE_SIDED:
             never = "outside" if self._question == "interior" else self._say("not", value="outside")
-            yield self._say("return if", condition=never, value=0)
+            yield self._say("return_if", condition=never, value=0)
 
     def _discriminant(self, delta: Discriminant) -> Iterator[str]:
         yield self._note("the sign of three times the discriminant, where it is certain")
@@ -171,11 +169,11 @@ class _Body(_Statements):
         if not delta.clear_where_positive:
             yield self._return_if(self._say("and", left=near, right=below), Position.CONTACT)
             return
-        above = self._say("return if", condition=f"delta_3 > {bound}", value=self._clear())
+        above = self._say("return_if", condition=f"delta_3 > {bound}", value=self._clear())
         yield self._say("if", condition=near)
         for part in (self._return_if(below, Position.CONTACT), above):
             yield from (f"{INDENT}{line}" for line in part.splitlines())
-        yield from filter(None, [self._say("end if")])
+        yield from filter(None, [self._say("end_if")])
 
     def _clear(self) -> str:
         """The expression for the answer about a clear spheroid; for positions it reads `outside`."""
@@ -185,7 +183,7 @@ class _Body(_Statements):
 
     def _searched(self, search: DualSearch | TiltedSearch) -> Iterator[str]:
         if isinstance(search, TiltedSearch):
-            answer = self._say("free search" if search.free else "fixed search", place=self._place)
+            answer = self._say("free_search" if search.free else "fixed_search", place=self._place)
         else:
             answer = self._say("search", place=self._place)
         if self._question == "position":
@@ -194,12 +192,12 @@ class _Body(_Statements):
         if isinstance(search, TiltedSearch):  # it may not settle a centre, which is no answer to any question
             yield self._say("found", value=answer)
             answer = "found"
-            yield self._say("return if", condition=f"{answer} == {CANNOT_SAY}", value=CANNOT_SAY)
+            yield self._say("return_if", condition=f"{answer} == {CANNOT_SAY}", value=CANNOT_SAY)
         compared = {"exterior": f"{answer} > 0", "interior": f"{answer} < 0", "contact": f"{answer} == 0"}
         yield self._say("return", value=self._say("truth", condition=compared[self._question]))
 
     def _return_if(self, condition: str, position: Position) -> str:
-        return self._say("return if", condition=condition, value=answer(position, self._question))
+        return self._say("return_if", condition=condition, value=answer(position, self._question))
 
     def _note(self, text: str) -> str:
         return self._say("note", text=text)
@@ -225,9 +223,9 @@ def batch_function(plan: ScenePlan, stages: Stages, place: int, dialect: Dialect
         "centre": ", ".join(f"({number}){name}s[i]" for name in "xyz"),
         **{name: dialect.axis[name] if plan.free else "" for name in ("axis", "given")},
         "first": "\n".join(batch.first()),
-        "second": DIALECTS["c"].filled("many_open", {"passed": str(PASSED_OVER), "body": second}) if second else "",
+        "second": dialect.filled("many_open", {"passed": str(PASSED_OVER), "body": second}) if second else "",
     }
-    return DIALECTS["c"].filled("many", words).rstrip()
+    return dialect.filled("many", words).rstrip()
 
 
 class _Batch(_Statements):

@@ -1,97 +1,50 @@
-"""A kernel from a plan, in one of the languages: a template, its constants, its description, and printed statements.
+"""The kernels of a scene in a language, from its plan: one for its pairs of sizes, and one for the whole scene.
 
-The description is what a kernel says of itself: a text of JSON, or an object of its language, a line for each setting.
 Searches, and what they call, are printed from routines.
+
+**The whole scene.** Its kernel also has the hyperboloids and their places, heights, the mover's parts, and the loop
+over them. Settings whose functions differ only in their numbers share one, a *shape*, which reads the numbers from a
+table; its statements, and so its arithmetic, are those of the functions that functions.py writes. So a kernel grows by
+a line a hyperboloid, and there may be as many as a scene has.
+
+Each pair of sizes is asked for its position, as `verify` asks of any kernel. The whole is put together as
+hypcheck.Scene does it (kernel/scene.py): contact with any hyperboloid is contact, else inside any is interior, else
+exterior; parts are asked where the mover has contact. The offset from a hyperboloid's centre is rounded once, a change
+of that coordinate by a unit more. Of a spheroid that reaches over an end only bounds are asked, those of
+kernel/scene_pairs.py; where they do not tell, the answer is 2.
 """
 
 from __future__ import annotations
 
-import json
 import re
-from collections.abc import Callable, Iterator, Sequence
-from functools import partial
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from math import radians
+from sys import float_info
 from typing import Any
 
+import numpy as np
+
 from hypcheck.errors import InputError
-from hypcheck.kernel.emission.dialects import DIALECTS, Dialect
+from hypcheck.geometry.pair import AXIS, SIZES
+from hypcheck.kernel.choice import NUMBER_OF, POSITION_OF
+from hypcheck.kernel.emission.dialects import (
+    PREFIX,
+    Dialect,
+    description_in_language,
+    dialect_of,
+    require_prefix,
+    routines_text,
+)
 from hypcheck.kernel.emission.functions import OPEN, batch_function, setting_function
-from hypcheck.kernel.emission.plan_text import comment_text, header
-from hypcheck.kernel.emission.routines import routines_text
+from hypcheck.kernel.emission.plan_text import comment_text, header, whole_header
+from hypcheck.kernel.scene_index import bodies_of, reaches
 from hypcheck.kernel.specialise.last_stages import GEOMETRIC_STEPS, DoubleDouble, DualSearch, TiltedSearch
-from hypcheck.kernel.specialise.plan import ScenePlan, Stages
+from hypcheck.kernel.specialise.plan import ScenePlan, Stages, plan_of
 from hypcheck.kernel.specialise.settings import Setting
 from hypcheck.kernel.specialise.tilted_search import FREE_SEARCH, HAS_DIRECTION, SEARCH, SETTING, search_of
-from hypcheck.messages import escaped
-from hypcheck.scene.model import FREE
+from hypcheck.scene.model import FREE, Hyperboloid, SceneModel, Span
 from hypcheck.version import VERSION
-
-LONGEST = 4095
-"""Characters in a string that every compiler of ISO C takes."""
-
-_BY_PARTS = """static const char *const parts[] = {{
-    {parts},
-}};
-static char text[{size}];  /* ISO C has no strings of more than {longest} characters */
-size_t end = 0;
-for (size_t part = 0; part < sizeof parts / sizeof *parts; part++)
-    for (const char *from = parts[part]; *from; from++) text[end++] = *from;
-return text;"""
-
-
-def description_in_language(value: dict[str, Any], language: str, prefix: str) -> str:
-    """The description in a language: in C the body of the function that returns it, in Rust the whole function."""
-    if language == "python":
-        return "\n    ".join(line.rstrip() for line in _lines(value, repr))
-    lines = list(_lines(value, partial(json.dumps, separators=(",", ":"))))  # adapters look for "tilt":true
-    if language == "javascript":
-        return "\n    ".join(line.rstrip() for line in lines)
-    quoted = [json.dumps(line) for line in lines]  # C, C++ and Rust escape quotation marks and backslashes alike
-    if language == "rust":
-        return in_rust(quoted, prefix, *(("tilted", 10) if "tilt" in value else ("predicate", 7)))
-    if language == "c" and sum(map(len, lines)) > LONGEST:
-        size = sum(map(len, lines)) + 1
-        return _BY_PARTS.format(parts=",\n    ".join(quoted), size=size, longest=LONGEST)
-    return "return " + "\n    ".join(quoted) + ";"
-
-
-def in_rust(quoted: Sequence[str], prefix: str, predicate: str, width: int) -> str:
-    """The description in Rust, with the names that the adapter of `hypcheck init` takes from a module.
-
-    `predicate` is that function, `width` the numbers of a row; another function is there and answers none.
-    """
-    columns = str(width)
-    other, other_columns = ("tilted", "10") if predicate == "predicate" else ("predicate", "7")
-    named = {"asked": predicate, "columns": columns, "other": other, "other_columns": other_columns}
-    parts = {"description": ",\n".join(quoted), "prefix": prefix, **named}
-    return DIALECTS["rust"].filled("description", parts).strip("\n")
-
-
-def _lines(value: dict[str, Any], written: Callable[[Any], str]) -> Iterator[str]:
-    """The text of a value in pieces: the part before its domain's settings, each setting, the end."""
-    settings = value["domain"]["settings"]
-    text = written({**value, "domain": {"settings": []}})  # the settings come last: the text ends with []}}
-    yield text[:-3]
-    for place, setting in enumerate(settings, start=1):
-        yield written(setting) + (", " if place < len(settings) else "")
-    yield text[-3:]
-
-
-PREFIX = "hypcheck"
-"""With it the functions have the names that `verify library:` asks for."""
-
-_PREFIX, _LONGEST_PREFIX = re.compile(r"[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*", re.ASCII), 40
-
-
-def require_prefix(prefix: str, language: str) -> None:
-    """Raise InputError unless functions of a kernel in this language can begin with `prefix`."""
-    if prefix != PREFIX and not DIALECTS[language].exports:
-        exporting = ", ".join(dialect.name for dialect in DIALECTS.values() if dialect.exports)
-        raise InputError(f"--prefix is for {exporting}: a {language} kernel is a module with names of its own")
-    if not _PREFIX.fullmatch(prefix) or len(prefix) > _LONGEST_PREFIX:
-        raise InputError(
-            f"the prefix is {escaped(repr(prefix), 60)}; it must be a letter, then letters, digits and single "
-            f"underscores between them, {_LONGEST_PREFIX} characters at most"
-        )
 
 
 def emitted(plan: ScenePlan, language: str, command: Sequence[str], prefix: str = PREFIX) -> str:
@@ -99,42 +52,38 @@ def emitted(plan: ScenePlan, language: str, command: Sequence[str], prefix: str 
 
     Its exported functions are `prefix`_classify, `prefix`_classify_scene and `prefix`_describe.
     """
-    require_prefix(prefix, language)
-    dialect = DIALECTS[language]
-    number = dialect.number_of(plan.format.name)
+    dialect = dialect_of(language)
     functions = [setting_function(plan, stages, place, dialect) for place, stages in _numbered(plan)]
     parts = {
         "header": header(plan, command, dialect.comment),
-        "prefix": prefix,
-        "number": number,
-        **prologue(dialect),
-        "search": _searches_text(plan, dialect),
+        **_common_parts(plan, dialect, prefix),
         **_axis_parts(plan, dialect),
         "imports": "\n".join(
             ["import math"] * bool(_searched(plan) or plan.free) + ["from collections.abc import Iterable"]
         ),
-        "settings": ("\n\n\n" if language == "python" else "\n\n").join([*_settings(plan, dialect), *functions]),
+        "settings": dialect.between.join([*_settings(plan, dialect), *functions]),
         "many": "\n\n".join(batch_function(plan, stages, place, dialect) for place, stages in _numbered(plan))
         if dialect.by_block
         else "",
         "open": dialect.literal(float(OPEN), plan.format.name),
         "choose": "\n".join(_choices(plan, dialect)),
-        "round": "Math.fround" if plan.format.name == "float32" else "Number",
-        "description": description_in_language(description(plan, language), language, prefix),
     }
     return dialect.filled("kernel", parts).strip("\n") + "\n"
 
 
-def prologue(dialect: Dialect) -> dict[str, str]:
-    """The beginning of C and C++ files: headers, refusal of forbidden compiler options, export of functions."""
-    phrases = ("includes", "linkage", "end linkage") if dialect.by_block else ()
-    texts = {phrase.replace(" ", "_"): dialect.say(phrase) for phrase in phrases}
-    return {"arithmetic": asked_of_compiler(dialect), **texts}
-
-
-def asked_of_compiler(dialect: Dialect) -> str:
-    """The options that a compiler must not be given; nothing in languages whose arithmetic no option changes."""
-    return DIALECTS["c"].filled("arithmetic", {}) if dialect.by_block else ""
+def _common_parts(plan: ScenePlan, dialect: Dialect, prefix: str) -> dict[str, str]:
+    """The parts of kernels of pairs and of whole scenes. Raises InputError for a wrong prefix."""
+    require_prefix(prefix, dialect.name)
+    phrases = ("includes", "linkage", "end_linkage") if dialect.by_block else ()
+    return {
+        "prefix": prefix,
+        "number": dialect.number_of(plan.format.name),
+        "round": "Math.fround" if plan.format.name == "float32" else "Number",
+        "arithmetic": dialect.asked_of_compiler,
+        **{phrase: dialect.say(phrase) for phrase in phrases},
+        "search": _searches_text(plan, dialect),
+        "description": description_in_language(description(plan, dialect.name), dialect.name, prefix),
+    }
 
 
 def description(plan: ScenePlan, language: str) -> dict[str, Any]:
@@ -196,14 +145,14 @@ def _settings(plan: ScenePlan, dialect: Dialect) -> list[str]:
 
 
 def _choices(plan: ScenePlan, dialect: Dialect) -> list[str]:
-    fixed = plan.axis is not None and plan.axis != FREE
-    also = dialect.say("has axis", axis=plan.axis) if fixed else ""
-    return [
-        dialect.say(
-            "choose", place=place, sizes=", ".join(map(repr, stages.setting.sizes)), of=stages.setting.sizes, also=also
-        )
-        for place, stages in _numbered(plan)
-    ]
+    """The code that finds the function of a setting by its sizes, and by its axis if the kernel has one."""
+    axis, choices, also = plan.axis, [], ""
+    if axis is not None and not isinstance(axis, str):
+        also = dialect.say("has_axis", **dict(zip(AXIS, axis, strict=True)))
+    for place, stages in _numbered(plan):
+        sizes = dict(zip(SIZES, map(repr, stages.setting.sizes), strict=True))
+        choices.append(dialect.say("choose", place=place, sizes=", ".join(sizes.values()), also=also, **sizes))
+    return choices
 
 
 def _searches_text(plan: ScenePlan, dialect: Dialect) -> str:
@@ -217,14 +166,6 @@ def _searches_text(plan: ScenePlan, dialect: Dialect) -> str:
     return f"\n{routines_text(routines, dialect, plan.format.name)}\n" if routines else ""
 
 
-def search_text(plan: ScenePlan, dialect: Dialect) -> str:
-    """The search for an upright spheroid, with the record of its constants."""
-    return "\n" + routines_text([search_of(GEOMETRIC_STEPS + plan.format.bits + 3)], dialect, plan.format.name) + "\n"
-
-
-_PAIRS = {"c": "{{{0}, {1}}}", "cpp": "{{{0}, {1}}}", "rust": "Dd {{ hi: {0}, lo: {1} }}", "python": "({0}, {1})"}
-
-
 def _frame(of: TiltedSearch, place: int, dialect: Dialect) -> str:
     """The code of a setting's constants: its frame or, if the axis is free, the sizes that a frame is computed from."""
     fields = [(name, _pair(value, dialect)) for name, value in of.constants.items()]
@@ -235,4 +176,171 @@ def _frame(of: TiltedSearch, place: int, dialect: Dialect) -> str:
 
 def _pair(value: DoubleDouble, dialect: Dialect) -> str:
     high, low = (dialect.literal(part, "float64") for part in value)
-    return _PAIRS.get(dialect.name, "[{0}, {1}]").format(high, low)
+    return dialect.say("constant_pair", high=high, low=low)
+
+
+MOST_SETTINGS = 20_000
+"""The most hyperboloids, equal to the limit of a scene file."""
+
+NO_POSITION = 9
+"""Stands for the position that answers yes, where the question is the position itself and nothing is compared."""
+
+_NUMBER_IN_NOTE = re.compile(r"^lambda = \S+ proves")
+
+
+@dataclass(frozen=True)
+class _Recording(Dialect):
+    """A language in which every number of a setting is read from the table c, and is kept in `values`."""
+
+    values: list[float] = field(default_factory=list)
+
+    def literal(self, value: float, precision: str) -> str:  # noqa: ARG002 - as the language has it
+        self.values.append(value)
+        return f"c[{len(self.values) - 1}]"
+
+    def say(self, phrase: str, **words: object) -> str:
+        if phrase == "note":
+            words["text"] = _NUMBER_IN_NOTE.sub("lambda proves", str(words["text"]))
+        return super().say(phrase, **words)
+
+
+@dataclass(frozen=True)
+class _Shapes:
+    """The functions that settings share, the tables of their numbers, and of each setting which it has, and its row."""
+
+    texts: list[str]
+    rows: list[list[list[float]]]
+    shape: list[int]
+    row: list[int]
+
+
+def whole_plan(scene: SceneModel, precision: str = "float64") -> ScenePlan:
+    """The plan for all pairs of sizes, with positions as answers. Raises InputError if the scene has no such kernel."""
+    bodies = tuple(_taller(body, scene.mover.d) for body in scene.hyperboloids)
+    plan = plan_of(replace(scene, question="position", hyperboloids=bodies), precision, MOST_SETTINGS)
+    if plan.axis is not None:
+        raise InputError(
+            "no kernel is made for a whole scene whose mover is tilted; without --whole there is one for its pairs"
+        )
+    return plan
+
+
+def _taller(body: Hyperboloid, reach: float) -> Hyperboloid:
+    """The open hyperboloid, longer at both ends by `reach`, which is how far the mover extends up and down."""
+    if body.height is None:
+        return body
+    far = reach * (1 + 2.0**-40)
+    low, high = np.nextafter((body.height.low - far, body.height.high + far), (-np.inf, np.inf)).tolist()
+    return replace(body, height=Span(low, high), solid=False)
+
+
+def emitted_whole(
+    scene: SceneModel, plan: ScenePlan, language: str, command: Sequence[str], prefix: str = PREFIX
+) -> str:
+    """The text of the kernel of a scene, whose plan is whole_plan's. Raises InputError."""
+    dialect = dialect_of(language)
+    tabled = replace(dialect, phrases={**dialect.phrases, **dialect.whole})
+    shapes = _shapes(plan, tabled)
+    places = range(len(shapes.texts))
+    parts = {
+        "header": whole_header(plan, scene, command, dialect.comment),
+        **_common_parts(plan, dialect, prefix),
+        "tables": "\n\n".join(_tables(scene, plan, shapes, tabled)),
+        "shapes": dialect.between.join(shapes.texts),
+        "cases": "\n".join(tabled.say("case", place=place) for place in places),
+        "settings": str(len(plan.settings)),
+        "hyperboloids": str(len(_used(scene, plan))),
+        "columns": str(1 + len(scene.mover.parts)),
+        "region": _region(scene, dialect),
+        "question": str(NUMBER_OF[scene.question]),
+        "yes": str(POSITION_OF.get(scene.question, NO_POSITION)),
+        "radian": repr(radians(1.0)),
+        "constants": ", ".join(f"constants_{place}" for place in places) + ",",
+    }
+    return dialect.filled("whole", parts).strip("\n") + "\n"
+
+
+def _shapes(plan: ScenePlan, dialect: Dialect) -> _Shapes:
+    shapes, known = _Shapes([], [], [], []), dict[str, int]()
+    for stages in plan.settings:
+        recording = _Recording(**vars(dialect))
+        key = setting_function(plan, stages, 0, recording, shared=True)
+        place = known.setdefault(key, len(known))
+        if place == len(shapes.texts):
+            shapes.texts.append(setting_function(plan, stages, place, _Recording(**vars(dialect)), shared=True))
+            shapes.rows.append([])
+        shapes.shape.append(place)
+        shapes.row.append(len(shapes.rows[place]))
+        shapes.rows[place].append(recording.values or [0.0])
+    return shapes
+
+
+def _used(scene: SceneModel, plan: ScenePlan) -> list[tuple[int, list[int]]]:
+    """The hyperboloids that the mover can reach, and the settings of the mover and its parts beside each."""
+    places = {stages.setting.sizes: place for place, stages in enumerate(plan.settings)}
+    mover, used = scene.mover, []
+    spheroids = [(mover.b, mover.d), *((part.b, part.d) for part in mover.parts)]
+    for number, body in enumerate(scene.hyperboloids):
+        sizes = [(body.alpha, body.gamma, *spheroid) for spheroid in spheroids]
+        if all(size in places for size in sizes):
+            used.append((number, [places[size] for size in sizes]))
+    return used
+
+
+def _tables(scene: SceneModel, plan: ScenePlan, shapes: _Shapes, dialect: Dialect) -> list[str]:
+    """The code of the tables: of the settings, of the hyperboloids, and of the constants of searches."""
+    precision = plan.format.name
+    number, index = dialect.number_of(precision), dialect.types["index"]
+    wide = dialect.number_of("float64")
+
+    def table(name: str, rows: Sequence[Sequence[float]], kind: str, own: bool = False) -> str:
+        texts = [", ".join(dialect.literal(v, precision) if own else repr(v) for v in row) for row in rows]
+        body = "\n".join(f"    {dialect.say('table_row', values=text)}," for text in texts)
+        return dialect.say("table", name=name, number=kind, rows=len(rows), columns=len(rows[0]), body=body)
+
+    def column(name: str, values: Sequence[float], kind: str) -> str:
+        body = "\n".join(f"    {value!r}," for value in values)
+        return dialect.say("list", name=name, number=kind, rows=len(values), body=body)
+
+    used = _used(scene, plan)
+    bodies = bodies_of([scene.hyperboloids[number] for number, _ in used])
+    far = reaches(bodies, scene.mover, scene.region.z)
+    with np.errstate(over="ignore"):
+        ends = np.where(np.isinf(bodies.heights), 0, np.abs(bodies.heights)).max(axis=1)
+        loose = 2.0**-45 * (ends + np.abs(bodies.origins[:, 2]) + scene.mover.d)
+        limits = np.stack(
+            [*bodies.origins.T, *bodies.heights.T, loose, bodies.solid, far * far * (1 + 2.0**-40)], axis=1
+        )
+    limits = np.clip(limits, -float_info.max, float_info.max)
+    tables = [
+        table("sizes_of", [list(stages.setting.sizes) for stages in plan.settings], wide),
+        column("shape", shapes.shape, index),
+        column("row", shapes.row, index),
+        *(table(f"constants_{place}", rows, number, own=True) for place, rows in enumerate(shapes.rows)),
+        table("places", limits.tolist(), wide),
+        table("settings_of", [places for _, places in used], index),
+        table("arms", [[0.0, 0.0], *([part.arm, radians(part.angle)] for part in scene.mover.parts)], wide),
+    ]
+    return [*tables, _searches(plan, dialect)] if _searched(plan) else tables
+
+
+def _searches(plan: ScenePlan, dialect: Dialect) -> str:
+    """The table of the constants of the searches, a row for each setting; rows without a search hold 1."""
+
+    def row(search: object) -> str:
+        constants = search.constants if isinstance(search, DualSearch) else dict.fromkeys(SETTING, 1.0)
+        fields = ((name, dialect.literal(constants[name], plan.format.name)) for name in SETTING)
+        values = ", ".join(dialect.say("field", name=name, value=value) for name, value in fields)
+        return f"    {dialect.say('search_row', values=values)},"
+
+    body = "\n".join(row(stages.last) for stages in plan.settings)
+    return dialect.say("searches", rows=len(plan.settings), body=body)
+
+
+def _region(scene: SceneModel, dialect: Dialect) -> str:
+    """The condition under which a centre is in the region: finite at least."""
+    spans = zip("xyz", (scene.region.x, scene.region.y, scene.region.z), strict=True)
+    most = float_info.max
+    ends = [(name, *((-most, most) if span is None else (span.low, span.high))) for name, span in spans]
+    conditions = [condition for name, low, high in ends for condition in (f"{name} >= {low!r}", f"{name} <= {high!r}")]
+    return dialect.say("and", left="", right="").join(conditions)

@@ -1,4 +1,8 @@
-"""Code to take for one pair of any sizes: one file without dependencies, right for every float64 row.
+"""Code about rows of any sizes, one file without dependencies: for one pair, or for a whole scene whose bodies tilt.
+
+A kind of file (Kind) is the question, the routine or program that answers, and the text of the file about both. A new
+kind is an entry of KINDS: its columns, its routine (specialise/sweeping.py), how the routine's number becomes an
+answer, and the numbers that the file also gives. Only the phrases of a language (templates/NAME.toml) depend on it.
 
 The method "exact" has two stages, both printed from the programs that the fast path runs. CERTIFIED decides in float64
 where a proved bound excludes that rounding changes a sign (kernel/programs/certified.py); INTEGERS decides the rest in
@@ -14,20 +18,171 @@ straight-line program has room for the bits that are counted for it (`bits_count
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from sys import float_info
 from typing import Any
 
-from hypcheck.derivation.program import Program, needed
+from hypcheck.derivation.program import Program, Step, needed
+from hypcheck.derivation.routines import Routine
 from hypcheck.errors import InputError
-from hypcheck.kernel.emission.dialects import DIALECTS, Dialect
-from hypcheck.kernel.emission.kernel import PREFIX, asked_of_compiler, in_rust, require_prefix
-from hypcheck.kernel.emission.kinds import KINDS, POSITION, Kind, asked_of, columns_text, kind_of_scene, routine_text
+from hypcheck.geometry.pair import AXIS, COLUMNS, SIZES, TILTED_COLUMNS
+from hypcheck.kernel.emission.dialects import PREFIX, Dialect, dialect_of, in_rust, require_prefix, routines_text
 from hypcheck.kernel.programs import dual
 from hypcheck.kernel.programs.certified import CERTIFIED, CONSTANTS
 from hypcheck.kernel.programs.integers import INTEGERS, bits_counted
+from hypcheck.kernel.specialise import sweeping
+from hypcheck.kernel.specialise.scene_routines import position_routine, sweep_routine
 from hypcheck.kernel.specialise.settings import axis_of
 from hypcheck.scene.model import SceneModel, is_tilted
 from hypcheck.version import VERSION
+
+
+@dataclass(frozen=True)
+class Number:
+    """A second result beside the answer: the routine that computes it, and its value if nothing is proved."""
+
+    routine: Routine
+    nothing: float
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A kind of emitted file: the answer that it gives about a row with these `columns`.
+
+    `routine` makes a number, which is the answer where it is below `decided`; of a `passage` it is a time, and one up
+    to 1 is the answer 1. Without a routine the statements are a program's, which makes exterior, interior and decided.
+    `one` and `many` are the functions for one row and for many, `python` what the latter is called there, `numbers`
+    those that the file has besides, and `head` is what its first lines say.
+    """
+
+    columns: tuple[str, ...]
+    one: str
+    many: str
+    meaning: str
+    routine: Routine | None = None
+    decided: int = 2
+    passage: bool = False
+    numbers: Mapping[str, Number] = field(default_factory=dict)
+    head: tuple[str, ...] = ()
+    python: str = ""
+
+    @property
+    def tilted(self) -> bool:
+        """Whether rows have an axis."""
+        return set(AXIS) <= set(self.columns)
+
+    @property
+    def sizes(self) -> tuple[str, ...]:
+        """The columns that are sizes: finite and > 0."""
+        return tuple(name for name in self.columns if name in SIZES)
+
+    @property
+    def domain(self) -> dict[str, object]:
+        """The domain in which the code decides; outside of it the answer is 2."""
+        if self.routine is None:
+            return {"ratio": [0, float_info.max], "magnitude": [0, float_info.max]}
+        return {"ratio": [2.0**-26, 2.0**26], "magnitude": [2.0**-250, 2.0**250]}
+
+    @property
+    def asked(self) -> str:
+        """The name of the function for one row in an emitted module of JavaScript or Rust."""
+        if not self.sizes:
+            return self.one
+        return "passage" if self.passage else "tilted" if self.tilted else "predicate"
+
+
+_PAIR = "The answer about a spheroid of semi-axes b, b, d{place} and a hyperboloid of semi-axes alpha, alpha, gamma."
+_BODY = "(x² + y²)/alpha² − z²/gamma² = 1."
+_TILTED = (
+    "A spheroid of semi-axes b, b, d at (x, y, z), of revolution about axis (any length), against the hyperboloid",
+    f"{_BODY} +1 exterior, 0 contact, −1 interior; 2 where float64 cannot say, 127 for an invalid row.",
+)
+_FIRST_CONTACT = (
+    "2 where float64 cannot say, 127 for an invalid row. first_contact is a time from 0 to 1 up to which a",
+    f"sweep with contact is proved clear; {sweeping.NEVER} without contact, {sweeping.UNKNOWN} unknown.",
+)
+_PROOF = (
+    "Every other answer is right: a multiplier is found by halving, and what it proves is decided beyond a counted",
+    "bound of all roundings; a bad one makes the answer 2.",
+)
+
+POSITION = Kind(COLUMNS, "position", "classify", _PAIR, python="classify")
+"""Of upright spheroids, by a program."""
+
+_TILTED_POSITION = ("position", "classify_tilted", _PAIR, sweeping.POSITION)
+
+KINDS = {
+    "tilted": Kind(TILTED_COLUMNS, *_TILTED_POSITION, python="classify", head=(*_TILTED, *_PROOF)),
+    "clearance": Kind(
+        TILTED_COLUMNS,
+        *_TILTED_POSITION,
+        python="classify",
+        numbers={
+            "clearance_lower": Number(sweeping.LOWER, -1.0),
+            "clearance_upper": Number(sweeping.UPPER, float_info.max),
+        },
+        head=(
+            *_TILTED,
+            "clearance_lower and clearance_upper bound the clearance: made 1 + clearance times as large about its",
+            f"centre, the spheroid touches. −1 and {float_info.max!r} say nothing; below 0 it has contact.",
+            *_PROOF,
+        ),
+    ),
+    "passage": Kind(
+        sweeping.SWEEP_COLUMNS,
+        "way",
+        "passage_tilted",
+        "Whether a spheroid of semi-axes b, b, d has contact on its straight sweep.",
+        sweeping.FIRST,
+        sweeping.UNKNOWN,
+        python="passage",
+        passage=True,
+        numbers={"first_contact": Number(sweeping.FIRST, float(sweeping.UNKNOWN))},
+        head=(
+            "Whether a spheroid of semi-axes b, b, d, of revolution about axis (any length), has contact on its",
+            f"straight sweep with the hyperboloid {_BODY} 1 contact, 0 clear all along;",
+            *_FIRST_CONTACT,
+            *_PROOF,
+        ),
+    ),
+}
+"""By name: the methods of `emit --method` that answer by a routine."""
+
+
+def kind_of_scene(scene: SceneModel, *, sweep: bool) -> Kind:
+    """Code for a whole scene, for a mover and hyperboloids of any axis: positions, or sweeps. Raises InputError."""
+    parts = ("Where the mover itself has contact, its parts are for the caller: the answer is 2.",)
+    last = (*(parts if scene.mover.parts else ()), *_PROOF)
+    mover = f"The mover of a scene of {len(scene.hyperboloids)} hyperboloid{'s' * (len(scene.hyperboloids) != 1)}"
+    if sweep:
+        routine = sweep_routine(scene)
+        return Kind(
+            routine.inputs,
+            "sweep",
+            "sweep_rows",
+            "Whether the mover has contact on its straight sweep in the scene.",
+            routine,
+            sweeping.UNKNOWN,
+            passage=True,
+            numbers={"first_contact": Number(routine, float(sweeping.UNKNOWN))},
+            head=(f"{mover} on a straight sweep: 1 contact, 0 clear all along;", *_FIRST_CONTACT, *last),
+        )
+    routine = position_routine(scene)
+    return Kind(
+        routine.inputs,
+        "whole",
+        "whole_rows",
+        "The answer about the mover in the scene.",
+        routine,
+        head=(
+            f"{mover}, in the scene's coordinates, asked for {scene.question}:",
+            "+1 exterior, 0 contact, −1 interior; of one side 1 is yes and 0 no. 2 where float64 cannot say, 127 for",
+            "an invalid row.",
+            *last,
+        ),
+    )
+
 
 EXACT, CERTIFIED_ONLY, DUAL, LOCAL_MAXIMUM = UPRIGHT = ("exact", "certified", "dual", "local-maximum")
 """The methods for upright spheroids."""
@@ -50,13 +205,6 @@ _ANSWER = ("exterior", "interior", "decided")
 
 _LIMB = 32
 
-_INPUT_BITS = 2098
-"""Bits of the largest float64 in units of the smallest, 2⁻¹⁰⁷⁴."""
-
-
-_GIVEN = {"rust": "row", "javascript": "...words"}
-"""What the last stage is given, where it is not the columns."""
-
 
 def require_method(method: str) -> None:
     """Raise InputError unless there is code for a pair by this method."""
@@ -67,10 +215,8 @@ def require_method(method: str) -> None:
 def emitted_pair(method: str, language: str, command: Sequence[str], prefix: str = PREFIX) -> str:
     """The text of the file. Raises InputError for another method, or a prefix that the language has no use for."""
     require_method(method)
-    require_prefix(prefix, language)
     kind = KINDS.get(method, POSITION)
-    head = kind.head if kind.routine else tuple(_head(method))
-    return _printed(kind, method, head, language, command, prefix)
+    return _printed(kind, method, kind.head or tuple(_head(method)), language, command, prefix)
 
 
 def needs_routine(scene: SceneModel) -> bool:
@@ -82,24 +228,23 @@ def emitted_scene(
     scene: SceneModel, language: str, command: Sequence[str], prefix: str = PREFIX, *, sweep: bool
 ) -> str:
     """The text of a file for a whole scene, whose mover and hyperboloids may be tilted. Raises InputError."""
-    require_prefix(prefix, language)
     kind = kind_of_scene(scene, sweep=sweep)
     return _printed(kind, "scene", kind.head, language, command, prefix)
 
 
 def _printed(kind: Kind, method: str, head: Sequence[str], language: str, command: Sequence[str], prefix: str) -> str:
-    dialect = DIALECTS[language]
+    require_prefix(prefix, language)
+    dialect = dialect_of(language)
+    made = (f"Made by `{' '.join(command)}`, hypcheck {VERSION}.", "")
     parts = {
-        "header": "\n".join(
-            f"{dialect.comment}{line}".rstrip() for line in (*_made(command), *head, *_notes(language))
-        ),
+        "header": "\n".join(f"{dialect.comment}{line}".rstrip() for line in (*made, *head, *_notes(language))),
         "prefix": prefix,
-        "arithmetic": asked_of_compiler(dialect),
+        "arithmetic": dialect.asked_of_compiler,
         "description": _described(method, kind, language, prefix),
         "can": "" if method == EXACT else "const CANNOT_SAY: i8 = 2;\n",
-        "last": _last(method, language),
-        **columns_text(kind, dialect, prefix),
-        **(routine_text(kind, kind.routine, dialect) if kind.routine else _by_program(method, dialect)),
+        "last": dialect.say("exactly") if method == EXACT else "CANNOT_SAY",
+        **_columns_text(kind, dialect, prefix),
+        **(_routine_text(kind, kind.routine, dialect) if kind.routine else _by_program(method, dialect)),
     }
     if method == EXACT:
         parts["integers"] = dialect.filled("integers", {"steps": "\n".join(_whole(INTEGERS, language))})
@@ -107,7 +252,7 @@ def _printed(kind: Kind, method: str, head: Sequence[str], language: str, comman
 
 
 def _by_program(method: str, dialect: Dialect) -> dict[str, str]:
-    """The statements of a program of one pair, in the function itself."""
+    """The statements of a program of one pair, in the function itself, and how they become an answer."""
     program, values = _FLOATS[method]
     number, steps = dialect.number_of("float64"), dialect.statements(program, _ANSWER, "float64")
     constants = [dialect.say("constant", number=number, name=name, value=repr(value)) for name, value in values.items()]
@@ -116,18 +261,89 @@ def _by_program(method: str, dialect: Dialect) -> dict[str, str]:
         "steps": "\n".join(steps),
         "integers": "",
         "imports": "import math\n" if any("math." in step for step in steps) else "",
+        "answer": dialect.say("decided_position"),
+        "undecided": "decided = exterior = interior = False",
     }
 
 
-def _last(method: str, language: str) -> str:
-    if method != EXACT:
-        return "CANNOT_SAY"
-    return f"exactly({_GIVEN.get(language, 'alpha, gamma, b, d, x, y, z')})"
+def _routine_text(kind: Kind, routine: Routine, dialect: Dialect) -> dict[str, str]:
+    """The routines of a kind, the statements that call the one that answers, and how its number becomes an answer."""
+    routines = {each.name: each for each in (routine, *(number.routine for number in kind.numbers.values()))}
+    decided = Program("told", ("told",), (Step("decided", "lt", ("told", kind.decided)),))
+    call = dialect.say("told", value=f"{routine.name}({', '.join(kind.columns)})")
+    return {
+        "constants": "",
+        "integers": f"\n{routines_text(list(routines.values()), dialect, 'float64')}\n",
+        "steps": "\n".join([call, *dialect.statements(decided, ("decided",), "float64")]),
+        "imports": "import math\n",
+        "answer": dialect.say("hit_answer" if kind.passage else "told_answer"),
+        "undecided": dialect.say("undecided"),
+    }
 
 
-def _made(command: Sequence[str]) -> Iterator[str]:
-    yield f"Made by `{' '.join(command)}`, hypcheck {VERSION}."
-    yield ""
+def _columns_text(kind: Kind, dialect: Dialect, prefix: str) -> dict[str, str]:
+    """The text of a template about rows: columns, check, functions."""
+    names, scripted, in_python = kind.columns, dialect.name == "javascript", dialect.name == "python"
+    parameters = ", ".join(dialect.say("parameter", name=name) for name in names)
+    words = {
+        "columns": ", ".join(names),
+        "given": ", ".join(names),
+        "width": str(len(names)),
+        "parameters": parameters,
+        "prefix": prefix,
+        "row": ", ".join(f"row[{place}]" for place in range(len(names))),
+    }
+    numbers = [
+        dialect.say(
+            "number_function",
+            name=_camel(name) if scripted else name,
+            meaning=number.routine.meaning,
+            routine=number.routine.name,
+            nothing=repr(number.nothing),
+            **words,
+        )
+        for name, number in kind.numbers.items()
+    ]
+    times = dialect.say("times") if kind.passage else ""
+    declared = [
+        f"int {prefix}_{kind.one}({parameters});",
+        f"void {prefix}_{kind.many}(size_t n, const double *rows, int8_t *positions{times});",
+        *(f"double {prefix}_{name}({parameters});" for name in kind.numbers),
+    ]
+    return {
+        **words,
+        "one": kind.asked if scripted else kind.one,
+        "many": (kind.python or kind.many) if in_python else kind.many,
+        "meaning": kind.meaning.format(place="" if in_python or kind.passage else " at (x, y, z)"),
+        "outputs": times,
+        "keep": dialect.say("keep_time", **words) if kind.passage else "",
+        "declared": "\n".join(declared),
+        "valid": _valid(kind, dialect),
+        "has_axis": _checked_axis(kind, dialect),
+        "sizes": str(len(kind.sizes)),
+        "size_check": dialect.say("size_check") if kind.sizes else "",
+        "numbers": "".join(numbers),
+    }
+
+
+def _camel(name: str) -> str:
+    first, *others = name.split("_")
+    return first + "".join(map(str.capitalize, others))
+
+
+def _checked_axis(kind: Kind, dialect: Dialect) -> str:
+    """The condition under which the axis of a row is not 0, 0, 0, joined to one before it."""
+    return dialect.say("checked_axis", start=len(kind.columns) - 3) if kind.tilted else ""
+
+
+def _valid(kind: Kind, dialect: Dialect) -> str:
+    """The condition under which a row is valid, in C, C++ and Python."""
+    axis, others = _checked_axis(kind, dialect), kind.columns[len(kind.sizes) :]
+    if dialect.name == "python":
+        sizes = f"all(map(is_size, ({', '.join(kind.sizes)}))) and " if kind.sizes else ""
+        return f"{sizes}all(map(is_finite, ({', '.join(others)}))){axis}"
+    checks = [*(f"is_size({name})" for name in kind.sizes), *(f"is_finite({name})" for name in others)]
+    return " && ".join(checks) + axis
 
 
 def _head(method: str) -> Iterator[str]:
@@ -172,15 +388,13 @@ def _described(method: str, kind: Kind, language: str, prefix: str) -> str:
     if language == "javascript":
         return text
     return (
-        in_rust([json.dumps(text)], prefix, asked_of(kind), len(kind.columns))
-        if language == "rust"
-        else json.dumps(text)
+        in_rust([json.dumps(text)], prefix, kind.asked, len(kind.columns)) if language == "rust" else json.dumps(text)
     )
 
 
 def _whole(program: Program, language: str) -> Iterator[str]:
     """The steps in whole numbers: infix where the language has integers of any size, else a call for each."""
-    bits, operators = bits_counted(program, _INPUT_BITS), {"add": "+", "sub": "-", "mul": "*"}
+    bits, operators = bits_counted(program), {"add": "+", "sub": "-", "mul": "*"}
     calls = {"add": "add", "sub": "subtract", "mul": "multiply"}
     for step in needed(program, _SIGNS):
         first, second = step.arguments

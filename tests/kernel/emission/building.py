@@ -20,7 +20,7 @@ from hypcheck.implementations.description import domain_of
 from hypcheck.implementations.domain import representable
 from hypcheck.runs import judge
 from hypcheck.vectors.fixed_sizes import families_for
-from tests.support.inside import DIALECTS, description, emitted, plan_of
+from tests.support.inside import description, dialect_of, emitted, plan_of
 from tests.support.judging import wrong_cases
 
 STRICT = ("-pedantic", "-Wall", "-Wextra", "-Wconversion", "-Wsign-conversion", "-Wshadow", "-Werror")
@@ -57,7 +57,7 @@ def built(folder, scene, language, precision="float64", *options):
 
 def built_of(folder, text, language, *options):
     """The file of a kernel with this text."""
-    path = folder / f"kernel.{DIALECTS[language].extension}"
+    path = folder / f"kernel.{dialect_of(language).extension}"
     path.write_text(text, encoding="utf-8")
     return library_of(path, language, *options)
 

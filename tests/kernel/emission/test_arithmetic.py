@@ -22,7 +22,7 @@ from tests.kernel.compiling import CLANG, compiled_source, needs_clang, needs_co
 from tests.kernel.emission.building import COMMAND, COMMANDS, load_module, pointer, skip_without, worst_error
 from tests.kernel.emission.test_tilted import SCENES as TILTED
 from tests.support import inside
-from tests.support.inside import METHODS, emitted, emitted_pair, plan_of, whole, whole_plan
+from tests.support.inside import METHODS, emitted, emitted_pair, emitted_whole, plan_of, whole_plan
 from tests.support.scenes import scene
 from tests.tools.attack.places import near_contact
 
@@ -259,7 +259,7 @@ def every_kind(language):
             ("any axis", TILTED["the tower, any axis"], "float64"),
         )
     ]
-    return [*pairs, *scenes, ("a whole scene", whole(TOWER, whole_plan(TOWER), language, COMMAND))]
+    return [*pairs, *scenes, ("a whole scene", emitted_whole(TOWER, whole_plan(TOWER), language, COMMAND))]
 
 
 VOID = ("-ffast-math", "-Ofast", "-ffinite-math-only", "-Ofast -fno-associative-math -fno-reciprocal-math")

@@ -9,7 +9,7 @@ import pytest
 
 from hypcheck.scene.model import Hyperboloid
 from tests.kernel.emission.building import asking, built, skip_without
-from tests.support.inside import DIALECTS, comment_text, emitted, plan_of
+from tests.support.inside import EMITTED_LANGUAGES, comment_text, emitted, plan_of
 from tests.support.scenes import PLAIN
 
 WORDS = (
@@ -26,7 +26,7 @@ def scene_named(name):
     return replace(PLAIN, name=name, hyperboloids=(*PLAIN.hyperboloids, *others))
 
 
-@pytest.mark.parametrize("language", DIALECTS)
+@pytest.mark.parametrize("language", EMITTED_LANGUAGES)
 def test_a_scene_name_in_any_script_is_unchanged_in_the_head_of_its_kernel(language):
     text = emitted(plan_of(scene_named("Kühlturm 塔")), language, ["hypcheck", "emit", "--scene", "Türme/塔.toml"])
     assert 'in the scene "Kühlturm 塔"' in text
@@ -42,7 +42,7 @@ def test_invisible_characters_in_scene_names_are_escaped_in_the_kernel():
     assert not comment_text("C:\\").endswith("\\")
 
 
-@pytest.mark.parametrize("language", DIALECTS)
+@pytest.mark.parametrize("language", EMITTED_LANGUAGES)
 def test_a_kernel_of_a_scene_with_a_hostile_name_builds_without_warnings_and_answers(language, tmp_path):
     """As the same kernel with a plain name does; warnings are errors, and C's trigraphs count."""
     skip_without(language)

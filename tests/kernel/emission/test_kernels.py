@@ -14,7 +14,7 @@ from hypcheck.scene.model import Hyperboloid, Mover, Region, SceneModel, Span
 from hypcheck.scene.reading import read_scene
 from tests.kernel.emission.building import COMMAND, answers, answers_by_scene, asking, built, needs, worst_error
 from tests.support import inside
-from tests.support.inside import DIALECTS, description, emitted, plan_of
+from tests.support.inside import EMITTED_LANGUAGES, description, emitted, plan_of
 from tests.support.scenes import scene
 
 TOWER = read_scene("tower")
@@ -56,7 +56,7 @@ def test_an_emitted_kernel_answers_cannot_say_beyond_the_height_and_for_other_si
     assert (answers_by_scene(library, rows) == CANNOT_SAY).all()
 
 
-@pytest.mark.parametrize("language", DIALECTS)
+@pytest.mark.parametrize("language", EMITTED_LANGUAGES)
 def test_emit_gives_the_same_text_every_time_with_its_command(language):
     plan = plan_of(TOWER)
     text = emitted(plan, language, COMMAND)

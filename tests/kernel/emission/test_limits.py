@@ -14,7 +14,7 @@ from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.scene.model import Hyperboloid, Mover, Region, SceneModel, Span
 from tests.kernel.emission.building import COMMAND, COMMANDS, asking, built, skip_without
 from tests.support import inside
-from tests.support.inside import DIALECTS, emitted, plan_of
+from tests.support.inside import EMITTED_LANGUAGES, emitted, plan_of
 from tests.support.scenes import HILLS, scene
 
 SIZES = (2.0, 17.8, 0.25, 0.15)
@@ -123,7 +123,7 @@ def x_ends(span):
     return span.low, span.high
 
 
-@pytest.mark.parametrize("language", DIALECTS)
+@pytest.mark.parametrize("language", EMITTED_LANGUAGES)
 def test_the_head_of_an_emitted_kernel_states_its_promise_and_its_region(language):
     """A kernel that does not look at a coordinate says so."""
 

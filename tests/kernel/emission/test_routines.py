@@ -12,10 +12,10 @@ import pytest
 from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.program import steps_of
 from hypcheck.derivation.routines import Loop, Routine, run
-from hypcheck.kernel.emission.routines import routines_text
+from hypcheck.kernel.emission.dialects import dialect_of, routines_text
 from hypcheck.kernel.specialise.tilted_search import search_of
 from hypcheck.scene.reading import read_scene
-from tests.support.inside import DIALECTS, plan_of
+from tests.support.inside import plan_of
 
 STEPS = 71
 
@@ -24,7 +24,7 @@ def test_the_printed_search_answers_as_the_routine_is_run():
     """From the axis to far outside: every answer occurs; where it changes, down to neighbouring numbers."""
     plan = plan_of(replace(read_scene("tower-simplest"), question="position"))
     constants, routine, scope = plan.settings[0].last.constants, search_of(STEPS), {"math": math}
-    exec(routines_text([routine], DIALECTS["python"], "float64"), scope)  # noqa: S102 - our own text
+    exec(routines_text([routine], dialect_of("python"), "float64"), scope)  # noqa: S102 - our own text
 
     def answer(r):
         given = {"R": r * r, "zz": 0.25, "height": 0.5}
@@ -43,6 +43,6 @@ def test_the_printed_search_answers_as_the_routine_is_run():
 def test_a_name_that_a_language_reserves_is_refused():
     loop = Loop(2, (("short", "x", "y"),), steps_of("y = short + 1"))
     routine = Routine("r", "One more, twice.", ("x",), (loop,), "short")
-    assert "short = y" in routines_text([routine], DIALECTS["python"], "float64")
+    assert "short = y" in routines_text([routine], dialect_of("python"), "float64")
     with pytest.raises(ValueError, match="short is not a name in c"):
-        routines_text([routine], DIALECTS["c"], "float64")
+        routines_text([routine], dialect_of("c"), "float64")

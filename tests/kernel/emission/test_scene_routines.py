@@ -8,7 +8,7 @@ import pytest
 import hypcheck
 from hypcheck.cli.main import main
 from tests.kernel.emission.building import asking, library_of, load_module, pointer, skip_without
-from tests.support.inside import DIALECTS
+from tests.support.inside import dialect_of
 
 SCENE = """
 name = "tilted"
@@ -56,7 +56,7 @@ def in_languages(*texts):
 
 def emitted(folder, text, language, *options):
     skip_without(language)
-    scene, path = folder / "scene.toml", folder / f"kernel.{DIALECTS[language].extension}"
+    scene, path = folder / "scene.toml", folder / f"kernel.{dialect_of(language).extension}"
     scene.write_text(text, encoding="utf-8")
     assert main(["emit", "--scene", str(scene), *options, "--language", language, "--output", str(path)]) == 0
     return library_of(path, language)

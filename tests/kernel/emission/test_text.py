@@ -15,7 +15,7 @@ import pytest
 from hypcheck.scene.model import QUESTIONS, Hyperboloid, Mover, Region, SceneModel, Span
 from hypcheck.scene.reading import read_scene
 from tests.kernel.emission.building import COMMAND, built, skip_without
-from tests.support.inside import DIALECTS, description, emitted, operations_before, plan_of
+from tests.support.inside import EMITTED_LANGUAGES, description, emitted, operations_before, plan_of
 from tests.support.scenes import HILLS, PLAIN, scene
 
 SCENES = {
@@ -62,7 +62,7 @@ def test_operation_counts_in_the_head_of_a_kernel_are_those_of_its_code(name, qu
         }
 
 
-@pytest.mark.parametrize("language", DIALECTS)
+@pytest.mark.parametrize("language", EMITTED_LANGUAGES)
 def test_an_emitted_kernel_of_many_settings_describes_each_at_its_function(language):
     text = text_of(MANY, language)
     head, _, rest = text.partition("CANNOT_SAY")
@@ -85,7 +85,7 @@ def test_an_emitted_library_returns_a_description_longer_than_an_iso_c_string(na
         assert json.loads(library.hypcheck_describe()) == description(plan_of(chosen), language)
 
 
-@pytest.mark.parametrize("language", DIALECTS)
+@pytest.mark.parametrize("language", EMITTED_LANGUAGES)
 @pytest.mark.parametrize("name", ["tower", "plain"])
 def test_lines_of_emitted_kernels_are_short_except_the_description(name, language):
     lines = text_of(SCENES[name], language).splitlines()

@@ -33,7 +33,7 @@ from tests.kernel.emission.building import (
     worst_error,
 )
 from tests.kernel.emission.test_conformance import gated
-from tests.support.inside import DIALECTS, description, emitted, plan_of, tilted_search
+from tests.support.inside import EMITTED_LANGUAGES, description, emitted, plan_of, tilted_search
 from tests.support.judging import wrong_cases
 
 PITCHED = (0.3, 0.1, 1.0)
@@ -57,7 +57,7 @@ SCENES = {
 ROTORS = (MoverPart(0.1, 0.05, 0.135, 45.0), MoverPart(0.08, 0.08, 0.2, 180.0))
 
 
-@pytest.mark.parametrize("language", DIALECTS)
+@pytest.mark.parametrize("language", EMITTED_LANGUAGES)
 @pytest.mark.parametrize("name", ["the tower, one axis", "two trees, any axis"])
 def test_a_kernel_for_a_tilted_mover_is_within_its_error_bound_and_always_answers(name, language, tmp_path):
     skip_without(language)
@@ -120,7 +120,7 @@ def test_a_kernel_for_one_axis_answers_cannot_say_for_another_axis(tmp_path):
     assert answers(library, rows).tolist() == [-1, CANNOT_SAY, CANNOT_SAY]
 
 
-@pytest.mark.parametrize("language", DIALECTS)
+@pytest.mark.parametrize("language", EMITTED_LANGUAGES)
 def test_a_kernel_for_any_axis_answers_cannot_say_if_the_axis_has_no_direction(language, tmp_path):
     skip_without(language)
     kernel = asking(built(tmp_path, tower(FREE), language), language)
@@ -133,7 +133,7 @@ def test_a_kernel_for_any_axis_answers_cannot_say_if_the_axis_has_no_direction(l
     assert found.tolist() == [CANNOT_SAY, CANNOT_SAY, CANNOT_SAY, 0, 1]
 
 
-@pytest.mark.parametrize("language", DIALECTS)
+@pytest.mark.parametrize("language", EMITTED_LANGUAGES)
 def test_a_kernel_for_any_axis_answers_cannot_say_without_a_direction_where_every_axis_has_one_answer(
     language, tmp_path
 ):
@@ -161,7 +161,7 @@ def test_a_kernel_for_any_axis_answers_cannot_say_without_a_direction_where_ever
 
 
 @pytest.mark.parametrize("question", ["exterior", "interior", "contact"])
-@pytest.mark.parametrize("language", DIALECTS)
+@pytest.mark.parametrize("language", EMITTED_LANGUAGES)
 def test_a_kernel_of_each_question_answers_cannot_say_if_the_axis_has_no_direction(language, question, tmp_path):
     skip_without(language)
     kernel = asking(built(tmp_path, tower(FREE, question), language), language)

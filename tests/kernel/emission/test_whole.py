@@ -22,7 +22,7 @@ from tests.kernel.emission.building import (
     skip_without,
     worst_error,
 )
-from tests.support.inside import DIALECTS, Scene, whole, whole_plan
+from tests.support.inside import EMITTED_LANGUAGES, Scene, emitted_whole, whole_plan
 
 PARTS = (MoverPart(0.1, 0.05, 0.135, 45.0), MoverPart(0.1, 0.05, 0.135, 165.0), MoverPart(0.08, 0.05, 0.135, 285.0))
 
@@ -44,7 +44,7 @@ def forest(trees, question="position", parts=PARTS, region=None):
 
 
 def built(folder, scene, language, plan):
-    return built_of(folder, whole(scene, plan, language, COMMAND), language)
+    return built_of(folder, emitted_whole(scene, plan, language, COMMAND), language)
 
 
 def told(path, language, columns):
@@ -94,7 +94,7 @@ def small():
 
 
 QUICK = ("c", "python")
-LANGUAGES = [pytest.param(name, marks=[] if name in QUICK else pytest.mark.thorough) for name in DIALECTS]
+LANGUAGES = [pytest.param(name, marks=[] if name in QUICK else pytest.mark.thorough) for name in EMITTED_LANGUAGES]
 
 
 @pytest.mark.slow
@@ -106,7 +106,7 @@ def test_an_emitted_whole_scene_kernel_answers_as_the_scene(language, small, tmp
 
 
 @pytest.mark.thorough
-@pytest.mark.parametrize("language", DIALECTS)
+@pytest.mark.parametrize("language", EMITTED_LANGUAGES)
 def test_the_pairs_of_a_whole_scene_kernel_are_within_8_u(language, small, tmp_path):
     skip_without(language)
     scene, plan, _, _ = small

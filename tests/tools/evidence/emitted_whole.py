@@ -18,7 +18,7 @@ BOTH = 24
 """Centres where two walls cross at a height about an end of the first."""
 
 ROUNDING = 2.0**-45
-"""Lengths are known to about this share where a kernel compares heights with ends (kernel/emission/whole.py)."""
+"""Lengths are known to about this share where a kernel compares heights with ends (templates/whole.c.tmpl)."""
 
 Ask = Callable[[Floats], Positions]
 """What a kernel answers of x, y, z and the heading, (4, n)."""
