@@ -202,9 +202,7 @@ def built_in(monkeypatch):
     def spec(function, **declared):
         name = function.__name__
         timed = function if declared.get("times") else None
-        monkeypatch.setitem(
-            builtin.methods_without_meshes(), name, Method(name, "a function of a test", function, timed=timed)
-        )
+        monkeypatch.setitem(builtin.methods(), name, Method(name, "a function of a test", function, timed=timed))
         monkeypatch.setattr(builtin, "BuiltinSession", Session)
         declares[name] = {"version": "", "binary": False, "time": False, **declared}
         return f"builtin:{name}"

@@ -251,7 +251,7 @@ class Contender(MethodClaims):
     most `judged` rows of a workload are judged; in a quick run `quick_judged`, or a quarter if `judged` is small.
     `timed` rows make a timed batch. Its first `singles` rows are also timed one by one; they are enough that a branch
     predictor does not learn them. `amortised` says whether a mesh is built once for a scene or for each row. `load`
-    loads the method; `needs` names the software that may be absent here, or is empty. `scenes`, if not None, is the
+    loads the method. `scenes`, if not None, is the
     largest number of different sizes in a workload that it can take. `quick` says whether it is fast enough for a quick
     run; a quick run includes slower methods only if they are named.
     """
@@ -265,7 +265,6 @@ class Contender(MethodClaims):
     amortised: str | None = None
     accuracy_only: bool = False
     note: str = ""
-    needs: str = ""
     scenes: int | None = None
     quick: bool = True
     quick_judged: int | None = None

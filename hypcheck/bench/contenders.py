@@ -20,9 +20,9 @@ from hypcheck.bench.c_library import InC, place_of
 from hypcheck.bench.contender import Contender, InEngine, InScalars, of_method
 from hypcheck.bench.plan import PASSAGE, BenchPlan, chosen_names
 from hypcheck.geometry.rows import SWEEPS
-from hypcheck.implementations import builtin
+from hypcheck.implementations.builtin import methods
 from hypcheck.implementations.domain import Domain
-from hypcheck.implementations.meshes import COAL, FCL, PAIRINGS, MeshLibrary, scene_mesh
+from hypcheck.implementations.meshes import ENGINES, PAIRINGS, MeshLibrary, scene_mesh
 from hypcheck.implementations.method import Method
 from hypcheck.implementations.sweeps import SWEEP_SOLVERS, height_of_sweeps, sweep_mesh
 from hypcheck.kernel.choice import choice
@@ -68,22 +68,21 @@ def _quick(contender: Contender) -> Contender:
 def _everything(plan: BenchPlan) -> Iterable[Contender]:
     """Every method, chosen or not."""
     if plan.question == PASSAGE:
-        yield from _listed("passage", builtin.passage_methods() | builtin.passage_mesh_methods(), plan)
+        yield from _listed("passage", plan)
     elif plan.tilted:
-        yield from _listed("tilted", builtin.tilted_methods(), plan)
+        yield from _listed("tilted", plan)
         yield from _built_once(ELLIPSOID)
     else:
-        methods = builtin.builtin_methods()
-        yield from _listed("position", methods, plan)
+        yield from _listed("position", plan)
         yield from _built_once(*PAIRINGS)
-        yield from _listed("naive", methods, plan)
+        yield from _listed("naive", plan)
 
 
 def _listing() -> Mapping[str, Any]:
     return toml.shipped("hypcheck.bench", "contenders.toml")
 
 
-def _listed(subject: str, methods: Mapping[str, Method], plan: BenchPlan) -> Iterable[Contender]:
+def _listed(subject: str, plan: BenchPlan) -> Iterable[Contender]:
     """The contenders that are listed for a subject, those that run here."""
     in_use = choice()
     for entry in _listing()["contenders"][subject]:
@@ -96,8 +95,8 @@ def _listed(subject: str, methods: Mapping[str, Method], plan: BenchPlan) -> Ite
         note = _listing()["notes"][fields.pop("note")] if "note" in fields else ""
         of = fields.pop("of", None)
         for name in names:
-            method = methods.get(of or (name.removesuffix("-c") if call == "C" else name))
-            if method is not None:  # without FCL, and for a long double that is no more than float64, there is none
+            method = methods().get(of or (name.removesuffix("-c") if call == "C" else name))
+            if method is not None:  # for a long double that is no more than float64 there is none
                 called = _CALLED[call](method, plan.compiled)
                 yield of_method(method, name=name, note=note.format(level=in_use.level), **called, **fields)
 
@@ -119,8 +118,7 @@ def _in_c(method: Method, library: Path | None) -> dict[str, Any]:
 def _in_mesh(method: Method, _library: Path | None) -> dict[str, Any]:
     """By an engine with a mesh of the whole surface for each scene, built before the timing."""
     solver = SWEEP_SOLVERS[method.name]
-    load = partial(InEngine, partial(sweep_mesh, solver), height_of_sweeps, SWEEPS)
-    return {"load": load, "needs": solver.engine.title}
+    return {"load": partial(InEngine, partial(sweep_mesh, solver), height_of_sweeps, SWEEPS)}
 
 
 _CALLED = {"rows": lambda _method, _library: {}, "numbers": _by_numbers, "C": _in_c, "mesh": _in_mesh}
@@ -141,7 +139,7 @@ _TITLES = {
 
 def _built_once(*pairings: str) -> Iterable[Contender]:
     """The engines with these pairings, with every number of triangles that is listed."""
-    for engine in (FCL, COAL):
+    for engine in ENGINES.values():
         for pairing in pairings:
             for triangles in _listing()["triangles"][engine.name]:
                 yield built_once(engine, pairing, triangles)

@@ -19,7 +19,7 @@ from hypcheck.bench.plan import PASSAGE, BenchPlan
 from hypcheck.bench.workloads import scene_of, tilted_scenes
 from hypcheck.errors import Exit, InputError, NothingJudgedError, RunOutcome, UnavailableError
 from hypcheck.implementations.description import QUESTIONS
-from hypcheck.implementations.meshes import COAL, FCL
+from hypcheck.implementations.meshes import ENGINES, FCL
 from hypcheck.implementations.session import StartError
 from hypcheck.processes import Advance, Stage, perform, processes, usable_processors
 from hypcheck.record import Recorder, RecordLine, measurements
@@ -78,7 +78,6 @@ def plan_with_needs(plan: BenchPlan, recorder: Recorder) -> BenchPlan:
 
     Raises InputError naming a method that does not exist.
     """
-    engines = {engine.title: engine for engine in (FCL, COAL)}
     for need in sorted({contender.needs for contender in contenders(plan).values()} - {""}):
         if need == COMPILER:
             try:
@@ -88,7 +87,7 @@ def plan_with_needs(plan: BenchPlan, recorder: Recorder) -> BenchPlan:
             except UnavailableError as error:
                 trouble = str(error)
         else:
-            trouble = engines[need].trouble()
+            trouble = ENGINES[need].trouble()
         if trouble is not None:
             note_absent(recorder, need, trouble)
             plan = replace(plan, missing=(*plan.missing, need))

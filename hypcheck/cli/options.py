@@ -104,10 +104,9 @@ SPECS = ("python:", "library:", "command:")
 def specs(ctx: click.Context, begun: str) -> Iterable[str]:  # noqa: ARG001 - a Known
     """The built-in methods, and how other SPECs begin."""
     if not begun.startswith(SPECS):
-        from hypcheck.implementations.builtin import builtin_methods, passage_mesh_methods, passage_methods
+        from hypcheck.implementations.builtin import names
 
-        known = (*builtin_methods(), *passage_methods(), *passage_mesh_methods())
-        yield from (f"builtin:{name}" for name in known)
+        yield from (f"builtin:{name}" for name in names())
         yield from SPECS
 
 

@@ -22,14 +22,14 @@ from hypcheck.implementations import alternatives, sweeps
 from hypcheck.implementations.description import Description
 from hypcheck.implementations.domain import EVERYWHERE, ORDINARY, Domain
 from hypcheck.implementations.frames import LARGEST, GivenAnswers
-from hypcheck.implementations.meshes import FCL, naive_fcl
-from hypcheck.implementations.method import Answers, ByRows, Method, by_rows, by_scene, on_rows, on_scene
-from hypcheck.implementations.sweeps import SWEEP_SOLVERS, SweepSolver, hits_and_times
+from hypcheck.implementations.meshes import ENGINES, FCL, naive_fcl
+from hypcheck.implementations.method import Answers, Method, by_rows, by_scene, on_rows, on_scene
+from hypcheck.implementations.sweeps import SWEEP_SOLVERS, hits_and_times
 from hypcheck.kernel import integers, numpy_kernel
 from hypcheck.kernel.choice import choice
 from hypcheck.kernel.in_use import kernel
 from hypcheck.messages import suggestion
-from hypcheck.truth import exact, float_filter, nearest_rows
+from hypcheck.truth import exact, nearest_rows
 from hypcheck.truth.nearest import nearest
 from hypcheck.version import VERSION
 
@@ -47,12 +47,16 @@ PRECISIONS = ("float32", "float64")
 
 
 @cache
-def methods_without_meshes() -> dict[str, Method]:
-    """The built-in methods about positions that need no FCL, by name. mpmath is loaded only when a method is called."""
+def methods() -> dict[str, Method]:
+    """Every built-in method by its name, even if what it needs is not installed.
+
+    mpmath and collision engines are loaded only when a method is called.
+    """
     formulas = [formula for formula in FORMULAS.values() if formula.classifies_pairs or formula.name == "dual"]
     ours = (_formula_method(formula, precision) for precision in PRECISIONS for formula in formulas)
-    measured = (replace(method, measured=True) for method in _measured_methods())
-    return {method.name: method for method in (*_fast_methods(), *ours, *measured)}
+    only_for_bench = (*_measured_methods(), *_tilted_methods(), *_passage_methods())
+    measured = (replace(method, measured=True) for method in only_for_bench)
+    return {method.name: method for method in (*_fast_methods(), *ours, *_naive_methods(), *measured)}
 
 
 def _fast_methods() -> Iterator[Method]:
@@ -145,64 +149,37 @@ NAIVE_FCL = {
 """The titles of the naive use of FCL, by pairing."""
 
 
-@cache
-def builtin_methods() -> dict[str, Method]:
-    """Every built-in method that answers about positions by its name, as `builtin:NAME` has it."""
-    if FCL.trouble() is not None:
-        return methods_without_meshes()
-    naive = (
-        Method(f"fcl-{pairing}-mesh", title, partial(naive_fcl, pairing=pairing), max_rows=FCL_ROWS)
-        for pairing, title in NAIVE_FCL.items()
-    )
-    return methods_without_meshes() | {method.name: method for method in naive}
+def _naive_methods() -> Iterator[Method]:
+    for pairing, title in NAIVE_FCL.items():
+        answer = partial(naive_fcl, pairing=pairing)
+        yield Method(f"fcl-{pairing}-mesh", title, answer, max_rows=FCL_ROWS, needs=FCL.title)
 
 
-@cache
-def tilted_methods() -> dict[str, Method]:
-    """The methods about tilted spheroids of bench, by name; verify uses only the exact ones."""
-    methods = (
-        _tilted("fast", "the fast path, as installed", fast_positions, fast_scene, exact=True),
-        _tilted(
-            "fast-numpy",
-            "the fast path in numpy",
-            numpy_kernel.positions,
-            numpy_kernel.positions_of_scene,
-            exact=True,
-        ),
-        _tilted(
-            "exact-oracle",
-            "the exact oracle: the sign of a quartic between its poles, in integers",
-            float_filter.positions,
-            exact=True,
-        ),
-        _tilted("nearest-point", "the nearest point, in intervals of mpmath", _nearest_enclosed, exact=True),
-        _tilted(
+def _tilted_methods() -> Iterator[Method]:
+    """Methods whose rows have an axis; the fast path and the exact methods take rows with an axis and without."""
+    for name, title, answer, scene in (
+        (
             "eigh",
             "eigenvectors by numpy.linalg.eigh, then the dual function, float64",
             alternatives.by_eigenvectors,
-            alternatives.by_eigenvectors_scene,
+            partial(_same, alternatives.by_eigenvectors_scene),
         ),
-        _tilted(
+        (
             "roots",
             "the roots of the quartic det(S + λH) by numpy.linalg.eigvals, float64",
             alternatives.by_roots,
+            None,
         ),
-        _tilted("upright", "the spheroid taken for upright, exact", alternatives.upright, alternatives.upright_scene),
-        _tilted(
-            "bounding-sphere",
-            "the circumscribed sphere in the spheroid's place, exact",
-            alternatives.bounding_sphere,
-            alternatives.bounding_sphere_scene,
+        (
+            "upright",
+            "the spheroid taken for upright, exact",
+            alternatives.upright,
+            partial(_same, alternatives.upright_scene),
         ),
-    )
-    return {method.name: method for method in methods}
-
-
-def _tilted(
-    name: str, title: str, answer: ByRows, scene: Callable[..., Answers] | None = None, *, exact: bool = False
-) -> Method:
-    domain = EVERYWHERE if exact else Domain()
-    return Method(name, title, answer, domain=domain, exact=exact, scene=scene and partial(_same, scene))
+    ):
+        yield Method(name, title, answer, tilt=True, scene=scene)
+    title = "the nearest point, in intervals of mpmath"
+    yield Method("nearest-enclosed", title, _nearest_enclosed, domain=EVERYWHERE, exact=True, tilt=True)
 
 
 def _nearest_enclosed(rows: Rows) -> Answers:
@@ -216,30 +193,25 @@ SWEEP_ROWS = 200
 """The number of sweeps of a family on which a method that takes a millisecond for a sweep is tested."""
 
 
-@cache
-def passage_methods() -> dict[str, Method]:
-    """Every built-in method that answers the question passage, by its name."""
-    methods = [
-        _passage_method("passage-exact", "roots and steps in integers", sweeps.exact, exact=True, max_rows=SWEEP_ROWS),
-        Method(
-            "passage-certified",
-            "steps in certified floats, exact where they come to nothing",
-            sweeps.certified,
-            question="passage",
-            domain=EVERYWHERE,
-            exact=True,
-            measured=True,
-        ),
-        *(
-            _passage_method(
-                f"passage-sampled-{count}", f"exact positions at {count} times", partial(sweeps.sampled, count=count)
-            )
-            for count in SAMPLES
-        ),
-        _passage_method("passage-advancement", "conservative advancement by the centre's distance", sweeps.advanced),
-        _passage_method("passage-capsule", "a swept ball in the spheroid's place, advanced alike", sweeps.capsule),
-    ]
-    return {method.name: method for method in methods}
+def _passage_methods() -> Iterator[Method]:
+    """Every method that answers the question passage."""
+    yield _passage_method("passage-exact", "roots and steps in integers", sweeps.exact, exact=True, max_rows=SWEEP_ROWS)
+    yield Method(
+        "passage-certified",
+        "steps in certified floats, exact where they come to nothing",
+        sweeps.certified,
+        question="passage",
+        domain=EVERYWHERE,
+        exact=True,
+    )
+    for count in SAMPLES:
+        title, timed = f"exact positions at {count} times", partial(sweeps.sampled, count=count)
+        yield _passage_method(f"passage-sampled-{count}", title, timed)
+    yield _passage_method("passage-advancement", "conservative advancement by the centre's distance", sweeps.advanced)
+    yield _passage_method("passage-capsule", "a swept ball in the spheroid's place, advanced alike", sweeps.capsule)
+    for solver in SWEEP_SOLVERS.values():
+        method = _passage_method(solver.name, solver.title, partial(hits_and_times, solver), max_rows=FCL_ROWS)
+        yield replace(method, needs=solver.engine.title, timed=method.timed if solver.times else None)
 
 
 def _passage_method(
@@ -258,31 +230,27 @@ def _passage_method(
         domain=EVERYWHERE if exact else ORDINARY,
         exact=exact,
         max_rows=max_rows,
-        measured=True,
         timed=timed,
     )
 
 
-@cache
-def passage_mesh_methods() -> dict[str, Method]:
-    """The built-in methods for sweeps that use a collision engine, by name, even if the engine is not installed."""
-    return {name: _sweep_mesh_method(solver) for name, solver in SWEEP_SOLVERS.items()}
+def names() -> list[str]:
+    """The names that `builtin:NAME` takes. Methods with `tilt` are left out: their eigenvalues fail on extreme rows."""
+    return [name for name, method in methods().items() if not method.tilt]
 
 
-def _sweep_mesh_method(solver: SweepSolver) -> Method:
-    method = _passage_method(solver.name, solver.title, partial(hits_and_times, solver), max_rows=FCL_ROWS)
-    return method if solver.times else replace(method, timed=None)
+def trouble_with(method: Method) -> str | None:
+    """The reason why a method cannot be used here, or None; the engine that it needs is loaded."""
+    return ENGINES[method.needs].trouble() if method.needs else None
 
 
 def builtin(name: str) -> Method:
     """The built-in method of that name. Raises InputError naming the known methods, or a missing requirement."""
-    if name in SWEEP_SOLVERS and (trouble := SWEEP_SOLVERS[name].engine.trouble()) is not None:
-        raise InputError(f"the built-in method {name!r} cannot be used: {trouble}")
-    method = methods_without_meshes().get(name) or passage_methods().get(name) or passage_mesh_methods().get(name)
-    method = method or builtin_methods().get(name)  # FCL is loaded only on request
-    if method is None:
-        known = [*builtin_methods(), *passage_methods(), *SWEEP_SOLVERS]
+    if name not in (known := names()):
         raise InputError(f"there is no built-in method {name!r}; {suggestion(name, known)}")
+    method = methods()[name]
+    if (trouble := trouble_with(method)) is not None:
+        raise InputError(f"the built-in method {name!r} cannot be used: {trouble}")
     return method
 
 

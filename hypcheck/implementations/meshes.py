@@ -155,6 +155,7 @@ def _coal_trouble() -> str | None:
 
 FCL = MeshLibrary("fcl", "FCL", availability, mesh_object, _fcl_collides, _fcl_distance)
 COAL = MeshLibrary("coal", "coal", _coal_trouble, _coal_mesh, _coal_collides, _coal_distance)
+ENGINES = {engine.title: engine for engine in (FCL, COAL)}
 
 
 @dataclass(frozen=True, slots=True)

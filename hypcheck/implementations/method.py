@@ -30,7 +30,7 @@ class MethodClaims:
     """A method's name, title and claims, for `verify` and `bench`.
 
     `question` and `precision` are those of judge.Criterion. `domain` is where the method claims to be right. `exact`
-    marks a method that is never wrong.
+    marks a method that is never wrong. `needs` names the software that may be absent here, or is empty.
     """
 
     name: str
@@ -40,6 +40,7 @@ class MethodClaims:
     precision: str = "float64"
     domain: Domain = ORDINARY
     exact: bool = False
+    needs: str = ""
 
 
 @dataclass(frozen=True)
@@ -47,16 +48,18 @@ class Method(MethodClaims):
     """A method in this process.
 
     `answer` maps valid rows, float64 (n, 7) or of sweeps (n, 10), to answers, int8 (n,): +1, 0, −1 for a position, 1
-    and 0 for yes and no. `max_rows` limits the rows of each family for a slow one. `measured` marks a method that only
-    `bench` uses: its errors are no finding of `verify`. `timed` stands in the place of `answer` where a method also
-    gives the times of hits. `scene` makes the function for rows that share their sizes, and their axis if they have
-    one: it takes the sizes and the columns of the centres; without it such rows are as any others.
+    and 0 for yes and no; with `tilt` its rows have an axis. `max_rows` limits the rows of each family for a slow one.
+    `measured` marks a method that only `bench` uses: its errors are no finding of `verify`. `timed` stands in the place
+    of `answer` where a method also gives the times of hits. `scene` makes the function for rows that share their sizes,
+    and their axis if they have one: it takes the sizes and the columns of the centres; without it such rows are as any
+    others.
     """
 
     answer: Callable[[Rows], Answers] = field(repr=False)
     _: KW_ONLY
     max_rows: int | None = None
     measured: bool = False
+    tilt: bool = False
     timed: Callable[[Rows], tuple[Answers, Floats]] | None = field(default=None, repr=False)
     scene: Callable[[], Callable[..., Answers]] | None = field(default=None, repr=False)
 

@@ -20,7 +20,7 @@ from hypcheck.errors import Exit, RunOutcome
 from hypcheck.geometry.pair import Sizes
 from hypcheck.geometry.rows import CANNOT_SAY, Columns, Rows
 from hypcheck.implementations.alternatives import delta_with_powers, numpy_roots
-from hypcheck.implementations.builtin import builtin, builtin_methods, fast_scene, methods_without_meshes
+from hypcheck.implementations.builtin import builtin, fast_scene, methods, trouble_with
 from hypcheck.implementations.meshes import naive_fcl, shared_meshes
 from hypcheck.implementations.method import Answers, Method
 from hypcheck.processes import Advance, Stage, in_order
@@ -203,8 +203,9 @@ def family_tasks(plan: SelfCheckPlan) -> list[Callable[[], FamilyLines]]:
 
 def methods_of(plan: SelfCheckPlan) -> tuple[Method, ...]:
     """The built-in methods that are judged; those that measure meshes only if the plan asks the mesh oracle."""
-    available = builtin_methods() if MESH in plan.oracles else methods_without_meshes()
-    return tuple(method for method in available.values() if not method.measured)
+    judged = (method for method in methods().values() if not method.measured)
+    meshes = MESH in plan.oracles
+    return tuple(method for method in judged if not method.needs or (meshes and trouble_with(method) is None))
 
 
 @dataclass

@@ -14,7 +14,7 @@ from hypcheck.bench.plan import PASSAGE, PASSAGE_REFERENCE, QUICK, BenchPlan
 from hypcheck.bench.workloads import listed, scene_of
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import SWEEPS, first_trouble
-from hypcheck.implementations.builtin import passage_methods
+from hypcheck.implementations.builtin import methods
 from hypcheck.implementations.sweeps import SWEEP_SOLVERS
 from hypcheck.record.fields import as_json
 from hypcheck.record.measurements import AccuracyLine, PlacesLine, SpeedLine, WorkloadLine
@@ -48,13 +48,13 @@ def test_the_frozen_sweeps_come_from_all_families_of_their_kind_in_turn(tilted, 
 
 
 def test_bench_compares_all_built_in_methods_for_sweeps_but_two_in_a_quick_run_and_engines_if_tilted():
-    every = {*passage_methods(), *SWEEP_SOLVERS}
+    every = {name for name, method in methods().items() if method.question == PASSAGE}
     found = contenders(BenchPlan(question=PASSAGE))
     assert set(found) == every
     assert next(iter(found)) == PASSAGE_REFERENCE
     quick = contenders(BenchPlan(question=PASSAGE, quick=True, amounts=QUICK))
     assert every - set(quick) == {"passage-advancement", "passage-capsule"}
-    assert set(contenders(BenchPlan(question=PASSAGE, tilted=True))) == set(passage_methods())
+    assert set(contenders(BenchPlan(question=PASSAGE, tilted=True))) == every - set(SWEEP_SOLVERS)
 
 
 @pytest.mark.parametrize(("tilted", "workload"), [(False, "grazing"), (True, "tunnelling"), (True, "anywhere")])

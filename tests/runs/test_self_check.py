@@ -84,7 +84,7 @@ def test_refused_certificate_ends_the_run_with_6(monkeypatch):
 
 
 def test_wrong_exact_method_ends_the_run_with_1(monkeypatch):
-    methods = builtin.builtin_methods()
+    methods = builtin.methods()
     wrong = replace(methods["fast"], answer=lambda rows: np.zeros(len(rows), dtype=np.int8))
     monkeypatch.setitem(methods, "fast", wrong)
     assert checked(EVERY)[0] == 1

@@ -24,7 +24,7 @@ import numpy as np
 import hypcheck
 from hypcheck.cli.main import main
 from hypcheck.geometry.pair import Pair
-from hypcheck.implementations.builtin import builtin_methods, passage_methods
+from hypcheck.implementations.builtin import methods
 from hypcheck.runs.oracles import ORACLES
 from tests.kernel.compiling import COMPILER, shared_library
 from tests.kernel.emission.building import asking_pairs, library_of, missing
@@ -227,7 +227,7 @@ def of_passage(questions: Questions) -> Times:
 
 def of_method(name: str, questions: Questions) -> list[int]:
     """A built-in method of `verify` and `bench`."""
-    return (builtin_methods() | passage_methods())[name].answer(questions.rows).tolist()
+    return methods()[name].answer(questions.rows).tolist()
 
 
 def of_oracle(name: str, questions: Questions) -> list[int]:

@@ -11,7 +11,7 @@ import pytest
 from hypcheck import classify
 from hypcheck.cli.main import main
 from hypcheck.geometry.rows import within
-from hypcheck.implementations.builtin import methods_without_meshes
+from hypcheck.implementations.builtin import methods
 from hypcheck.implementations.description import Description, parse_domain
 from hypcheck.record import read
 from hypcheck.record.lines import GroupLine, ImplementationLine
@@ -145,8 +145,8 @@ def test_search_uses_the_seed_of_the_fresh_rows_and_reports_it(run, capsys):
 @pytest.mark.usefixtures("few_families")
 def test_search_sends_a_slow_implementation_as_many_rows_as_it_takes_and_counts_the_others(run, built_in, monkeypatch):
     spec = built_in(narrow)
-    method = methods_without_meshes()["narrow"]
-    monkeypatch.setitem(methods_without_meshes(), "narrow", replace(method, max_rows=30))
+    method = methods()["narrow"]
+    monkeypatch.setitem(methods(), "narrow", replace(method, max_rows=30))
     search = run(spec, "--count", "8")[1]["search"]
     assert (search.counts["skipped"], search.not_asked) == (50, {"slow": 50})
     assert search.asked == sum(search.counts.values()) - 50 == 30

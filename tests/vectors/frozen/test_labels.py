@@ -98,7 +98,7 @@ def test_rounding_flags_of_cases_agree_with_the_wrong_answers_of_built_in_method
     from hypcheck.derivation.evaluation import EXACT
     from hypcheck.derivation.formulas import FORMULAS, answers
     from hypcheck.geometry.pair import COLUMNS
-    from hypcheck.implementations.builtin import builtin_methods
+    from hypcheck.implementations.builtin import methods
     from hypcheck.runs.judge import Criterion, Status, expected
     from tests.support.judging import wrong_cases
 
@@ -107,7 +107,7 @@ def test_rounding_flags_of_cases_agree_with_the_wrong_answers_of_built_in_method
     flags = flags_at(*map(tuple, rows.tolist()))
     positions = np.asarray([inside.decide(Pair.from_row(row).lengths).position for row in rows.tolist()], dtype=np.int8)
     for formula, precision in DEFEATED:
-        method = builtin_methods()[f"{formula}-{precision}"]
+        method = methods()[f"{formula}-{precision}"]
         asked = np.flatnonzero(representable(rows, precision))
         criterion = Criterion(method.question, precision)
         wrong = wrong_cases(rows[asked], positions[asked], method.answer(rows[asked]), criterion)
