@@ -124,6 +124,51 @@ def across(v: Vector, q: Vector) -> Vector:
 
 
 @dataclass(frozen=True, slots=True)
+class Margin:
+    """The margin on a side and its derivatives at one row, in plain numbers: it finds places for proofs.
+
+    Where φ is largest on that side, λ = `at` and the margin is that maximum, X being the nearest point. Elsewhere λ is
+    0, X the centre, and the margin φ₀ = −1; the derivatives are those of h at the centre, which has to change its sign
+    first: `weight` is λ, or the side where λ is 0.
+    """
+
+    form: Form
+    C: Vector
+    v: Vector
+    X: Vector
+    at: Number
+    weight: Number
+
+    @property
+    def n(self) -> Vector:
+        """D X."""
+        return self.form.gradient(self.X)
+
+    def value(self) -> Number:
+        """The margin: λ² nᵀ Σ n − 1 + λ h(X)."""
+        return (self.at * self.form.width(self.v, self.n)) ** 2 - 1 + self.at * self.form.hyperboloid(self.X)
+
+    def derivatives(self) -> Vector:
+        """The margin's derivatives by the centre and the axis."""
+        n = self.n
+        by_axis = self.form.by_axis(self.v, n, n)
+        return [*(2 * self.weight * part for part in n), *(-(self.at**2) * part for part in by_axis)]
+
+    def size_derivatives(self) -> Vector:
+        """The margin's derivatives by the logarithms of the sizes."""
+        n = self.n
+        terms = [2 * self.weight * a * b for a, b in zip(n, self.X, strict=True)]
+        square = 2 * self.at**2 / dot(self.v, self.v)
+        thick = square * self.form.b2 * squares(cross(self.v, n))
+        along = square * self.form.d2 * dot(self.v, n) ** 2
+        return [terms[0] + terms[1], terms[2], thick, along]
+
+
+SHARES = (1.0, 1 - 2.0**-20, 0.5)
+"""Shares of the λ hinted at that are tried where M + λD is not seen to be definite there."""
+
+
+@dataclass(frozen=True, slots=True)
 class BoxKind:
     """The operations of one kind of enclosure.
 

@@ -310,7 +310,7 @@ def clear_until(row: Sequence[float], certificate: PassageCertificate) -> Fracti
     """The time up to which the pieces prove the spheroid clear; None if there are no pieces, or one fails."""
     last = Fraction(0)
     S, H = surfaces(place(row, last))
-    unit, numbers = _whole([number for matrix in (S, H) for line in matrix[:3] for number in line[:3]])
+    numbers, unit = over_one_denominator([number for matrix in (S, H) for line in matrix[:3] for number in line[:3]])
     M, D = [numbers[3 * i : 3 * i + 3] for i in range(3)], [numbers[9 + 4 * i] for i in range(3)]
     for multiplier, end in certificate.pieces:
         if not last < end <= 1:
@@ -339,7 +339,7 @@ def _bernstein(
     determinant = sum(a * line[0] for a, line in zip(F[0], adjugate, strict=True))
     if min(F[0][0], adjugate[2][2], determinant) <= 0:
         return 0, 0, 0
-    k, whole = _whole([coordinate for center in centers for coordinate in center])
+    whole, k = over_one_denominator([coordinate for center in centers for coordinate in center])
     ends = whole[:3], whole[3:]
     left = [[sum(c * M[i][j] for i, c in enumerate(end)) for j in range(3)] for end in ends]
     right = [[sum(line[j] * D[j] * c for j, c in enumerate(end)) for line in adjugate] for end in ends]
@@ -348,12 +348,6 @@ def _bernstein(
         p * q * sum(a * b for a, b in zip(left[i], right[j], strict=True)) - lost for i, j in ((0, 0), (0, 1), (1, 1))
     )
     return first, middle, final
-
-
-def _whole(numbers: Sequence[Fraction]) -> tuple[int, list[int]]:
-    """The least positive integer whose multiples of all numbers are integers, and these multiples."""
-    unit = math.lcm(*(number.denominator for number in numbers))
-    return unit, [number.numerator * (unit // number.denominator) for number in numbers]
 
 
 def contact_at(row: Sequence[float], certificate: PassageCertificate) -> Fraction | None:

@@ -21,15 +21,12 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from hypcheck.geometry.arithmetic import fraction, rounded
 from hypcheck.geometry.pair import COLUMNS, SIZES, Lengths, Pair, Position
 from hypcheck.truth import exact
-from hypcheck.truth.box_proofs import Goal, Signs
-
-if TYPE_CHECKING:
-    from hypcheck.truth.box_certificate import State
+from hypcheck.truth.box_proofs import Goal, Margin, Signs
 
 Row = tuple[Fraction, ...]
 
@@ -105,18 +102,18 @@ class Flip:
 
     def estimate(self) -> Fraction:
         """The change that is enough by the derivatives at the row, an estimate in (0, 1/2]."""
-        state = self._state(self.row[: len(SIZES)], self.row[len(SIZES) :])
-        value = abs(fraction(state.value()))
-        derivatives = (*state.derivatives(), *state.size_derivatives())
+        margin = self._margin(self.row[: len(SIZES)], self.row[len(SIZES) :])
+        value = abs(fraction(margin.value()))
+        derivatives = (*margin.derivatives(), *margin.size_derivatives())
         factors = (*self.row[len(SIZES) :], *[Fraction(1)] * len(SIZES))
         rate = sum((abs(a * fraction(b)) for a, b in zip(factors, derivatives, strict=True)), Fraction(0))
         estimate = value / rate if rate else Fraction(1)
         return min(estimate, Fraction(1, 2)) if estimate else Fraction(1, 1 << 10_000)
 
-    def _state(self, sizes: Row, rest: Row) -> State:
-        from hypcheck.truth.box_certificate import State  # noqa: PLC0415 - loads mpmath
+    def _margin(self, sizes: Row, rest: Row) -> Margin:
+        from hypcheck.truth.box_certificate import margin_at  # noqa: PLC0415 - loads mpmath
 
-        return State(sizes, rest, self.goal)
+        return margin_at(sizes, rest, self.goal)
 
     def _sizes(self, change: Fraction) -> Row:
         """The sizes at their best corner."""
@@ -144,8 +141,8 @@ class Flip:
         """The signs of the derivatives of φ at the row, then at the corner that these signs give."""
         signs: Signs = (0,) * 6
         for _ in range(2):
-            state = self._state(self._sizes(change), _moved(self.row[len(SIZES) :], signs, change))
-            signs = tuple(self.goal.sign * (1 if slope > 0 else -1) for slope in state.derivatives())
+            margin = self._margin(self._sizes(change), _moved(self.row[len(SIZES) :], signs, change))
+            signs = tuple(self.goal.sign * (1 if slope > 0 else -1) for slope in margin.derivatives())
             yield signs
 
 

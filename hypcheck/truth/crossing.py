@@ -15,6 +15,7 @@ from hypcheck.geometry.arithmetic import (
     dot,
     exponent_of,
     floor_root,
+    last,
     power_of_two,
     precisions,
     root_of,
@@ -131,10 +132,8 @@ def _multiplier_of_nearest(lengths: Lengths, bits: int) -> Fraction | None:
         if step > 64 * bits:
             return None
     low, high = sorted((low, low + direction * step))
-    while high - low > 1:
-        middle = (low + high) // 2
-        low, high = (low, middle) if too_far(_odds(middle)) else (middle, high)
-    share = _bisect(too_far, _odds(low), _odds(high), bits)
+    low = last(lambda exponent: not too_far(_odds(exponent)), low, high)
+    share = _bisect(too_far, _odds(low), _odds(low + 1), bits)
     return share * (Fraction(-p, q) if inside else Fraction(s, t))
 
 

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from hypcheck.geometry.arithmetic import dot
 from hypcheck.geometry.pair import COLUMNS, SIZES
 from hypcheck.geometry.rows import Floats, Mask, Rows
-from hypcheck.truth.box_proofs import BoxKind, Form, Goal, Place, stays_clear, stays_off
+from hypcheck.truth.box_proofs import SHARES, BoxKind, Form, Goal, Margin, Place, stays_clear, stays_off
 from hypcheck.truth.distances import multipliers
 
 LEAST = -46
@@ -235,39 +235,29 @@ def _halves(boxes: Boxes, pull: Floats) -> Boxes:
 def _held(boxes: Boxes) -> tuple[Mask, Floats]:
     """A mask of goals that one certificate excludes in a box, (n,); and the margin's change by each number, (6, n)."""
     sign = np.where(boxes.leave, -1.0, 1.0)
-    pull = sign * np.stack(_Margin(boxes.sizes, boxes.middle, boxes.side).derivatives())
-    worst = _Margin(boxes.sizes, np.where(pull > 0, boxes.high, boxes.low), boxes.side)
+    pull = sign * np.stack(_margin_at(boxes.sizes, boxes.middle, boxes.side).derivatives())
+    worst = _margin_at(boxes.sizes, np.where(pull > 0, boxes.high, boxes.low), boxes.side)
     proved = np.zeros(len(sign), dtype=np.bool_)
     for chosen in (np.flatnonzero(boxes.leave), np.flatnonzero(~boxes.leave)):
         if len(chosen):
-            proved[chosen] = _proved(boxes[chosen], worst.at[chosen], worst.X[:, chosen], worst.C[:, chosen])
+            X, C = ([part[chosen] for part in vector] for vector in (worst.X, worst.C))
+            proved[chosen] = _proved(boxes[chosen], worst.at[chosen], X, C)
     return proved, pull
 
 
-_SHARES = (1.0, 1 - 2.0**-20, 0.5)
+def _margin_at(sizes: Floats, rest: Floats, side: Floats) -> Margin:
+    """The margins of n rows."""
+    form, C, v = Form(list(sizes), np.sqrt), rest[:3], list(rest[3:])
+    hint, at, nearest = multipliers(sizes, C, rest[3:]), np.zeros(len(side)), C
+    for share in SHARES:
+        M, adjugate, minors = form.pencil(hint * share, v)
+        definite = (at == 0) & (hint * side > 0) & (np.min(minors, axis=0) > 0)
+        X = [dot(row, [dot(line, list(C)) for line in M]) / minors[2] for row in adjugate]
+        at, nearest = np.where(definite, hint * share, at), np.where(definite, np.stack(X), nearest)
+    return Margin(form, list(C), v, list(nearest), at, np.where(at == 0, side, at))
 
 
-class _Margin:
-    """box_certificate.State of n rows in plain floats: it finds places for proofs, and proves nothing itself."""
-
-    def __init__(self, sizes: Floats, rest: Floats, side: Floats) -> None:
-        self.form, self.side = Form(list(sizes), np.sqrt), side
-        self.C, self.v = rest[:3], list(rest[3:])
-        hint, self.at, self.X = multipliers(sizes, self.C, rest[3:]), np.zeros(len(side)), self.C
-        for share in _SHARES:
-            M, adjugate, minors = self.form.pencil(hint * share, self.v)
-            definite = (self.at == 0) & (hint * side > 0) & (np.min(minors, axis=0) > 0)
-            X = [dot(row, [dot(line, list(self.C)) for line in M]) / minors[2] for row in adjugate]
-            self.at, self.X = np.where(definite, hint * share, self.at), np.where(definite, np.stack(X), self.X)
-
-    def derivatives(self) -> Vectors:
-        """The margin's derivatives by the centre and the axis."""
-        n, factor = self.form.gradient(list(self.X)), 2 * np.where(self.at == 0, self.side, self.at)
-        by_axis = self.form.by_axis(self.v, n, n)
-        return [*(factor * part for part in n), *(-(self.at**2) * part for part in by_axis)]
-
-
-def _proved(boxes: Boxes, at: Floats, X: Floats, C: Floats) -> Mask:
+def _proved(boxes: Boxes, at: Floats, X: list[Floats], C: list[Floats]) -> Mask:
     """A mask of goals that the certificates of the worst corners exclude; all goals leave a side, or all reach one."""
     points = [_enclosed(part) for part in boxes.middle]
     whole = [Enclosures(low, high) for low, high in zip(boxes.low, boxes.high, strict=True)]
@@ -276,10 +266,10 @@ def _proved(boxes: Boxes, at: Floats, X: Floats, C: Floats) -> Mask:
     if boxes.leave[0]:
         return np.asarray(stays_clear(place, at))
     plain, axis = Form(list(boxes.sizes), np.sqrt), list(boxes.middle[3:])
-    q = [-boxes.side * part for part in plain.gradient(list(X))]
+    q = [-boxes.side * part for part in plain.gradient(X)]
     width = plain.width(axis, q)
     step = [part / width for part in plain.sigma_times(axis, q)]
     bend = plain.gradient(step)
-    turn = -dot(bend, list(C)) / dot(bend, step)
+    turn = -dot(bend, C) / dot(bend, step)
     shares = np.ones(len(turn)), (1 + np.minimum(np.abs(at * width), 1)) / 2, np.clip(turn, 0, 1)
     return np.asarray(stays_off(place, boxes.side, q, shares))

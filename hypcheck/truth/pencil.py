@@ -32,7 +32,7 @@ from typing import Any, TypeAlias
 
 from hypcheck.geometry.arithmetic import cross, dot, power_near, sign_with_root
 from hypcheck.geometry.pair import Lengths
-from hypcheck.truth.polynomials import derivative, difference, polynomial_product, sign_at
+from hypcheck.truth.polynomials import Polynomial, derivative, difference, polynomial_product, sign_at
 
 Number: TypeAlias = Any
 """An integer, or a polynomial in time (sweep.py): whatever has +, −, · among its kind and with integers."""
@@ -193,7 +193,7 @@ def _products(sizes: Lengths, x: Number, y: Number, z: Number) -> tuple[Number, 
     return volume * volume * unit, (along * unit - height * product) * height * product
 
 
-def slope_of_quotient(F: Quartic) -> tuple[int, ...]:
+def slope_of_quotient(F: Quartic) -> Polynomial:
     """A polynomial that has the sign of φ′ on (0, ℓ), the highest power first.
 
     φ is F over the determinant of M + λD, up to a positive factor, so that its slope has the sign of
@@ -213,7 +213,7 @@ def toward_maximum(F: Quartic) -> Iterator[Fraction]:
     while True:
         middle = power_near(low, high) if high > 4 * low else (low + high) / 2
         yield middle
-        if inside(F, middle) and sign_at(slope, middle) > 0:
+        if rises(F, slope, middle):
             low = middle
         else:
             high = middle
@@ -224,3 +224,8 @@ def inside(F: Quartic, at: Fraction) -> bool:
     n, k = at.numerator, at.denominator
     before_first = F.side > 0 or F.q * n < F.p * k
     return n > 0 and before_first and F.e2 * n * n - F.e1 * n * k < F.e0 * k * k
+
+
+def rises(F: Quartic, slope: Polynomial, at: Fraction) -> bool:
+    """Whether `at` lies in (0, ℓ) before the maximum of φ, whose slope has this polynomial's sign."""
+    return inside(F, at) and sign_at(slope, at) > 0

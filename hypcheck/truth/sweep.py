@@ -23,17 +23,17 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from hypcheck.geometry.arithmetic import QuadraticSurd, dot, exact_root, shortened, sign_of
+from hypcheck.geometry.arithmetic import QuadraticSurd, dot, exact_root, last, power_of_two, shortened, sign_of
 from hypcheck.geometry.pair import Lengths, Position, Vector, to_integers
 from hypcheck.truth import exact
 from hypcheck.truth.pencil import (
     Quartic,
     cubic,
     cubic_coefficients,
-    inside,
     local_maximum,
     quartic,
     quartic_coefficients,
+    rises,
     second_factor,
     slope_of_quotient,
 )
@@ -43,7 +43,6 @@ from hypcheck.truth.polynomials import (
     polynomial_product,
     polynomial_sum,
     primitive,
-    sign_at,
     value,
 )
 
@@ -255,23 +254,15 @@ def _at_maximum(F: Quartic) -> Iterator[Fraction]:
         return
     slope = slope_of_quotient(F)
     largest = max(map(abs, (*F.coefficients, *slope))).bit_length()
-    low, high = -largest - 1, largest + 1  # exponents first
-    while high - low > 1:
-        middle = (low + high) // 2
-        low, high = (middle, high) if _rises(F, slope, Fraction(2) ** middle) else (low, middle)
-    low_end, width, bits = Fraction(2) ** low, Fraction(2) ** low, 8
+    exponent = last(lambda exponent: rises(F, slope, power_of_two(exponent)), -largest - 1, largest + 1)
+    low_end, width, bits = power_of_two(exponent), power_of_two(exponent), 8
     while True:
         for _ in range(bits):
             width /= 2
-            if _rises(F, slope, low_end + width):
+            if rises(F, slope, low_end + width):
                 low_end += width
         yield low_end * F.side
         bits *= 2
-
-
-def _rises(F: Quartic, slope: tuple[int, ...], at: Fraction) -> bool:
-    """Whether `at` lies in (0, ℓ) before the maximum of φ."""
-    return inside(F, at) and sign_at(slope, at) > 0
 
 
 def _ring_between(at_pole: Quadratic, slope: Quadratic, curvature: Quadratic, low: Fraction, high: Fraction) -> bool:
