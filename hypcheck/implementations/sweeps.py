@@ -42,7 +42,7 @@ from hypcheck.implementations.meshes import COAL, FCL, LARGEST, MeshGrid, MeshLi
 from hypcheck.implementations.method import Answers
 from hypcheck.kernel.in_use import kernel
 from hypcheck.truth.mesh import Triangles, Vertices, fcl_module, mesh_object
-from hypcheck.truth.passage_error import scaled_passage
+from hypcheck.truth.swept import passage_of_row
 
 HitsAndTimes = tuple[NDArray[np.int8], Floats]
 
@@ -64,7 +64,7 @@ NEARNESS = 1e-6
 
 def exact(rows: Rows) -> HitsAndTimes:
     """The exact decision, and the float64 below the first contact."""
-    sweeps = [scaled_passage(row) for row in rows.tolist()]
+    sweeps = [passage_of_row(row) for row in rows.tolist()]
     return np.array([sweep.hit for sweep in sweeps], dtype=np.int8), np.array([sweep.first_lower for sweep in sweeps])
 
 

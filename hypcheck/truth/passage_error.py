@@ -22,10 +22,9 @@ from functools import lru_cache
 import numpy as np
 
 from hypcheck.geometry.arithmetic import octave, power_of_two, rounded_toward
-from hypcheck.geometry.pair import UPRIGHT, WITHOUT_ENDS
+from hypcheck.geometry.pair import UPRIGHT
 from hypcheck.geometry.rows import SWEEPS, Positions, Rows
-from hypcheck.truth.sweep import StraightSweep
-from hypcheck.truth.swept import WIDTH_BITS, Passage, Rational, meets, passage_on, sweep_of
+from hypcheck.truth.swept import WIDTH_BITS, Passage, Rational, meets, passage_of_row, sweep_of_row
 
 Row = tuple[float, ...]
 
@@ -53,26 +52,10 @@ class SizeError:
     upper: float
 
 
-def scaled_passage(row: Sequence[Rational], scale: Rational = 1) -> Passage:
-    """The passage of the row's sweep, with b and d multiplied by `scale` > 0. Raises InputError as `passage` does."""
-    return passage_on(sweep_of_row(row, scale))
-
-
-def sweep_of_row(row: Sequence[Rational], scale: Rational = 1, until: Rational = 1) -> StraightSweep:
-    """The row's sweep, or its part up to a time, with b and d multiplied by `scale`."""
-    (alpha, gamma, b, d, *ends), axis, heights = SWEEPS.split(row)
-    if scale != 1:
-        b, d = Fraction(b) * Fraction(scale), Fraction(d) * Fraction(scale)
-    sweep = sweep_of(
-        (alpha, gamma, b, d), ends[:3], ends[3:], axis or None, None, tuple(map(float, heights or WITHOUT_ENDS))
-    )
-    return sweep if until == 1 else sweep.until(Fraction(until))
-
-
 @lru_cache(_REMEMBERED)
 def passage_of(row: Row) -> Passage:
     """The passage of a sweep; cached, because the truth is needed before and after the answers."""
-    return scaled_passage(row)
+    return passage_of_row(row)
 
 
 def first_contact(row: Row) -> tuple[float, float]:
@@ -93,7 +76,7 @@ def hits_at_size(row: Sequence[Rational], scale: Rational = 1) -> bool:
 
 def size_error(row: Sequence[Rational], answer: bool) -> SizeError:
     """The size error of an answer, exact to RELATIVE_WIDTH of itself."""
-    truth = scaled_passage(row)
+    truth = passage_of_row(row)
     if truth.hit == answer or truth.grazes:
         return SizeError(0.0, 0.0)
     sign = 1 if answer else -1
@@ -161,9 +144,9 @@ def time_is_within(row: Sequence[Rational], time: Rational, change: Rational) ->
     """
     exact, part = Fraction(time), Fraction(change)
     slack = exact / 2**WIDTH_BITS
-    if not meets(sweep_of_row(row, 1 + part, min(exact + slack, Fraction(1)))):
+    if not meets(sweep_of_row(row, 1 + part).until(min(exact + slack, Fraction(1)))):
         return False
-    return not exact or part >= 1 or not meets(sweep_of_row(row, 1 - part, exact - slack))
+    return not exact or part >= 1 or not meets(sweep_of_row(row, 1 - part).until(exact - slack))
 
 
 @lru_cache(_REMEMBERED)

@@ -27,7 +27,7 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
 from hypcheck.geometry.arithmetic import precisions, root_of, rounded, rounded_toward, shortened
-from hypcheck.geometry.pair import SWEEP_COLUMNS, Lengths, Pair, Position
+from hypcheck.geometry.pair import Lengths, Pair, Position
 from hypcheck.truth import crossing, exact
 from hypcheck.truth.certificate import (
     Certificate,
@@ -46,7 +46,7 @@ from hypcheck.truth.pencil import Cubic, Quartic, cubic, inside, local_maximum, 
 from hypcheck.truth.polynomials import sign_at, value
 from hypcheck.truth.sections import Sections
 from hypcheck.truth.sweep import StraightSweep, piece
-from hypcheck.truth.swept import Passage, by_roots, by_steps, reach, sweep_of
+from hypcheck.truth.swept import Passage, by_roots, by_steps, reach, sweep_of_row
 
 
 def prove(pair: Pair, decision: Decision | None = None) -> Certificate:
@@ -221,7 +221,7 @@ def prove_passage(row: Sequence[float]) -> tuple[Passage, Bounds | None, Passage
 
     Raises ValueError if the only contact is at an irrational time.
     """
-    sweep = sweep_of(row[:4], row[4:7], row[7:10], row[len(SWEEP_COLUMNS) :] or None)
+    sweep = sweep_of_row(row)
     passage = by_steps(sweep) or by_roots(sweep)
     if passage.first is None:
         return passage, None, PassageCertificate(_pieces(sweep, Fraction(1)))

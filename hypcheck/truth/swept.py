@@ -31,6 +31,7 @@ from hypcheck.geometry.pair import (
     COLUMNS,
     NO_DIRECTION,
     SIZES,
+    SWEEP_COLUMNS,
     TILTED_SWEEP_COLUMNS,
     UPRIGHT,
     WITHOUT_ENDS,
@@ -208,11 +209,10 @@ def passage(
     return passage_on(sweep_of(sizes, start, end, axis, upward, (z_min, z_max, solid)))
 
 
-def passage_of_row(row: Sequence[float]) -> Passage:
-    """The exact decision about a row: sizes, two centres, perhaps an axis, perhaps heights. Raises InputError."""
-    axis, heights = row[10 : len(TILTED_SWEEP_COLUMNS)], row[len(TILTED_SWEEP_COLUMNS) :]
-    z_min, z_max, solid = heights or WITHOUT_ENDS
-    return passage(row[:4], row[4:7], row[7:10], axis or None, z_min=z_min, z_max=z_max, solid=solid)
+@in_default_environment
+def passage_of_row(row: Sequence[Rational], scale: Rational = 1) -> Passage:
+    """The passage of a row's sweep, as sweep_of_row takes it. Raises InputError."""
+    return passage_on(sweep_of_row(row, scale))
 
 
 def passage_on(sweep: StraightSweep) -> Passage:
@@ -307,6 +307,18 @@ def sweep_of(
     direction, tower = (checked_axis(UPRIGHT if vector is None else vector) for vector in (axis, upward))
     here, there = Lengths.at_centers(tuple(sizes), centers, direction, tower, heights)
     return StraightSweep(here, (there.x - here.x, there.y - here.y, there.z - here.z))
+
+
+def sweep_of_row(row: Sequence[Rational], scale: Rational = 1) -> StraightSweep:
+    """The sweep of a row: sizes, two centres, perhaps an axis, perhaps heights; b and d are multiplied by `scale`.
+
+    Raises InputError as `passage` does.
+    """
+    (alpha, gamma, b, d), heights = row[:4], row[len(TILTED_SWEEP_COLUMNS) :] or WITHOUT_ENDS
+    if scale != 1:
+        b, d = Fraction(b) * Fraction(scale), Fraction(d) * Fraction(scale)
+    axis = row[len(SWEEP_COLUMNS) : len(TILTED_SWEEP_COLUMNS)] or None
+    return sweep_of((alpha, gamma, b, d), row[4:7], row[7:10], axis, None, tuple(map(float, heights)))
 
 
 def checked(sizes: Sequence[Rational], center: Sequence[Rational]) -> tuple[Fraction, ...]:

@@ -29,8 +29,8 @@ from hypcheck.truth.certificate import check_certificate, check_passage, contact
 from hypcheck.truth.changes import goal_of
 from hypcheck.truth.exact import Decision
 from hypcheck.truth.nearest import nearest
-from hypcheck.truth.passage_error import scaled_passage
 from hypcheck.truth.roots import classify_by_roots
+from hypcheck.truth.swept import passage_of_row
 from hypcheck.vectors import frozen
 from hypcheck.vectors.cases import (
     StoredCertificate,
@@ -185,7 +185,7 @@ _SLACK = 2.0**-30
 
 def _ended_sweep_sentences(case: Vector) -> Iterator[str]:
     """For a sweep if the hyperboloid ends: compare with a new exact decision and with the least value."""
-    truth = scaled_passage(case.row)
+    truth = passage_of_row(case.row)
     first = (truth.first_lower, truth.first_upper) if truth.hit else None
     if first != case.first:
         yield f"first is {_bounds_text(case.first)}; the exact decision says {_bounds_text(first)}"

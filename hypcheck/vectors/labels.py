@@ -29,9 +29,9 @@ from hypcheck.truth.crossing import shortened
 from hypcheck.truth.exact import Decision, discriminant
 from hypcheck.truth.kinds import Kind
 from hypcheck.truth.nearest import nearest
-from hypcheck.truth.passage_error import scaled_passage, sweep_of_row
 from hypcheck.truth.pencil import cubic, quartic, side_of_center
 from hypcheck.truth.prove import prove, prove_passage
+from hypcheck.truth.swept import passage_of_row, sweep_of_row
 from hypcheck.vectors.cases import (
     Offset,
     StoredCertificate,
@@ -89,7 +89,7 @@ def _with_proof(name: str, row: Row) -> Vector:
 
 
 def _without_proof(name: str, row: Row) -> Vector:
-    truth = scaled_passage(row)
+    truth = passage_of_row(row)
     first = (truth.first_lower, truth.first_upper) if truth.hit else None
     return Vector(name, row, int(truth.hit), first=first)
 

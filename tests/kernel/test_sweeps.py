@@ -13,7 +13,7 @@ from hypcheck.geometry.rows import CANNOT_SAY
 from hypcheck.implementations import sweeps
 from hypcheck.vectors.frozen import SWEEP_NAMES, load
 from tests.support.inside import answer_sweeps as compiled_answer_sweeps
-from tests.support.inside import hits_at_size, numpy_kernel_answer_sweeps, scaled_passage
+from tests.support.inside import hits_at_size, numpy_kernel_answer_sweeps, passage_of_row
 from tests.tools.attack.rounding import DIRECTED, rounded
 
 compiled = pytest.importorskip("hypcheck.kernel._compiled")
@@ -48,7 +48,7 @@ def test_the_compiled_kernel_decides_every_frozen_sweep_but_those_that_touch():
 def test_the_compiled_kernel_gives_exact_hits_and_times_not_after_the_first_contact(count, tilted):
     rows = some_sweeps(1, count, tilted=tilted)
     hits, times = compiled_answer_sweeps(rows)
-    truth = [scaled_passage(row) for row in rows.tolist()]
+    truth = [passage_of_row(row) for row in rows.tolist()]
     assert hits.tolist() == [each.hit for each in truth]
     assert 0.1 * count < hits.sum() < 0.9 * count
     for time, each in zip(times.tolist(), truth, strict=True):

@@ -131,7 +131,6 @@ from hypcheck.truth.passage_error import (
     hits_at_size,
     is_tolerated,
     passage_of,
-    scaled_passage,
     size_error,
     time_is_within,
     tolerance,
@@ -143,7 +142,7 @@ from hypcheck.truth.root_patterns import COMPLEX, KIND_OF, PATTERNS, RootPlace, 
 from hypcheck.truth.roots import Invariants, classify_by_roots, classify_invariants, coefficients, real_roots
 from hypcheck.truth.sections import position as heights_position
 from hypcheck.truth.sweep import piece, sign_at_root
-from hypcheck.truth.swept import WIDTH_BITS, by_roots, by_steps, passage, reach, steps, sweep_of
+from hypcheck.truth.swept import WIDTH_BITS, by_roots, by_steps, passage, passage_of_row, reach, steps, sweep_of
 
 __all__ = [
     "AXIAL",
@@ -281,6 +280,7 @@ __all__ = [
     "passage",
     "passage_error",
     "passage_of",
+    "passage_of_row",
     "piece",
     "pivots",
     "plan_as_json",
@@ -301,7 +301,6 @@ __all__ = [
     "real_roots",
     "scalar_position",
     "scaled",
-    "scaled_passage",
     "scene_index",
     "scene_lines",
     "search",

@@ -17,7 +17,7 @@ from hypcheck.runs.minimise import same_query, small_sweeps
 from hypcheck.vectors.cases import read_cases
 from hypcheck.vectors.draw import Draw
 from hypcheck.vectors.families import SWEEP_FAMILIES
-from tests.support.inside import hits_at_size, scaled_passage
+from tests.support.inside import hits_at_size, passage_of_row
 from tests.tools.way_agreement import Said, faults
 
 THROUGH = (1.0, 2.0, 1.0, 1.0, 6.0, 0.5, 0.25, -10.0, 0.5, 0.0)
@@ -83,7 +83,7 @@ def test_the_simplest_sweep_that_fails_alike_is_short_and_its_answer_is_proved(c
     (shown,) = re.findall(r"^   row +(\S+)  \(alpha, .*, x1, y1, z1\)$", said, flags=re.MULTILINE)
     row = tuple(map(float, shown.split(",")))
     assert len(shown) <= 26
-    found = scaled_passage(row)
+    found = passage_of_row(row)
     assert found.hit
     assert 0 not in (found.start, found.end)
     assert "the right answer: contact" in said
