@@ -27,9 +27,8 @@ from hypcheck.kernel.specialise.settings import REACH, Setting, settings_of
 from hypcheck.scene.model import FREE, SceneModel, is_tilted
 from hypcheck.scene.reading import read_scene
 from hypcheck.vectors import frozen
-from hypcheck.vectors.draw import Draw, in_turn
+from hypcheck.vectors.draw import BLOCK, Draw, in_turn
 from hypcheck.vectors.families import FAMILIES, SWEEP_FAMILIES, family_of
-from hypcheck.vectors.family import BLOCK
 from hypcheck.vectors.random_pairs import BODY, ROTOR, TOWER, Sizes, beside_surface, centred
 from hypcheck.vectors.tilted import Vectors, anywhere, beside
 

@@ -21,8 +21,8 @@ from hypcheck.runs.judge import truth_of
 from hypcheck.truth.backward_error import flip_exponents
 from hypcheck.vectors import frozen as vectors
 from hypcheck.vectors.cases import Vector
+from hypcheck.vectors.draw import BLOCK, Family
 from hypcheck.vectors.families import FAMILIES, case_id, family_of
-from hypcheck.vectors.family import BLOCK, Family
 
 _SMALLEST = 1e-300
 """Below this distance the float in a frozen vector is too inaccurate."""

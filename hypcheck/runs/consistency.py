@@ -32,8 +32,8 @@ from hypcheck.runs.results import CasesResult, InvalidRows, JudgingRules, Pendin
 from hypcheck.runs.schedule import RunState, Step
 from hypcheck.runs.tally import UNANSWERED_KEPT, WORST_KEPT
 from hypcheck.vectors.border_lines import SEARCHED
+from hypcheck.vectors.draw import MARK
 from hypcheck.vectors.families import ALL, family_of
-from hypcheck.vectors.family import MARK
 from hypcheck.vectors.invalid_rows import INVALID_CONTENTS
 
 _OFF = (Status.WRONG, Status.TOLERATED, Status.UNDECIDED, Status.EXCUSED)

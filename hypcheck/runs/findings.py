@@ -37,8 +37,8 @@ from hypcheck.truth import exact, float_filter
 from hypcheck.truth.exact import Decision
 from hypcheck.truth.kinds import Kind
 from hypcheck.truth.pencil import cubic
+from hypcheck.vectors.draw import Family
 from hypcheck.vectors.families import case_id
-from hypcheck.vectors.family import Family
 
 
 @dataclass(frozen=True, slots=True)

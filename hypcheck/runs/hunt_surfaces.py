@@ -44,9 +44,8 @@ from hypcheck.truth import exact
 from hypcheck.truth.kinds import Kind
 from hypcheck.truth.passage_error import passage_of, sweep_in_radii
 from hypcheck.truth.pencil import Cubic, cubic
-from hypcheck.vectors.draw import Draw, ldexp, stepped
+from hypcheck.vectors.draw import Draw, Family, ldexp, stepped
 from hypcheck.vectors.families import ENDED_FAMILIES, ENDED_SWEEP_FAMILIES, FAMILIES, SWEEP_FAMILIES, TILTED_FAMILIES
-from hypcheck.vectors.family import Family
 from hypcheck.vectors.fixed_sizes import families_for
 from hypcheck.vectors.random_pairs import Sizes, centred, heights, offsets
 

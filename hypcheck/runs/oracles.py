@@ -30,8 +30,8 @@ from hypcheck.truth.nearest import STAGES
 from hypcheck.truth.prove import prove
 from hypcheck.vectors import frozen
 from hypcheck.vectors.cases import Vector
+from hypcheck.vectors.draw import Family
 from hypcheck.vectors.families import ENDED_FAMILIES, TILTED_FAMILIES
-from hypcheck.vectors.family import Family
 
 
 @dataclass(frozen=True, slots=True)

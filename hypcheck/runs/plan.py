@@ -34,8 +34,8 @@ from hypcheck.runs.results import InvalidRows, JudgingRules
 from hypcheck.runs.schedule import ImplementationOpener, Step, steps_of_chunks
 from hypcheck.vectors import fixed_sizes
 from hypcheck.vectors.border_lines import SEARCHED
+from hypcheck.vectors.draw import BLOCK, Family
 from hypcheck.vectors.families import ALL, select
-from hypcheck.vectors.family import BLOCK, Family
 from hypcheck.vectors.invalid_rows import INVALID_CONTENTS
 
 FAIL_ON = ("wrong", "false-clear")

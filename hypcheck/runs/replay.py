@@ -46,8 +46,8 @@ from hypcheck.truth.exact import Decision
 from hypcheck.truth.kinds import Kind
 from hypcheck.truth.passage_error import HIT, passage_of, radii_off
 from hypcheck.truth.swept import Passage
+from hypcheck.vectors.draw import MARK
 from hypcheck.vectors.families import is_extreme, parse_case_id
-from hypcheck.vectors.family import MARK
 from hypcheck.vectors.invalid_rows import columns_at_fault
 from hypcheck.vectors.showing import case_named
 

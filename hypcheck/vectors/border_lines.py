@@ -24,8 +24,7 @@ from numpy.typing import NDArray
 from hypcheck.geometry.pair import Position
 from hypcheck.geometry.rows import Floats, Rows
 from hypcheck.kernel.classify import classify
-from hypcheck.vectors.draw import Draw, Integers, circle_at, exponent, ldexp
-from hypcheck.vectors.family import BLOCK, Family
+from hypcheck.vectors.draw import BLOCK, Draw, Family, Integers, circle_at, exponent, ldexp
 from hypcheck.vectors.random_pairs import Sizes
 from hypcheck.vectors.tilted import Vectors, beside_at
 

@@ -20,9 +20,8 @@ from hypcheck.derivation.float_arithmetic import unit_roundoff
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.geometry.rows import Rows, within
 from hypcheck.truth import backward_error, exact, float_filter
-from hypcheck.vectors.draw import Draw, ldexp, stepped, to_bits
+from hypcheck.vectors.draw import Draw, Row, ldexp, rows_of, stepped, to_bits
 from hypcheck.vectors.families import FAMILIES, WORST_CANCELLATION
-from hypcheck.vectors.family import Row, rows_of
 from hypcheck.vectors.labels import DEFEATED, TOLERANCE_U, exactly_right, in_range, leaves_range, wrong_answers
 
 VERSION = 1

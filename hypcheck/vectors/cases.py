@@ -20,7 +20,7 @@ from hypcheck.tables.strict_json import JsonDocument, read_document
 from hypcheck.truth.backward_error import Bracket
 from hypcheck.truth.certificate import Certificate, PassageCertificate, Piece, place
 from hypcheck.truth.kinds import Kind
-from hypcheck.vectors.family import Row
+from hypcheck.vectors.draw import Row
 from hypcheck.vectors.format import (
     CaseFile,
     Content,

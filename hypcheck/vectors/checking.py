@@ -37,8 +37,8 @@ from hypcheck.vectors.cases import (
     Vector,
     cases_of,
 )
-from hypcheck.vectors.family import Metadata, Row
-from hypcheck.vectors.format import CaseFile, Content, FlagFacts
+from hypcheck.vectors.draw import Row
+from hypcheck.vectors.format import CaseFile, Content, FlagFacts, Metadata
 from hypcheck.vectors.invalid_rows import InvalidRow, columns_at_fault
 from hypcheck.vectors.labels import flags_of, flips, shows_crossing, sweep_flags
 

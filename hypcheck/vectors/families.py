@@ -22,8 +22,7 @@ from hypcheck.vectors import (
     tilted,
 )
 from hypcheck.vectors.border_lines import SEARCHED
-from hypcheck.vectors.draw import in_turn
-from hypcheck.vectors.family import MARK, Family
+from hypcheck.vectors.draw import MARK, Family, in_turn
 from hypcheck.vectors.fixed_sizes import family_at
 
 

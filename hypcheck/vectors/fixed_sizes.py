@@ -21,8 +21,7 @@ from hypcheck.geometry.pair import CENTER, SIZES, Pair, Position, trouble_with
 from hypcheck.geometry.rows import FixedSizes, Floats, Range, Rows, with_axis
 from hypcheck.truth import exact
 from hypcheck.vectors import tilted
-from hypcheck.vectors.draw import Draw, ldexp, stepped, turns
-from hypcheck.vectors.family import MARK, Family
+from hypcheck.vectors.draw import MARK, Draw, Family, ldexp, stepped, turns
 from hypcheck.vectors.random_pairs import Sizes, beside_surface, nearly_touching, stack
 
 OPEN = 2.0

@@ -30,7 +30,7 @@ from hypcheck.geometry.rows import Positions, Rows, columns_with, layout_with
 from hypcheck.strict import Check, StrictTable
 from hypcheck.tables.numbers import Literal, decimal_of, hex_of, is_shortest, rational_of, shown_json
 from hypcheck.tables.strict_json import JsonDocument, JsonPlace
-from hypcheck.vectors.family import Metadata, Row
+from hypcheck.vectors.draw import MARK, Family, Row
 
 SCHEMA = "1.0.0"
 """The version of the files' schemas, such as cases/schema/vectors-1.0.0.json."""
@@ -46,6 +46,42 @@ ENDED_SCHEMA = "1.3.0"
 
 ENDED_SWEEP_SCHEMA = "1.4.0"
 """The version of the schemas of files about sweeps beside these; a reader refuses any other than these five."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Metadata:
+    """The metadata of a file: the family's name, the version of its generator, and the command that made the file.
+
+    `title`, `source` (the origin of the idea, or how the rows are made) and `purpose` (what a wrong program does here)
+    are for people; so are `game` and `drone`, the consequence of a wrong answer for a game or a drone. `regimes`: the
+    hyperboloids that occur, by a = α/b and c = γ/d. `extreme`: as in Family.
+    """
+
+    name: str
+    version: int
+    title: str
+    source: str
+    purpose: str
+    game: str
+    drone: str
+    regimes: str
+    extreme: bool
+    made_by: str
+
+
+def descriptions() -> dict[str, dict[str, str]]:
+    """The texts of descriptions.toml by name."""
+    return toml.shipped("hypcheck.vectors", "descriptions.toml")
+
+
+def described(name: str, made_by: str, family: Family | None = None) -> Metadata:
+    """The metadata of a file of that name, of a family if there is one, that the command `made_by` makes.
+
+    The texts are those of descriptions.toml; for fixed sizes the trap's texts.
+    """
+    texts = {"regimes": "all four", **descriptions()[name.partition(MARK)[0]]}
+    version, extreme = (1, False) if family is None else (family.version, family.extreme)
+    return Metadata(name=name, version=version, extreme=extreme, made_by=made_by, **texts)
 
 
 @dataclass(frozen=True, slots=True)

@@ -22,9 +22,9 @@ from hypcheck.tables.streams import replace_output
 from hypcheck.vectors import cancellation
 from hypcheck.vectors.cases import Vector, cases_text, read_cases
 from hypcheck.vectors.checking import faults_of
+from hypcheck.vectors.draw import Family, Row
 from hypcheck.vectors.families import ALL, WORST_CANCELLATION, case_id, parse_case_id
-from hypcheck.vectors.family import Family, Metadata, Row, described
-from hypcheck.vectors.format import CaseFile, Content, content_with
+from hypcheck.vectors.format import CaseFile, Content, Metadata, content_with, described
 from hypcheck.vectors.frozen import ALL_NAMES, head_of
 from hypcheck.vectors.invalid_rows import INVALID_CONTENTS, InvalidRow, InvalidRowFile, invalid_rows
 from hypcheck.vectors.labels import labelled
@@ -145,7 +145,7 @@ def generated_case(name: str) -> tuple[Vector, Content]:
 def generated_text(family: Family, seed: int, count: int) -> str:
     """A vector file of the first rows of a family's seed, with generated ids."""
     named = [(case_id(family, seed, index), tuple(row)) for index, row in enumerate(family.rows(seed, count).tolist())]
-    head = family.described(f"hypcheck cases generate {family.name} --seed {seed} --count {count}")
+    head = described(family.name, f"hypcheck cases generate {family.name} --seed {seed} --count {count}", family)
     content = content_of_family(family)
     return cases_text(assembled(head, content, labelled(content, named)))
 

@@ -15,6 +15,7 @@ from hypcheck.errors import InputError
 from hypcheck.messages import suggestion
 from hypcheck.tables.streams import PACKED, open_input
 from hypcheck.vectors.cases import read_cases
+from hypcheck.vectors.draw import Family
 from hypcheck.vectors.families import (
     ALL,
     ENDED_FAMILIES,
@@ -24,8 +25,7 @@ from hypcheck.vectors.families import (
     TILTED_FAMILIES,
     WORST_CANCELLATION,
 )
-from hypcheck.vectors.family import Family, Metadata, described
-from hypcheck.vectors.format import CaseFile
+from hypcheck.vectors.format import CaseFile, Metadata, described
 
 
 def _files_of(families: Mapping[str, Family]) -> tuple[str, ...]:
@@ -60,8 +60,7 @@ ALL_NAMES = (
 
 def head_of(name: str) -> Metadata:
     """The metadata of the frozen file of that name."""
-    family, made_by = ALL.get(name), f"hypcheck cases freeze {name}"
-    return family.described(made_by) if family else described(name, made_by)
+    return described(name, f"hypcheck cases freeze {name}", ALL.get(name))
 
 
 def folder() -> Path:

@@ -16,13 +16,14 @@ from hypcheck.geometry.rows import PAIRS, SWEEPS, Layout, Rows, layout_with
 from hypcheck.strict import StrictTable
 from hypcheck.tables.numbers import shown_json
 from hypcheck.tables.strict_json import JsonDocument
-from hypcheck.vectors.family import Row, described
+from hypcheck.vectors.draw import Row
 from hypcheck.vectors.format import (
     CONTENTS,
     CaseFile,
     Content,
     FlagFacts,
     a_number,
+    described,
     file_of,
     json_text,
     numbers_text,

@@ -41,7 +41,7 @@ from hypcheck.vectors.cases import (
     point_at,
     row_at,
 )
-from hypcheck.vectors.family import Row, rows_of
+from hypcheck.vectors.draw import Row, rows_of
 from hypcheck.vectors.format import Content, flag_facts
 
 _MOST_BITS = 1 << 14

@@ -21,9 +21,9 @@ from hypcheck.tables.strict_json import read_document
 from hypcheck.truth.backward_error import Bracket
 from hypcheck.vectors import frozen
 from hypcheck.vectors.cases import Vector, case_text
+from hypcheck.vectors.draw import Family
 from hypcheck.vectors.families import ALL, EXTREME, case_id, family_of, select
-from hypcheck.vectors.family import Family, Metadata
-from hypcheck.vectors.format import Content, read_metadata
+from hypcheck.vectors.format import Content, Metadata, read_metadata
 from hypcheck.vectors.freezing import generated_case, generated_text
 from hypcheck.vectors.frozen import ALL_NAMES
 from hypcheck.vectors.invalid_rows import EXPECTED, InvalidRow

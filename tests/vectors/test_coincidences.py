@@ -11,9 +11,8 @@ import pytest
 from hypcheck.geometry.pair import Lengths, Pair, Position
 from hypcheck.vectors import coincidences, double_roots
 from hypcheck.vectors.double_roots import gather
-from hypcheck.vectors.draw import Draw
+from hypcheck.vectors.draw import BLOCK, Draw
 from hypcheck.vectors.families import FAMILIES, SWEEP_FAMILIES
-from hypcheck.vectors.family import BLOCK
 from hypcheck.vectors.sweeps import more_than_a_radius_away, ring_attempt
 from tests.support import inside
 from tests.support.inside import Kind, cubic, hits_at_size

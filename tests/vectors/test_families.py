@@ -16,6 +16,7 @@ from hypcheck.cli.main import main
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import ALL_GROUPS, AXIS, COLUMNS, HEIGHTS, SWEEP_COLUMNS
 from hypcheck.geometry.rows import PAIRS, SWEEPS, Rows, invalid
+from hypcheck.vectors.draw import BLOCK, TOGETHER, Family
 from hypcheck.vectors.families import (
     ALL,
     ENDED_FAMILIES,
@@ -29,7 +30,7 @@ from hypcheck.vectors.families import (
     parse_case_id,
     select,
 )
-from hypcheck.vectors.family import BLOCK, TOGETHER, Family
+from hypcheck.vectors.format import described
 from tests.vectors.case_rows import first_block
 
 try:
@@ -209,7 +210,7 @@ def test_every_family_is_in_the_table_of_its_kind() -> None:
 def test_every_family_has_a_complete_description(family: Family) -> None:
     assert re.fullmatch(r"[a-z0-9]+(-[a-z0-9]+)*", family.name)
     assert family.version >= 1
-    for name, value in vars(family.described("a command")).items():
+    for name, value in vars(described(family.name, "a command", family)).items():
         if isinstance(value, str):
             assert value.strip().rstrip(".") == value != "", name
     assert ALL[family.name] is family_of(family.name) is family

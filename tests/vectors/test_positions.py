@@ -7,8 +7,8 @@ from collections import Counter
 import pytest
 
 from hypcheck.geometry.pair import Position
+from hypcheck.vectors.draw import BLOCK
 from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES
-from hypcheck.vectors.family import BLOCK
 from tests.support import inside
 from tests.vectors.case_rows import first_block
 

@@ -24,7 +24,7 @@ from hypcheck.vectors.cases import cases_text
 from hypcheck.vectors.coincidences import RUNGS
 from hypcheck.vectors.double_roots import ULPS
 from hypcheck.vectors.families import ALL, FAMILIES, WORST_CANCELLATION
-from hypcheck.vectors.format import SCHEMA
+from hypcheck.vectors.format import SCHEMA, described
 from hypcheck.vectors.labels import DEFEATED
 from tests.support.records import violations
 
@@ -97,7 +97,7 @@ def test_rows_of_a_frozen_file_are_the_first_rows_of_its_family_without_duplicat
     assert rows == earlier + [row for row in wanted if row not in set(earlier)]
     assert len(set(rows)) == len(rows)
     assert [case.id for case in file.cases] == [f"{name}-{number:04d}" for number in range(len(rows))]
-    assert file.head == FAMILIES[name].described(f"hypcheck cases freeze {name}")
+    assert file.head == described(name, f"hypcheck cases freeze {name}", FAMILIES[name])
 
 
 @pytest.mark.parametrize("name", FULLY_COMPARED)

@@ -7,10 +7,11 @@ from dataclasses import replace
 import pytest
 
 from hypcheck.cli.main import main
-from hypcheck.vectors import family, fixed_sizes, frozen
+from hypcheck.vectors import fixed_sizes, frozen
 from hypcheck.vectors.cases import cases_text
 from hypcheck.vectors.checking import wrong_description, wrong_meanings
-from hypcheck.vectors.families import ALL
+from hypcheck.vectors.families import ALL, FAMILIES
+from hypcheck.vectors.format import described, descriptions
 from hypcheck.vectors.invalid_rows import INVALID_CONTENTS
 
 FILE = frozen.load("tangent")
@@ -80,9 +81,9 @@ def test_messages_quote_the_beginning_of_a_long_value(tmp_path, capsys):
 
 def test_every_family_and_file_has_a_description_and_every_description_is_used():
     names = {*ALL, *frozen.ALL_NAMES, *fixed_sizes.TRAPS, *fixed_sizes.TILTED_TRAPS, "found"}
-    assert sorted(family.descriptions()) == sorted(names)
-    for name in family.descriptions():
-        assert all(vars(family.described(name, "a command", extreme=True)).values())
+    assert sorted(descriptions()) == sorted(names)
+    for name in descriptions():
+        assert all(vars(described(name, "a command", FAMILIES["extreme-hair"])).values())
 
 
 def test_descriptions_in_the_shipped_files_are_right():

@@ -17,7 +17,7 @@ from hypcheck.vectors import freezing, frozen
 from hypcheck.vectors.cases import case_fields, cases_text, read_cases
 from hypcheck.vectors.checking import faults_of
 from hypcheck.vectors.families import FAMILIES, TILTED_FAMILIES
-from hypcheck.vectors.format import TILTED_SCHEMA, content_with, flag_facts
+from hypcheck.vectors.format import TILTED_SCHEMA, content_with, described, flag_facts
 from hypcheck.vectors.labels import shows_crossing
 from tests.support.inside import Bracket
 from tests.support.records import violations
@@ -47,7 +47,7 @@ def test_rows_of_a_tilted_file_are_the_first_rows_of_its_family_without_duplicat
     wanted = list(dict.fromkeys(bits(freezing.planned(name))))
     assert bits(file.rows) == wanted
     assert [case.id for case in file.cases] == [f"{name}-{number:04d}" for number in range(len(wanted))]
-    assert file.head == TILTED_FAMILIES[name].described(f"hypcheck cases freeze {name}")
+    assert file.head == described(name, f"hypcheck cases freeze {name}", TILTED_FAMILIES[name])
     assert cases_text(file) == text_of(name)
     assert frozen.load(name).rows.shape == (len(wanted), 10)
 

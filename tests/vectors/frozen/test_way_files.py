@@ -17,7 +17,7 @@ from hypcheck.vectors import freezing, frozen
 from hypcheck.vectors.cases import cases_text, read_cases
 from hypcheck.vectors.checking import faults_of
 from hypcheck.vectors.families import SWEEP_FAMILIES
-from hypcheck.vectors.format import SWEEP_SCHEMA, flag_facts
+from hypcheck.vectors.format import SWEEP_SCHEMA, described, flag_facts
 from tests.support.records import violations
 from tests.vectors.frozen.test_files import bits, schema, text_of
 
@@ -52,7 +52,7 @@ def test_rows_of_a_file_of_sweeps_are_the_first_rows_of_its_family_without_dupli
         assert found[place] not in wanted
         found[place] = found[len(wanted) + outdated.index(place)]
     assert found == wanted + [wanted[place] for place in outdated]
-    assert file.head == SWEEP_FAMILIES[name].described(f"hypcheck cases freeze {name}")
+    assert file.head == described(name, f"hypcheck cases freeze {name}", SWEEP_FAMILIES[name])
     assert cases_text(file) == text_of(name)
     assert file.positions.tolist() == [int(case.hit) for case in file.cases]
     assert not invalid(file.rows, SWEEPS).any()
