@@ -54,9 +54,18 @@ def methods() -> dict[str, Method]:
     """
     formulas = [formula for formula in FORMULAS.values() if formula.classifies_pairs or formula.name == "dual"]
     ours = (_formula_method(formula, precision) for precision in PRECISIONS for formula in formulas)
-    only_for_bench = (*_measured_methods(), *_tilted_methods(), *_passage_methods())
-    measured = (replace(method, measured=True) for method in only_for_bench)
-    return {method.name: method for method in (*_fast_methods(), *ours, *_naive_methods(), *measured)}
+    only_for_bench = partial(map, partial(replace, measured=True))
+    return {
+        method.name: method
+        for method in (
+            *_fast_methods(),
+            *ours,
+            *only_for_bench(_measured_methods()),
+            *_naive_methods(),
+            *only_for_bench(_tilted_methods()),
+            *only_for_bench(_passage_methods()),
+        )
+    }
 
 
 def _fast_methods() -> Iterator[Method]:
