@@ -234,7 +234,7 @@ def _in_parts(trees: Trees, at: Places, ask: Callable[[Places], Mask]) -> Mask:
 
 def _inside(region: Region, at: Places) -> Mask:
     inside = np.ones(len(at), dtype=np.bool_)
-    for column, span in zip(at.T, (region.x, region.y, region.z), strict=True):
+    for column, span in zip(at.T, region.spans, strict=True):
         if span is not None:
             inside &= (column >= span.low) & (column <= span.high)
     return inside

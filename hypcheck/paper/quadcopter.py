@@ -217,7 +217,7 @@ def _places(scene: SceneModel) -> Iterator[tuple[str, float]]:
     for body in scene.hyperboloids:
         yield from ((f"the centre of {body.name!r}", value) for value in body.center)
         yield from _ends(f"the height of {body.name!r}", body.height)
-    for span in (scene.region.x, scene.region.y, scene.region.z):
+    for span in scene.region.spans:
         yield from _ends("the region", span)
     if scene.flight is not None:
         start = scene.flight.start

@@ -94,11 +94,16 @@ class Mover:
 
 @dataclass(frozen=True, slots=True)
 class Region:
-    """The region of the mover's centre, in the scene's coordinates; None: anywhere."""
+    """The region of a centre, that of the mover in the scene's coordinates; None: no limit along that axis."""
 
     x: Span | None = None
     y: Span | None = None
     z: Span | None = None
+
+    @property
+    def spans(self) -> tuple[Span | None, Span | None, Span | None]:
+        """The three spans in order."""
+        return self.x, self.y, self.z
 
 
 TURNS = ("executed", "obeyed", "free")

@@ -12,10 +12,9 @@ import pytest
 from hypcheck.derivation.evaluation import EXACT, evaluate
 from hypcheck.derivation.float_arithmetic import FLOAT_FORMATS
 from hypcheck.geometry.pair import Position
-from hypcheck.scene.model import Span
+from hypcheck.scene.model import Region, Span
 from tests.support.inside import (
     FORMATS,
-    Box,
     Setting,
     centres,
     exact_constants,
@@ -116,7 +115,7 @@ def test_each_line_of_a_scene_is_tangent_to_the_border_between_two_positions(siz
 @pytest.mark.parametrize("sizes", SIZES[:3])
 def test_centres_for_stage_shares_fill_the_box_evenly_and_an_open_box_around_the_surface(sizes):
     alpha, gamma, b, d = sizes
-    x, y, z = centres(Setting(sizes, Box(None, Span(-3.0, 5.0), None), None, ()))
+    x, y, z = centres(Setting(sizes, Region(None, Span(-3.0, 5.0), None), None, ()))
     for values, low, high in (
         (x, -2 * (alpha + b), 2 * (alpha + b)),
         (y, -3.0, 5.0),
@@ -151,7 +150,7 @@ def test_position_of_box_measures_a_box_that_contains_the_axis_from_the_axis():
     wide = Span(-1.0, 1.0)
 
     def found(x, y, z):
-        return position_of_box(Setting(sizes, Box(x, y, z), None, ()))
+        return position_of_box(Setting(sizes, Region(x, y, z), None, ()))
 
     assert found(Span(-1.2, 1.2), Span(-1.2, 1.2), wide) is Position.INTERIOR
     assert found(Span(-1.8, 1.2), Span(-1.2, 1.2), wide) is None

@@ -14,12 +14,11 @@ from hypcheck.derivation.float_arithmetic import FLOAT_FORMATS, float_arithmetic
 from hypcheck.geometry.pair import Pair, Position
 from hypcheck.geometry.rows import FixedSizes
 from hypcheck.implementations.domain import representable
-from hypcheck.scene.model import Span
+from hypcheck.scene.model import Region, Span
 from hypcheck.vectors.fixed_sizes import families_for
 from tests.support import inside
 from tests.support.inside import (
     FORMATS,
-    Box,
     ScaledSetting,
     Setting,
     backward_bound,
@@ -141,7 +140,7 @@ def test_position_of_box_gives_a_position_only_if_the_whole_region_has_it():
     sizes = (2.0, 17.8, 0.25, 0.15)
 
     def found(x, z):
-        return position_of_box(Setting(sizes, Box(x, x, z), None, ()))
+        return position_of_box(Setting(sizes, Region(x, x, z), None, ()))
 
     low = Span(-1.0, 1.0)
     assert found(Span(5.0, 9.0), low) is Position.EXTERIOR
@@ -175,7 +174,7 @@ def test_the_bound_of_the_search_is_at_most_the_promised_8_u():
 
 def test_position_of_an_open_box_is_that_beside_the_axis():
     for span in (None, Span(-3.0, 3.0)):
-        assert position_of_box(Setting((0.1, 1.0, 0.1, 0.1), Box(span, span, Span(-0.1, 0.1)), None, ())) is None
+        assert position_of_box(Setting((0.1, 1.0, 0.1, 0.1), Region(span, span, Span(-0.1, 0.1)), None, ())) is None
 
 
 @pytest.mark.parametrize("precision", FORMATS)

@@ -71,7 +71,6 @@ from hypcheck.kernel.specialise.last_stages import (
 from hypcheck.kernel.specialise.plan import ONE_SIDED, ScenePlan, Stages, decided_by, far_corner, plan_of
 from hypcheck.kernel.specialise.settings import (
     FORMATS,
-    Box,
     ScaledSetting,
     Setting,
     centres,
@@ -172,7 +171,6 @@ __all__ = [
     "TARGET",
     "TILTED",
     "WIDTH_BITS",
-    "Box",
     "Bracket",
     "Buffers",
     "Certificate",

@@ -41,7 +41,6 @@ from hypcheck.kernel.emission.plan_text import comment_text, header, whole_heade
 from hypcheck.kernel.scene_index import bodies_of, reaches
 from hypcheck.kernel.specialise.last_stages import GEOMETRIC_STEPS, DoubleDouble, DualSearch, TiltedSearch
 from hypcheck.kernel.specialise.plan import ScenePlan, Stages, plan_of
-from hypcheck.kernel.specialise.settings import Setting
 from hypcheck.kernel.specialise.tilted_search import FREE_SEARCH, HAS_DIRECTION, SEARCH, SETTING, search_of
 from hypcheck.scene.model import FREE, Hyperboloid, SceneModel, Span
 from hypcheck.version import VERSION
@@ -88,6 +87,10 @@ def _common_parts(plan: ScenePlan, dialect: Dialect, prefix: str) -> dict[str, s
 
 def description(plan: ScenePlan, language: str) -> dict[str, Any]:
     """The kernel's description of itself, in the form of docs/protocol.md."""
+    settings = [
+        {"sizes": list(setting.sizes), **setting.spans, **setting.named_axis}
+        for setting in (stages.setting for stages in plan.settings)
+    ]
     return {
         "protocol": 1,
         "name": f"{comment_text(plan.scene.name)} ({language}, {plan.format.name})",
@@ -96,14 +99,8 @@ def description(plan: ScenePlan, language: str) -> dict[str, Any]:
         "precision": plan.format.name,
         "question": plan.question,
         **({} if plan.axis is None else {"tilt": True}),
-        "domain": {"settings": [_domain(stages.setting) for stages in plan.settings]},
+        "domain": {"settings": settings},
     }
-
-
-def _domain(setting: Setting) -> dict[str, Any]:
-    spans = {name: [span.low, span.high] for name, span in zip("xyz", setting.box.spans, strict=True) if span}
-    axis = {} if setting.axis is None else {"axis": setting.axis if setting.axis == FREE else list(setting.axis)}
-    return {"sizes": list(setting.sizes), **spans, **axis}
 
 
 def _numbered(plan: ScenePlan) -> list[tuple[int, Stages]]:
@@ -339,7 +336,7 @@ def _searches(plan: ScenePlan, dialect: Dialect) -> str:
 
 def _region(scene: SceneModel, dialect: Dialect) -> str:
     """The condition under which a centre is in the region: finite at least."""
-    spans = zip("xyz", (scene.region.x, scene.region.y, scene.region.z), strict=True)
+    spans = zip("xyz", scene.region.spans, strict=True)
     most = float_info.max
     ends = [(name, *((-most, most) if span is None else (span.low, span.high))) for name, span in spans]
     conditions = [condition for name, low, high in ends for condition in (f"{name} >= {low!r}", f"{name} <= {high!r}")]

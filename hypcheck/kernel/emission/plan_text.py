@@ -378,11 +378,10 @@ def _of(steps: tuple[Step, ...]) -> int:
 
 def _setting_as_json(stages: Stages, question: str) -> dict[str, Any]:
     setting, last = stages.setting, stages.last
-    spans = {name: [span.low, span.high] for name, span in zip("xyz", setting.box.spans, strict=True) if span}
     return {
         "sizes": list(setting.sizes),
-        **({} if setting.axis is None else {"axis": setting.axis if setting.axis == FREE else list(setting.axis)}),
-        "spans": spans,
+        **setting.named_axis,
+        "spans": setting.spans,
         "uses": list(setting.uses),
         "always": int(last) if isinstance(last, Position) else None,
         "thresholds": asdict(last) if isinstance(last, Thresholds) else None,

@@ -43,7 +43,7 @@ from __future__ import annotations
 
 from functools import cache
 
-from hypcheck.derivation.program import Program, Step, needed, program_of
+from hypcheck.derivation.program import program_of
 from hypcheck.derivation.rounding import ErrorCounts, relative_error_counts
 from hypcheck.geometry.pair import AXIS, SIZES
 from hypcheck.kernel.programs import tilted
@@ -57,14 +57,8 @@ LENGTHS = ("axis_size", "wall_axis_size")
 """A spheroid's sweep beside a hyperboloid anywhere: sizes, both ends, its axis, the other's centre and axis.
 LENGTHS are any numbers by which the axes are divided, so that none is too long or too short."""
 
-_SIZES = """
-    r = 1 / b
-    alpha_r = alpha * r
-    p = alpha_r * alpha_r
-    gamma_r = gamma * r
-    s = gamma_r * gamma_r
-    d_r = d * r
-    t = d_r * d_r
+_SIZES = f"""
+    {tilted.SQUARES}
     t_1 = t - 1
     s_p = s + p
     t_1_s_p = t_1 * s_p
@@ -84,7 +78,8 @@ _PLACES = "".join(
 )
 
 
-def _dot(name: str, left: str, right: str) -> str:
+def dot(name: str, left: str, right: str) -> str:
+    """The steps to the scalar product of two vectors, whose components end with _x, _y and _z."""
     return f"""
     {name}_x = {left}_x * {right}_x
     {name}_y = {left}_y * {right}_y
@@ -109,16 +104,16 @@ def _linear(of: str) -> str:
     """The linear functions of a vector: components along and across the hyperboloid's axis and along the others."""
     return (
         _cross(f"across_{of}", "n", of)
-        + _dot(f"level_{of}", "n", of)
-        + _dot(f"axial_{of}", "v", of)
-        + _dot(f"mixed_{of}", "both", of)
+        + dot(f"level_{of}", "n", of)
+        + dot(f"axial_{of}", "v", of)
+        + dot(f"mixed_{of}", "both", of)
     )
 
 
 def _form(tag: str, left: str, right: str) -> str:
     """E, G and m of two vectors, which end with the tag."""
     return f"""
-    {_dot(f"circle{tag}", f"across_{left}", f"across_{right}")}
+    {dot(f"circle{tag}", f"across_{left}", f"across_{right}")}
     radius{tag} = circle{tag} / nn
     levels{tag} = level_{left} * level_{right}
     height{tag} = levels{tag} / nn
@@ -128,7 +123,7 @@ def _form(tag: str, left: str, right: str) -> str:
     mixed{tag} = mixed_{left} * mixed_{right}
     cross_part{tag} = mixed{tag} / nnvv
     E{tag} = t_1_s_p * cross_part{tag}
-    {_dot(f"distance{tag}", left, right)}
+    {dot(f"distance{tag}", left, right)}
     axials{tag} = axial_{left} * axial_{right}
     axis_part{tag} = axials{tag} / vv
     t_distance{tag} = t * distance{tag}
@@ -144,22 +139,16 @@ _DIRECTIONS = f"""
     v_x = axis_x / axis_size
     v_y = axis_y / axis_size
     v_z = axis_z / axis_size
-    {_dot("nn", "n", "n")}
-    {_dot("vv", "v", "v")}
+    {dot("nn", "n", "n")}
+    {dot("vv", "v", "v")}
     nnvv = nn * vv
     {_cross("both", "n", "v")}
-    {_dot("sines", "both", "both")}
+    {dot("sines", "both", "both")}
     h = sines / nnvv
-    {_dot("cosine", "n", "v")}
+    {dot("cosine", "n", "v")}
     cosines = cosine * cosine
     c = cosines / nnvv
-    t_h = t * h
-    along = t_h + c
-    t_c = t * c
-    across = t_c + h
-    s_along = s * along
-    p_across = p * across
-    k1 = s_along - p_across
+    {tilted.K1}
 """
 
 
@@ -220,62 +209,25 @@ CONSTANTS = {
 }
 """The inputs beside the sweep, the time and l, by name."""
 
-_DECISION = """
-    alpha_positive = alpha > 0
-    gamma_positive = gamma > 0
-    d_positive = d > 0
-    b_not_small = b > least_b
-    b_not_large = b < greatest_b
-    p_not_small = p > least_square
-    p_not_large = p < greatest_square
-    s_not_small = s > least_square
-    s_not_large = s < greatest_square
-    t_not_small = t > least_square
-    t_not_large = t < greatest_square
-    vv_not_small = vv > least_axis
-    vv_not_large = vv < greatest_axis
-    nn_not_small = nn > least_axis
-    nn_not_large = nn < greatest_axis
-    place_near = MAGNITUDE_distance < farthest_square
-    change_near = MAGNITUDE_distance_2 < farthest_square
-    size_l = abs l
-    l_usable = size_l < greatest_l
-    b_usable = b_not_small and b_not_large
-    p_usable = p_not_small and p_not_large
-    s_usable = s_not_small and s_not_large
-    t_usable = t_not_small and t_not_large
-    vv_usable = vv_not_small and vv_not_large
-    nn_usable = nn_not_small and nn_not_large
-    ps_usable = p_usable and s_usable
-    bt_usable = b_usable and t_usable
+_NEAR = """
+    place_near = magnitude_distance < farthest_square
+    change_near = magnitude_distance_2 < farthest_square
+"""
+
+_JOINED = """
     axes_usable = vv_usable and nn_usable
     sweep_usable = place_near and change_near
-    radial_positive = alpha_positive and gamma_positive
-    all_positive = radial_positive and d_positive
-    squares_usable = ps_usable and bt_usable
-    sizes_usable = squares_usable and all_positive
-    place_usable = sweep_usable and l_usable
-    rest_usable = axes_usable and place_usable
-    usable = sizes_usable and rest_usable
-    before_B_and_A2 = k > e_k
-    before_A1 = p_l > e_pl
-    between_poles = before_B_and_A2 and before_A1
-    inside = usable and between_poles
+"""
+
+_DECISION = f"""
+    {tilted.in_range(("vv", "nn"), _NEAR, _JOINED, "axes_usable", "sweep_usable")}
     here = F - e_F
     phi_positive = here > 0
-    clear = phi_positive and inside
-    on_side_of_B = l > 0
-    on_side_of_A = l < 0
-    exterior = clear and on_side_of_B
-    interior = clear and on_side_of_A
-    minus_F = - F
-    minus_F_least = minus_F - e_F
-    phi_negative = minus_F_least > 0
-    d_least = d_l - e_d
+    {tilted.SIDES}
     d_known = d_least > 0
     room = minus_F_least * d_least
     room_least = less_sure * room
-    B_most = MAGNITUDE_s_along / t
+    B_most = magnitude_s_along / t
     k_most = k + e_k
     t_l_or_t = on_side_of_B ? t_l : t
     to_B_by_k = k_most / t_l_or_t
@@ -299,19 +251,7 @@ _DECISION = """
 """
 
 
-def _certificate() -> Program:
-    counts = counted()
-    names = (*BOUNDED, "distance", "distance_2", "s_along")
-    magnitudes = needed(counts.program, tuple(str(counts.magnitudes[name]) for name in names))
-    bounds = [Step(error, "mul", (f"u_{name}", counts.magnitudes[name])) for name, error in BOUNDED.items()]
-    inputs = (*ROW, *LENGTHS, "at", "l", *CONSTANTS)
-    before = (*VALUES.steps, *magnitudes, *bounds)
-    known = dict.fromkeys((*inputs, *(step.name for step in before)))
-    decision = program_of("", tuple(known), _DECISION.replace("MAGNITUDE_", "magnitude_"))
-    return Program("sweep", inputs, (*before, *decision.steps))
-
-
-SWEEP = _certificate()
+SWEEP = tilted.certificate("sweep", VALUES, (*ROW, *LENGTHS, "at", "l", *CONSTANTS), counted(), BOUNDED, _DECISION)
 """From a sweep, a time, any l and CONSTANTS to `exterior`, `interior` and `contact` there, each proved where it holds,
 and to here, slope, bend: the parabola below F from that time on."""
 

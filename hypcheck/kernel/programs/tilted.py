@@ -26,6 +26,8 @@ What overflows before, x/b or |v|², is seen: it is not below its limit in any r
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from hypcheck.derivation.program import Program, Step, needed, program_of, steps_of
 from hypcheck.derivation.rounding import ErrorCounts, relative_error_counts
 from hypcheck.geometry.pair import SIZES, TILTED_COLUMNS
@@ -33,7 +35,7 @@ from hypcheck.kernel.programs.certified import SLACK, U
 
 ROW = TILTED_COLUMNS
 
-FORM = """
+SQUARES = """
     r = 1 / b
     alpha_r = alpha * r
     p = alpha_r * alpha_r
@@ -41,6 +43,22 @@ FORM = """
     s = gamma_r * gamma_r
     d_r = d * r
     t = d_r * d_r
+"""
+"""The squares of α, γ and d, the lengths in units of b."""
+
+K1 = """
+    t_h = t * h
+    along = t_h + c
+    t_c = t * c
+    across = t_c + h
+    s_along = s * along
+    p_across = p * across
+    k1 = s_along - p_across
+"""
+"""What k has at l, from the squares h and c of the sine and cosine between the axes."""
+
+FORM = f"""
+    {SQUARES}
     x_r = x * r
     y_r = y * r
     z_r = z * r
@@ -79,13 +97,7 @@ FORM = """
     t_1_axis = t_1 * axis_part
     m = t_distance - t_1_axis
     k0 = p * s
-    t_h = t * h
-    along = t_h + c
-    t_c = t * c
-    across = t_c + h
-    s_along = s * along
-    p_across = p * across
-    k1 = s_along - p_across
+    {K1}
 """
 
 AT_MULTIPLIER = """
@@ -151,42 +163,49 @@ CONSTANTS = {
 }
 """The inputs beside the row and l, by name."""
 
-_DECISION = """
-    alpha_positive = alpha > 0
-    gamma_positive = gamma > 0
-    d_positive = d > 0
-    b_not_small = b > least_b
-    b_not_large = b < greatest_b
-    p_not_small = p > least_square
-    p_not_large = p < greatest_square
-    s_not_small = s > least_square
-    s_not_large = s < greatest_square
-    t_not_small = t > least_square
-    t_not_large = t < greatest_square
-    w_not_small = w > least_axis
-    w_not_large = w < greatest_axis
-    not_too_far = distance < farthest_square
-    size_l = abs l
-    l_usable = size_l < greatest_l
-    b_usable = b_not_small and b_not_large
-    p_usable = p_not_small and p_not_large
-    s_usable = s_not_small and s_not_large
-    t_usable = t_not_small and t_not_large
-    w_usable = w_not_small and w_not_large
-    ps_usable = p_usable and s_usable
-    bt_usable = b_usable and t_usable
-    radial_positive = alpha_positive and gamma_positive
-    all_positive = radial_positive and d_positive
-    squares_usable = ps_usable and bt_usable
-    sizes_usable = squares_usable and all_positive
-    place_usable = not_too_far and l_usable
-    rest_usable = w_usable and place_usable
-    usable = sizes_usable and rest_usable
-    before_B_and_A2 = k > e_k
-    before_A1 = p_l > e_pl
-    between_poles = before_B_and_A2 and before_A1
-    inside = usable and between_poles
-    phi_positive = F > e_F
+
+def in_range(axes: tuple[str, ...], near: str, joined: str, axes_usable: str, is_near: str) -> str:
+    """The steps to `inside`: everything in its range, and l between the poles.
+
+    `axes` are the squares of the axes' lengths; `near` compares the centre with its limit, and `joined` are the steps
+    that lead to `axes_usable` and `is_near`.
+    """
+    limits = {"b": ("least_b", "greatest_b"), **dict.fromkeys("pst", ("least_square", "greatest_square"))}
+    limits |= dict.fromkeys(axes, ("least_axis", "greatest_axis"))
+    within = [
+        f"{name}_not_small = {name} > {least}\n{name}_not_large = {name} < {greatest}"
+        for name, (least, greatest) in limits.items()
+    ]
+    usable = [f"{name}_usable = {name}_not_small and {name}_not_large" for name in limits]
+    return "\n".join(
+        (
+            *(f"{name}_positive = {name} > 0" for name in ("alpha", "gamma", "d")),
+            *within,
+            near,
+            "size_l = abs l",
+            "l_usable = size_l < greatest_l",
+            *usable,
+            "ps_usable = p_usable and s_usable",
+            "bt_usable = b_usable and t_usable",
+            joined,
+            f"""
+            radial_positive = alpha_positive and gamma_positive
+            all_positive = radial_positive and d_positive
+            squares_usable = ps_usable and bt_usable
+            sizes_usable = squares_usable and all_positive
+            place_usable = {is_near} and l_usable
+            rest_usable = {axes_usable} and place_usable
+            usable = sizes_usable and rest_usable
+            before_B_and_A2 = k > e_k
+            before_A1 = p_l > e_pl
+            between_poles = before_B_and_A2 and before_A1
+            inside = usable and between_poles
+            """,
+        )
+    )
+
+
+SIDES = """
     clear = phi_positive and inside
     on_side_of_B = l > 0
     on_side_of_A = l < 0
@@ -196,6 +215,12 @@ _DECISION = """
     minus_F_least = minus_F - e_F
     phi_negative = minus_F_least > 0
     d_least = d_l - e_d
+"""
+
+_DECISION = f"""
+    {in_range(("w",), "not_too_far = distance < farthest_square", "", "w_usable", "not_too_far")}
+    phi_positive = F > e_F
+    {SIDES}
     room = minus_F_least * d_least
     room_least = less_sure * room
     size_psi = abs psi
@@ -210,18 +235,16 @@ _DECISION = """
 """
 
 
-def _certificate() -> Program:
-    counts = counted()
-    magnitudes = needed(counts.program, tuple(str(counts.magnitudes[name]) for name in BOUNDED))
-    bounds = [Step(error, "mul", (f"u_{name}", counts.magnitudes[name])) for name, error in BOUNDED.items()]
-    inputs = (*ROW, "l", *CONSTANTS)
-    return Program("tilted", inputs, (*VALUES.steps, *magnitudes, *bounds, *program_of("", _given(), _DECISION).steps))
+def certificate(
+    name: str, values: Program, inputs: tuple[str, ...], counts: ErrorCounts, bounded: Mapping[str, str], decision: str
+) -> Program:
+    """The steps of `values`, the magnitudes that are counted, the bounds of the `bounded` values, and the decision."""
+    magnitudes = {of: str(magnitude) for of, magnitude in counts.magnitudes.items()}
+    bounds = [Step(error, "mul", (f"u_{of}", magnitudes[of])) for of, error in bounded.items()]
+    before = (*values.steps, *needed(counts.program, tuple(magnitudes.values())), *bounds)
+    known = dict.fromkeys((*inputs, *(step.name for step in before)))
+    return Program(name, inputs, (*before, *program_of("", tuple(known), decision).steps))
 
 
-def _given() -> tuple[str, ...]:
-    known = {step.name for step in VALUES.steps}
-    return (*ROW, "l", *CONSTANTS, *sorted(known), *BOUNDED.values())
-
-
-TILTED = _certificate()
+TILTED = certificate("tilted", VALUES, (*ROW, "l", *CONSTANTS), counted(), BOUNDED, _DECISION)
 """From a row, any l and CONSTANTS to `exterior`, `interior` and `decided`; decided and neither is contact."""

@@ -176,21 +176,19 @@ START = program_of(
 HALF = program_of("half", ("pole",), "half = pole / 2")
 
 
-def falls(end: str = "") -> Program:
-    """Whether F ≤ 0 at A + λ = to_a and B − λ = to_b: then the maximum of φ is at or before λ. `end`: a suffix."""
-    return program_of(
-        f"falls{end}",
-        ("ar", "cz", f"to_a{end}", f"to_b{end}"),
-        f"""
-        across{end} = ar / to_a{end}
-        along{end} = cz / to_b{end}
-        across_squared{end} = across{end} * across{end}
-        along_squared{end} = along{end} * along{end}
-        along_side{end} = along_squared{end} + 1
-        past{end} = across_squared{end} <= along_side{end}
-        """,
-    )
-
+FALLS = program_of(
+    "falls",
+    ("ar", "cz", "to_a", "to_b"),
+    """
+    across = ar / to_a
+    along = cz / to_b
+    across_squared = across * across
+    along_squared = along * along
+    along_side = along_squared + 1
+    past = across_squared <= along_side
+    """,
+)
+"""Whether F ≤ 0 at A + λ = to_a and B − λ = to_b: then the maximum of φ is at or before λ."""
 
 GEOMETRIC = program_of(
     "geometric", ("low", "high"), "root_low = sqrt low\n root_high = sqrt high\n middle = root_low * root_high"

@@ -51,30 +51,30 @@ def _row(body: Hyperboloid) -> tuple[float, ...]:
     return (body.alpha, body.gamma, *body.center, *body.axis, *ends, 1.0 if body.solid and body.height else 0.0)
 
 
-def _dot(name: str, left: str, right: str) -> str:
-    return "".join(f"\n{name}_{k} = {left}_{k} * {right}_{k}" for k in "xyz") + (
-        f"\n{name}_xy = {name}_x + {name}_y\n{name} = {name}_xy + {name}_z"
-    )
-
-
 def _level(at: str) -> str:
     """The level of a place along the hyperboloid's axis, and the sum of the sizes of what it is made of."""
     sizes = "".join(f"\nsize_{at}_{k} = abs {at}_{k}" for k in "xyz")
     return (
         "".join(f"\nfrom_wall_{at}_{k} = {at}_{k} - wall_{k}" for k in "xyz")
-        + _dot(f"raised_{at}", f"from_wall_{at}", "upward")
+        + sweeps.dot(f"raised_{at}", f"from_wall_{at}", "upward")
         + f"\nlevel_{at} = raised_{at} / upward_length"
         + sizes
         + f"\nsum_{at}_xy = size_{at}_x + size_{at}_y\nsum_{at} = sum_{at}_xy + size_{at}_z"
     )
 
 
-_AXIS_SIZES = "".join(f"\nsize_wall_axis_{k} = abs wall_axis_{k}\nsize_wall_{k} = abs wall_{k}" for k in "xyz") + (
-    "\nlength_xy = size_wall_axis_x + size_wall_axis_y\nlength = length_xy + size_wall_axis_z"
-    "\nsum_wall_xy = size_wall_x + size_wall_y\nsum_wall = sum_wall_xy + size_wall_z"
-) + "".join(f"\nupward_{k} = wall_axis_{k} / length" for k in "xyz") + _dot("upward_squares", "upward", "upward") + (
-    "\nupward_length = sqrt upward_squares"
-)  # fmt: skip
+_AXIS_SIZES = (
+    "".join(f"\nsize_wall_axis_{k} = abs wall_axis_{k}\nsize_wall_{k} = abs wall_{k}" for k in "xyz")
+    + """
+length_xy = size_wall_axis_x + size_wall_axis_y
+length = length_xy + size_wall_axis_z
+sum_wall_xy = size_wall_x + size_wall_y
+sum_wall = sum_wall_xy + size_wall_z
+"""
+    + "".join(f"\nupward_{k} = wall_axis_{k} / length" for k in "xyz")
+    + sweeps.dot("upward_squares", "upward", "upward")
+    + "\nupward_length = sqrt upward_squares"
+)
 
 _ENDS = """
 no_lower = z_min < least_end

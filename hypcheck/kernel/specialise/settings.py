@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import isfinite
 from sys import float_info
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
@@ -21,29 +21,15 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.pair import Pair, Position, Sizes
 from hypcheck.geometry.rows import Floats
 from hypcheck.kernel import integers
-from hypcheck.scene.model import Hyperboloid, Mover, MoverPart, Point, SceneModel, Span, is_tilted
+from hypcheck.scene.model import FREE, Hyperboloid, Mover, MoverPart, Point, Region, SceneModel, Span, is_tilted
 
 SWING = 1 + Fraction(1, 2**40)
 """What an arm is multiplied by, since its end is computed by a rounded sine and cosine."""
 
 
 @dataclass(frozen=True, slots=True)
-class Box:
-    """The region of the spheroid's centre, relative to the hyperboloid's centre; None: no limit along that axis."""
-
-    x: Span | None = None
-    y: Span | None = None
-    z: Span | None = None
-
-    @property
-    def spans(self) -> tuple[Span | None, Span | None, Span | None]:
-        """The three spans in order."""
-        return self.x, self.y, self.z
-
-
-@dataclass(frozen=True, slots=True)
 class Setting:
-    """`sizes` are α, γ, b, d; `box` the region of the centre, `cut` the heights of the wall.
+    """`sizes` are α, γ, b, d; `box` the region of the centre as seen from the hyperboloid's, `cut` the wall's heights.
 
     `axis` is that of the spheroid's revolution, FREE where each query names one, None where it is upright.
     `cut` is None unless the box reaches beyond these; every query is compared with it. `uses` names the pairs of
@@ -51,10 +37,20 @@ class Setting:
     """
 
     sizes: Sizes
-    box: Box
+    box: Region
     cut: Span | None
     uses: tuple[str, ...]
     axis: Point | Literal["free"] | None = None
+
+    @property
+    def spans(self) -> dict[str, list[float]]:
+        """The ends of each coordinate of the centre that is limited, by name, as JSON has them."""
+        return {name: [span.low, span.high] for name, span in zip("xyz", self.box.spans, strict=True) if span}
+
+    @property
+    def named_axis(self) -> dict[str, Any]:
+        """The axis by its name, as JSON has it; empty where the spheroid is upright."""
+        return {} if self.axis is None else {"axis": self.axis if self.axis == FREE else list(self.axis)}
 
     @property
     def inner_and_outer(self) -> tuple[Sizes, Sizes]:
@@ -142,7 +138,7 @@ def _pairs(scene: SceneModel) -> Iterator[Setting]:
                 yield Setting(sizes, box, cut, (f"{name} and {hyperboloid.name}",), axis_of(mover))
 
 
-def _box(scene: SceneModel, hyperboloid: Hyperboloid, arm: float) -> tuple[Box | None, Span | None]:
+def _box(scene: SceneModel, hyperboloid: Hyperboloid, arm: float) -> tuple[Region | None, Span | None]:
     """The region seen from the hyperboloid, wider by `arm`, and the height that the kernel must still test."""
     region, centre = scene.region, hyperboloid.center
     x = _moved(region.x, centre[0], arm)
@@ -151,17 +147,17 @@ def _box(scene: SceneModel, hyperboloid: Hyperboloid, arm: float) -> tuple[Box |
     z = _moved(region.z, centre[2], arm if is_tilted(scene.mover.axis) else 0.0)
     height = hyperboloid.height
     if height is None:
-        return Box(x, y, z), None
+        return Region(x, y, z), None
     if hyperboloid.axis[2] < 0:  # it counts downwards
         height = Span(-height.high, -height.low)
     if z is not None and height.low <= z.low and z.high <= height.high:
-        return Box(x, y, z), None
+        return Region(x, y, z), None
     low, high = height.low, height.high
     if z is not None:
         low, high = max(low, z.low), min(high, z.high)
     if low > high:
         return None, None
-    return Box(x, y, Span(low, high) if isfinite(low) and isfinite(high) else None), height
+    return Region(x, y, Span(low, high) if isfinite(low) and isfinite(high) else None), height
 
 
 def _moved(span: Span | None, origin: float, arm: float) -> Span | None:
@@ -179,7 +175,7 @@ def _moved(span: Span | None, origin: float, arm: float) -> Span | None:
 
 def _joined(one: Setting, other: Setting) -> Setting:
     x, y, z = (_hull(left, right) for left, right in zip(one.box.spans, other.box.spans, strict=True))
-    return Setting(one.sizes, Box(x, y, z), _hull(one.cut, other.cut), (*one.uses, *other.uses), one.axis)
+    return Setting(one.sizes, Region(x, y, z), _hull(one.cut, other.cut), (*one.uses, *other.uses), one.axis)
 
 
 def _hull(one: Span | None, other: Span | None) -> Span | None:

@@ -294,17 +294,16 @@ _STEP = """
     step = size - margin
     next_unbounded = now + step
     arrived = next_unbounded >= to_time
+    before_end = not arrived
     at_end = goes_on and arrived
-    moves = goes_on and next_unbounded_below
+    moves = goes_on and before_end
     next = moves ? next_unbounded : now
     half = step / 2
     ahead_unbounded = next + half
     beyond_end = ahead_unbounded > to_time
     ahead_before = beyond_end ? to_time : ahead_unbounded
     ahead = moves ? ahead_before : next
-""".replace("next_unbounded_below\n", "before_end\n").replace(
-    "    at_end =", "    before_end = not arrived\n    at_end ="
-)
+"""
 
 _SEEN = """
     next_contact = next_found == contact_code
@@ -318,10 +317,11 @@ _SEEN = """
     touches = touches_next or touches_ahead
     hit_seen = touches ? 1 : hit
     done_clear = at_end ? 2 : 1
+    not_touching_next = not touches_next
     open_after = moves and not_touching_next
     state_new = open_after ? 0 : done_clear
     stops = state_new > 0
-""".replace("    open_after =", "    not_touching_next = not touches_next\n    open_after =")
+"""
 
 _SWEPT: tuple[Part, ...] = (
     Call("start_found", LOOK, (*_LOOK_AT, "from_time")),

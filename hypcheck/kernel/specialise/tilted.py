@@ -52,7 +52,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from hypcheck.derivation.program import Program, program_of
+from hypcheck.derivation.program import program_of
 
 SIZE_NAMES = ("A1", "s", "t", "b")
 """What a free axis' frame is made of, beside the axis."""
@@ -189,19 +189,18 @@ PHI = program_of(
 )
 
 
-def falls(end: str = "") -> Program:
-    """Whether φ′ ≤ 0, in doubles, at these distances to the poles. `end` ends the names."""
-    text = "".join(
-        f"share_{i}{end} = c{i} / to_{to}{end}\n square_{i}{end} = share_{i}{end} * share_{i}{end}\n"
-        f"slope_{i}{end} = {pole} * square_{i}{end}\n"
-        for i, to, pole in ((1, "a1", "A1"), (2, "a2", "A2"), (3, "b", "B"))
-    )
-    inputs = ("c1", "c2", "c3", "A1", "A2", "B", *(f"to_{to}{end}" for to in ("a1", "a2", "b")))
-    last = (
-        f"gain{end} = slope_1{end} + slope_2{end}\n loss{end} = slope_3{end} + 1\n past{end} = gain{end} <= loss{end}"
-    )
-    return program_of(f"falls{end}", inputs, text, last)
+_SIDES = ((1, "a1", "A1"), (2, "a2", "A2"), (3, "b", "B"))
 
+FALLS = program_of(
+    "falls",
+    ("c1", "c2", "c3", "A1", "A2", "B", "to_a1", "to_a2", "to_b"),
+    *(
+        f"share_{i} = c{i} / to_{to}\n square_{i} = share_{i} * share_{i}\n slope_{i} = {pole} * square_{i}"
+        for i, to, pole in _SIDES
+    ),
+    "gain = slope_1 + slope_2\n loss = slope_3 + 1\n past = gain <= loss",
+)
+"""Whether φ′ ≤ 0, in doubles, at these distances to the poles."""
 
 PLACE = program_of(
     "place",
@@ -236,8 +235,6 @@ DECISION_CONSTANTS = {
     "granted": 1.5 * 2.0**-53,
 }
 """`granted` is below 2u."""
-
-_SIDES = ((1, "a1", "A1"), (2, "a2", "A2"), (3, "b", "B"))
 
 
 def _slopes(end: str, shift: str) -> str:

@@ -24,7 +24,7 @@ FALLS = Routine(
     "falling",
     "Whether the dual function does not rise at the multiplier with these distances to its poles.",
     ("ar", "cz", "to_a", "to_b"),
-    last_stages.falls().steps,
+    last_stages.FALLS.steps,
     "past",
 )
 
@@ -34,7 +34,7 @@ PAST_MAXIMUM = Routine(
     ("ar", "cz", "pole", "other", "distance", "near_zero", "inside"),
     (
         *last_stages.PLACE.steps,
-        *last_stages.falls().steps,
+        *last_stages.FALLS.steps,
         *steps_of("beyond = past != is_inside"),
     ),
     "beyond",
@@ -113,7 +113,7 @@ FALLING = Routine(
     "falling",
     "Whether the slope of the dual function is not positive at these distances to its poles.",
     (*_COMPONENTS, *_POLES, *_PLACES),
-    tilted.falls().steps,
+    tilted.FALLS.steps,
     "past",
 )
 
@@ -121,7 +121,7 @@ PAST_PEAK = Routine(
     "past_peak",
     "Whether the maximum of the dual function lies beyond the multiplier at this distance from 0, or from the pole.",
     (*_COMPONENTS, *_POLES, *_GAPS, "pole", "distance", "near_zero", "inside"),
-    (*tilted.PLACE.steps, *tilted.falls().steps, *steps_of("beyond = past != is_inside")),
+    (*tilted.PLACE.steps, *tilted.FALLS.steps, *steps_of("beyond = past != is_inside")),
     "beyond",
 )
 
