@@ -21,8 +21,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck.bench.contender import Contender, LoadedMethod
-from hypcheck.bench.contenders import contenders
+from hypcheck.bench.contenders import Contender, contenders
+from hypcheck.bench.loaded import LoadedMethod
 from hypcheck.bench.plan import PASSAGE, BenchPlan, chosen_names
 from hypcheck.bench.workloads import WORKLOADS, Workload, workloads_of
 from hypcheck.geometry.rows import SWEEPS, Floats, Positions, Rows

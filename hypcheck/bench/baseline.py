@@ -10,8 +10,7 @@ from statistics import median
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck.bench.contender import Contender
-from hypcheck.bench.foreign import ForeignMethod
+from hypcheck.bench.contenders import Contender, ForeignMethod
 from hypcheck.bench.plan import BenchPlan
 from hypcheck.errors import InputError
 from hypcheck.record import RecordLine, read

@@ -24,7 +24,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck.bench.contender import EmptyCall, LoadedMethod, PreparedWork
+from hypcheck.bench.loaded import EmptyCall, LoadedMethod, PreparedWork
 from hypcheck.bench.procedures import CRAFT, MOVING, CraftPath, procedures_source
 from hypcheck.bench.workloads import scene_of
 from hypcheck.derivation.formulas import FORMULAS, REPAIRED, Formula

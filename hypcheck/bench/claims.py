@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from hypcheck.bench.c_library import InC, bodies_asked, place_of
-from hypcheck.bench.contender import InPython, PreparedWork, prepared
+from hypcheck.bench.loaded import InPython, PreparedWork, prepared
 from hypcheck.bench.plan import BenchPlan
 from hypcheck.bench.procedures import CRAFT, PROCEDURES, CraftPath, hull_programs, procedure_2b
 from hypcheck.bench.workloads import WORKLOADS

@@ -1,31 +1,87 @@
 """All contenders by name: those that contenders.toml lists, meshes of collision engines, implementations under test.
 
-Methods in C are printed and compiled when bench starts. Meshes have 100 to 100,000 triangles, and are built once or for
-each row; a tilted spheroid is the engine's ellipsoid, rotated to its axis, against the same mesh. Runs about tilted
-spheroids and runs about sweeps have separate contenders.
+A contender is a method with the settings of its comparison. Methods in C are printed and compiled when bench starts.
+Meshes have 100 to 100,000 triangles, and are built once or for each row; a tilted spheroid is the engine's ellipsoid,
+rotated to its axis, against the same mesh. Runs about tilted spheroids and runs about sweeps have separate contenders.
+The number of rows that a SPEC answers in reasonable time is measured when it is opened.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from dataclasses import replace
+import dataclasses
+import time
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 import hypcheck
 from hypcheck import toml
-from hypcheck.bench import foreign
 from hypcheck.bench.c_library import InC, place_of
-from hypcheck.bench.contender import Contender, InEngine, InScalars, of_method
+from hypcheck.bench.loaded import InEngine, InPython, InScalars, LoadedMethod, RunningForeign
 from hypcheck.bench.plan import PASSAGE, BenchPlan, chosen_names
-from hypcheck.geometry.rows import SWEEPS
-from hypcheck.implementations.builtin import methods
-from hypcheck.implementations.domain import Domain
+from hypcheck.bench.workloads import NEAR_SCENES, WORKLOADS, listed
+from hypcheck.errors import InputError
+from hypcheck.geometry.rows import PAIRS, SWEEPS, Layout, Rows
+from hypcheck.implementations.builtin import builtin, methods
+from hypcheck.implementations.description import QUESTIONS, Description
+from hypcheck.implementations.domain import Domain, claimed
+from hypcheck.implementations.frames import LARGEST
+from hypcheck.implementations.implementation import Implementation, open_implementation
 from hypcheck.implementations.meshes import ENGINES, PAIRINGS, MeshLibrary, scene_mesh
-from hypcheck.implementations.method import Method
+from hypcheck.implementations.method import Method, MethodClaims
+from hypcheck.implementations.session import Limits, Outcome, StartError
+from hypcheck.implementations.spec import parse_spec
 from hypcheck.implementations.sweeps import SWEEP_SOLVERS, height_of_sweeps, sweep_mesh
 from hypcheck.kernel.choice import choice
+
+
+@dataclass(frozen=True, kw_only=True)
+class Contender(MethodClaims):
+    """A method, with the settings of its comparison.
+
+    `tier` is its language or engine: "C", "numpy", "python", "FCL" or "foreign"; `kind` is its kind of algorithm. At
+    most `judged` rows of a workload are judged; in a quick run `quick_judged`, or a quarter if `judged` is small.
+    `timed` rows make a timed batch. Its first `singles` rows are also timed one by one; they are enough that a branch
+    predictor does not learn them. `amortised` says whether a mesh is built once for a scene or for each row. `load`
+    loads the method. `scenes`, if not None, is the largest number of different sizes in a workload that it can take.
+    `quick` says whether it is fast enough for a quick run; a quick run includes slower methods only if they are named.
+    """
+
+    tier: str
+    kind: str
+    load: Callable[[], LoadedMethod]
+    judged: int | None = None
+    timed: int | None = None
+    singles: int = 32
+    amortised: str | None = None
+    accuracy_only: bool = False
+    note: str = ""
+    scenes: int | None = None
+    quick: bool = True
+    quick_judged: int | None = None
+
+    def asked(self, rows: Rows) -> NDArray[np.intp]:
+        """The indices of the rows that it must answer: inside its domain, with numbers of its format."""
+        if self.scenes is not None and len(np.unique(rows[:, :4], axis=0)) > self.scenes:
+            return np.empty(0, dtype=np.intp)
+        return claimed(rows, self.domain, self.precision, layout=QUESTIONS[self.question].layout)[: self.judged]
+
+
+def of_method(method: Method, tier: str, kind: str, **fields: Any) -> Contender:  # noqa: ANN401 - of a contender
+    """A built-in method as a contender; `fields` replace the method's values and the defaults."""
+    claims: dict[str, Any] = {claim.name: getattr(method, claim.name) for claim in dataclasses.fields(MethodClaims)}
+    return Contender(tier=tier, kind=kind, **{"load": partial(in_python, method), **claims, **fields})
+
+
+def in_python(method: Method) -> InPython:
+    """A built-in method, loaded."""
+    return InPython(method.answer, None if method.scene is None else method.scene())
+
 
 COMPILER = "C compiler"
 """The need of the methods in C."""
@@ -40,7 +96,7 @@ ELLIPSOID = "ellipsoid"
 def contenders(plan: BenchPlan) -> dict[str, Contender]:
     """The methods that this run compares, by name, the reference first. Raises InputError for unknown names."""
     by_name = {contender.name: _quick(contender) if plan.quick else contender for contender in _everything(plan)}
-    others = {contender.name: contender for contender in foreign.foreign_contenders(plan.foreign, plan.limits)}
+    others = {contender.name: contender for contender in foreign_contenders(plan.foreign, plan.limits)}
     names = chosen_names(list(by_name), plan.methods, "method")
     by_name |= others
     return {
@@ -164,3 +220,111 @@ def built_once(engine: MeshLibrary, pairing: str, triangles: int) -> Contender:
         note="the time of a row is without that of building",
         quick=triangles <= MOST_QUICK,
     )
+
+
+SPEC_SINGLES = {"library": 256, "python": 64, "command": 16}
+"""Rows that are asked one by one, by the kind of SPEC. The worker repeats them in order, and there are enough that a
+branch predictor does not learn them; a command gets one question for each."""
+
+_TRIED = 64
+_TRIES, _TRYING_S = 5, 0.2
+"""A batch is timed so often, unless that takes longer, and the fastest time counts: after one interruption the method
+would get few rows."""
+_JUDGED_S, _TIMED_S = 4.0, 0.01
+"""Seconds for judging one workload, and for a timed batch."""
+
+
+@dataclass(frozen=True)
+class ForeignMethod:
+    """A SPEC that was started, its description, and the number of rows that it can answer in reasonable time."""
+
+    spec: str
+    name: str
+    description: Description
+    judged: int
+    timed: int
+
+
+def foreign_method(
+    spec: str, limits: Limits, taken: Sequence[str], *, tilted: bool = False, layout: Layout = PAIRS
+) -> ForeignMethod:
+    """The method of a SPEC. Raises StartError if it cannot be started, and InputError if it is not a SPEC.
+
+    It also raises InputError if the run is about tilted spheroids and the description does not take tilt, or if its
+    question has rows of another layout.
+    """
+    with open_implementation(spec, limits) as implementation:
+        description = implementation.description
+        if tilted and not description.tilt:
+            raise InputError(f'{spec} answers rows of seven numbers alone: its description has no "tilt": true')
+        if description.asked.layout != layout:
+            other = "without" if layout.has_end else "with"
+            raise InputError(
+                f"{spec} answers the question {description.question}; it is measured {other} --question passage"
+            )
+        took = _seconds_a_row(implementation)
+    name = description.name if description.name not in taken else f"{description.name} ({spec})"
+    return ForeignMethod(
+        spec, name, description, max(200, int(_JUDGED_S / took)), min(LARGEST, max(1, int(_TIMED_S / took)))
+    )
+
+
+def _seconds_a_row(implementation: Implementation) -> float:
+    """The seconds per row of a batch; batches grow until one takes long enough to measure."""
+    layout = implementation.description.asked.layout
+    some = (listed(PASSAGE)["tower"] if layout.has_end else WORKLOADS["uniform"]).rows(1, _TRIED)
+    inside = some[implementation.description.domain.holds(some, layout=layout)]
+    usual = [*NEAR_SCENES[0], 1.0, 0.5, 2.0, 1.0, 0.5, -2.0][: len(layout.upright)]
+    some = inside if len(inside) else np.array([usual])
+    first = implementation.classify(some[:1])
+    if Outcome.TIMEOUT in first.outcomes:  # each larger batch would time out again
+        raise StartError(f"{implementation.spec} does not answer its first question, about one row: {first.reasons[0]}")
+    implementation.classify(some)  # a warm-up
+    while True:
+        took = _fastest(implementation, some)
+        if took > _TIMED_S or len(some) * 8 > LARGEST:
+            return max(took / len(some), 1e-9)
+        some = np.repeat(some, 8, axis=0)
+
+
+def _fastest(implementation: Implementation, rows: Rows) -> float:
+    tries = [_seconds(implementation, rows)]
+    while len(tries) < _TRIES and sum(tries) < _TRYING_S:
+        tries.append(_seconds(implementation, rows))
+    return min(tries)
+
+
+def _seconds(implementation: Implementation, rows: Rows) -> float:
+    started = time.perf_counter()
+    implementation.classify(rows)
+    return time.perf_counter() - started
+
+
+def foreign_contenders(methods: Iterable[ForeignMethod], limits: Limits) -> Iterable[Contender]:
+    """A contender for each SPEC; a built-in method runs in this process."""
+    for method in methods:
+        description = method.description
+        kind, words = parse_spec(method.spec).kind, parse_spec(method.spec).words
+        if kind == "builtin":
+            own = builtin(words[0])
+            yield of_method(own, "numpy", "algebraic", judged=own.max_rows, timed=min(8192, method.timed))
+            continue
+        yield Contender(
+            name=method.name,
+            title=" ".join(filter(None, (description.name, description.version, description.language))),
+            tier="foreign",
+            kind="foreign",
+            precision=description.precision,
+            question=description.question,
+            domain=description.domain,
+            load=partial(_opened, method.spec, limits),
+            exact=description.precision == "exact",
+            judged=method.judged,
+            timed=method.timed,
+            singles=SPEC_SINGLES[kind],
+            note=f"as {method.spec}",
+        )
+
+
+def _opened(spec: str, limits: Limits) -> RunningForeign:
+    return RunningForeign(open_implementation(spec, limits), parse_spec(spec).kind)

@@ -16,8 +16,7 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import NDArray
 
-from hypcheck.bench.contender import Contender
-from hypcheck.bench.contenders import contenders
+from hypcheck.bench.contenders import Contender, contenders
 from hypcheck.bench.plan import BenchPlan
 from hypcheck.bench.workloads import NEAR_SCENES, WORKLOADS, near
 from hypcheck.geometry.pair import SIZES, Position

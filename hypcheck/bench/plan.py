@@ -80,7 +80,7 @@ class BenchPlan:
     spheroids; so does a scene whose mover is tilted. `question` is "passage" if methods for sweeps are compared.
 
     Files go into `folder`, also the library `compiled` of methods in C, if there is one. `missing` is the software that
-    methods need and that is not available here; `foreign` are the methods of the SPECs (bench/foreign.py).
+    methods need and that is not available here; `foreign` are the methods of the SPECs (bench/contenders.py).
     """
 
     specs: tuple[str, ...] = ()

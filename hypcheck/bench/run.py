@@ -9,12 +9,11 @@ from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from hypcheck.bench import accuracy, error_maps, foreign, forest, scene, speed, targets
+from hypcheck.bench import accuracy, error_maps, forest, scene, speed, targets
 from hypcheck.bench.accuracy import MethodAnswers, WorkloadTruth, chosen_workloads
 from hypcheck.bench.baseline import Baseline, alike, comparisons, gated, read_baseline, require_common, speeds_of
 from hypcheck.bench.c_library import compiled
-from hypcheck.bench.contender import Contender
-from hypcheck.bench.contenders import COMPILER, contenders
+from hypcheck.bench.contenders import COMPILER, Contender, ForeignMethod, contenders, foreign_method
 from hypcheck.bench.plan import PASSAGE, BenchPlan
 from hypcheck.bench.workloads import scene_of, tilted_scenes
 from hypcheck.errors import Exit, InputError, NothingJudgedError, RunOutcome, UnavailableError
@@ -99,12 +98,12 @@ def plan_with_specs(plan: BenchPlan, recorder: Recorder) -> BenchPlan:
 
     Raises InputError if a text is not a SPEC.
     """
-    methods: list[foreign.ForeignMethod] = []
+    methods: list[ForeignMethod] = []
     for spec in plan.specs:
         try:
             used_names = [*contenders(plan), *(method.name for method in methods)]
             layout = QUESTIONS[plan.question].layout
-            methods.append(foreign.foreign_method(spec, plan.limits, used_names, tilted=plan.tilted, layout=layout))
+            methods.append(foreign_method(spec, plan.limits, used_names, tilted=plan.tilted, layout=layout))
         except StartError as error:  # noqa: PERF203 - a process is started in each turn
             recorder.add(NotStartedLine(spec=spec, name=spec, trouble=str(error)))
     return replace(plan, foreign=tuple(methods))

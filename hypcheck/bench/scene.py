@@ -17,7 +17,7 @@ from typing import Any, cast
 import numpy as np
 
 from hypcheck.bench.c_library import InC, compile_c, compiled, place_of
-from hypcheck.bench.contender import PreparedWork, prepared
+from hypcheck.bench.loaded import PreparedWork, prepared
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import CANNOT_SAY, Floats, Positions, Rows
 from hypcheck.kernel.choice import Question

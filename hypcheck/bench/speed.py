@@ -15,8 +15,8 @@ from msgspec import UNSET
 
 from hypcheck.bench.accuracy import MethodAnswers, answers_print, chosen_workloads, timed_rows
 from hypcheck.bench.claims import COST_OF, FIRST_AGAIN, CostClaim, cost_claims, cost_line
-from hypcheck.bench.contender import Contender, EmptyCall, LoadedMethod, PreparedWork
-from hypcheck.bench.contenders import contenders
+from hypcheck.bench.contenders import Contender, contenders
+from hypcheck.bench.loaded import EmptyCall, LoadedMethod, PreparedWork
 from hypcheck.bench.plan import BenchPlan
 from hypcheck.bench.workloads import Workload
 from hypcheck.processes import Advance, fresh, perform

@@ -16,7 +16,9 @@ from hypcheck.errors import InputError
 from hypcheck.geometry import rows
 from hypcheck.geometry.pair import CENTER, GROUPS, HEIGHTS, SIZES, Groups, Position, Sizes, trouble_with
 from hypcheck.implementations.domain import ORDINARY, PRECISIONS, Domain
-from hypcheck.implementations.output import foreign_text
+from hypcheck.implementations.frames import WIDTH
+from hypcheck.isolation.launch import masked
+from hypcheck.messages import escaped
 from hypcheck.strict import Check, Origin, StrictTable, dotted
 from hypcheck.tables.strict_json import refused_constant, strict_decoder
 from hypcheck.toml import Path
@@ -58,6 +60,12 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
     }
 )
 """The position itself, whether it is one of the three, and whether there is contact on the sweep between two."""
+
+
+def foreign_text(text: object, width: int = WIDTH) -> str:
+    """A text of a foreign program on one line, as messages.escaped, without the secrets of our environment."""
+    return escaped(masked(str(text)), width)
+
 
 PROTOCOL = 1
 LONGEST = 1 << 16

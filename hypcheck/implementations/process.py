@@ -27,11 +27,12 @@ from hypcheck.errors import limit_reached, system_reason
 from hypcheck.geometry.pair import HEIGHTS
 from hypcheck.geometry.rows import Rows, with_heights
 from hypcheck.implementations.description import Description
+from hypcheck.implementations.frames import WIDTH
 from hypcheck.implementations.memory import GUARD, LOOK, MemoryWatch, end_marked, new_environment_mark
-from hypcheck.implementations.output import OutputTail, stderr_excerpt
 from hypcheck.implementations.session import FaultError, Limits, Outcome, StartError
 from hypcheck.isolation.advice import isolation_advice
-from hypcheck.isolation.launch import IsolationError, Launched
+from hypcheck.isolation.launch import IsolationError, Launched, masked
+from hypcheck.messages import escaped, printable, shortened
 
 STEP = 0.25
 """The most seconds that count between two readings of the clock: during a longer time this process did not run."""
@@ -68,6 +69,47 @@ class Clock:
         self._off -= off
         self._looked = looked
         return self._counted
+
+
+KEPT = 16_384
+"""The number of last bytes of standard error that are kept: the output before a program's end says the most."""
+
+LINES = 3
+"""Lines of standard error in a sentence."""
+
+
+def quoted(data: bytes | bytearray) -> str:
+    """The bytes as text in quotation marks for a message. Blanks are kept, because an extra blank may be the fault."""
+    lines = masked(bytes(data[:320]).decode("utf-8", "replace")).splitlines()
+    return f"'{shortened(printable(' '.join(lines)), 80)}'"
+
+
+class OutputTail:
+    """The end of a stream of bytes since a mark, however long the stream."""
+
+    def __init__(self) -> None:
+        self._bytes = bytearray()
+
+    def add(self, data: bytes) -> None:
+        """Append data, and drop the oldest bytes."""
+        self._bytes += data
+        if len(self._bytes) > 2 * KEPT:
+            del self._bytes[:-KEPT]
+
+    def mark(self) -> None:
+        """Discard the bytes so far: lines() then returns only later ones."""
+        self._bytes.clear()
+
+    def lines(self) -> tuple[str, ...]:
+        """The lines since the mark that are kept, safe to print."""
+        text = masked(self._bytes[-KEPT:].decode("utf-8", "replace"))
+        shown = (escaped(line, WIDTH) for line in text.splitlines())
+        return tuple(line for line in shown if line)
+
+
+def stderr_excerpt(lines: Sequence[str]) -> str:
+    """The last lines of standard error as the end of a sentence; empty if there are none."""
+    return f"; stderr: {escaped(' | '.join(lines[-LINES:]), WIDTH)}" if lines else ""
 
 
 ONE_THREAD = dict.fromkeys(

@@ -30,10 +30,9 @@ import numpy as np
 
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import Rows
-from hypcheck.implementations.description import LONGEST, Description, described_by_json
+from hypcheck.implementations.description import LONGEST, Description, described_by_json, foreign_text
 from hypcheck.implementations.frames import LARGEST, GivenAnswers, integers, row_bytes
-from hypcheck.implementations.output import foreign_text, quoted
-from hypcheck.implementations.process import ProcessSession
+from hypcheck.implementations.process import ProcessSession, quoted
 from hypcheck.implementations.session import FaultError, Limits, Outcome, StartError
 
 _HEAD = re.compile(rb"(\d{1,19}) (\d{1,19})\r?\n")

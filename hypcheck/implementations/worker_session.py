@@ -14,10 +14,9 @@ import numpy as np
 from hypcheck.errors import InputError
 from hypcheck.geometry.rows import Rows
 from hypcheck.implementations import frames
-from hypcheck.implementations.description import LONGEST, Description, described_by_json
+from hypcheck.implementations.description import LONGEST, Description, described_by_json, foreign_text
 from hypcheck.implementations.frames import CallForm, GivenAnswers
-from hypcheck.implementations.output import foreign_text, quoted, stderr_excerpt
-from hypcheck.implementations.process import ProcessSession
+from hypcheck.implementations.process import ProcessSession, quoted, stderr_excerpt
 from hypcheck.implementations.session import FaultError, Limits, Outcome, StartError
 from hypcheck.implementations.spec import Spec
 from hypcheck.messages import counted

@@ -9,8 +9,8 @@ import pytest
 
 from hypcheck import toml
 from hypcheck.bench import accuracy, run
-from hypcheck.bench.contender import Contender, InEngine, InPython, InScalars
-from hypcheck.bench.contenders import contenders
+from hypcheck.bench.contenders import Contender, contenders
+from hypcheck.bench.loaded import InEngine, InPython, InScalars
 from hypcheck.bench.plan import QUICK, BenchPlan
 from hypcheck.bench.workloads import WORKLOADS
 from hypcheck.errors import Exit

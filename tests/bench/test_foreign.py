@@ -8,9 +8,9 @@ import pytest
 from msgspec import structs
 
 import hypcheck
-from hypcheck.bench import foreign
 from hypcheck.bench.baseline import alike, speeds_of
-from hypcheck.bench.contenders import contenders
+from hypcheck.bench.contenders import contenders, foreign_contenders, foreign_method
+from hypcheck.bench.loaded import RunningForeign
 from hypcheck.bench.plan import BenchPlan
 from hypcheck.bench.workloads import WORKLOADS
 from hypcheck.implementations import implementation
@@ -58,7 +58,7 @@ def subject(folder, times=1, answers="answers"):
 
 
 def opened(spec):
-    return foreign.RunningForeign(open_implementation(spec, Limits()), parse_spec(spec).kind)
+    return RunningForeign(open_implementation(spec, Limits()), parse_spec(spec).kind)
 
 
 @pytest.fixture(scope="module")
@@ -126,16 +126,16 @@ def test_time_of_a_command_without_a_clock_is_reduced_by_that_of_a_one_row_quest
 
 
 def test_a_built_in_method_that_is_a_spec_is_measured_in_this_process():
-    method = foreign.foreign_method("builtin:nearest-point", Limits(), [])
-    (found,) = foreign.foreign_contenders([method], Limits())
+    method = foreign_method("builtin:nearest-point", Limits(), [])
+    (found,) = foreign_contenders([method], Limits())
     assert (found.name, found.tier) == ("nearest-point", "numpy")
     assert found.load().answer(ROWS).tolist() == hypcheck.classify(ROWS).tolist()
 
 
 def test_two_specs_with_the_same_name_are_distinguished(tmp_path):
     first, second = subject(tmp_path), subject(tmp_path, times=2)
-    one = foreign.foreign_method(first, Limits(), [])
-    other = foreign.foreign_method(second, Limits(), [one.name])
+    one = foreign_method(first, Limits(), [])
+    other = foreign_method(second, Limits(), [one.name])
     assert (one.name, other.name) == ("subject", f"subject ({second})")
     found = contenders(BenchPlan(methods=("fast-numpy",), foreign=(one, other)))
     assert list(found)[-2:] == [one.name, other.name]
@@ -143,8 +143,8 @@ def test_two_specs_with_the_same_name_are_distinguished(tmp_path):
 
 
 def test_a_slow_spec_is_judged_and_timed_on_fewer_rows(tmp_path):
-    quick = foreign.foreign_method(subject(tmp_path), Limits(), [])
-    slow = foreign.foreign_method(subject(tmp_path, times=300), Limits(), [])
+    quick = foreign_method(subject(tmp_path), Limits(), [])
+    slow = foreign_method(subject(tmp_path, times=300), Limits(), [])
     assert slow.timed < quick.timed
     assert slow.judged < quick.judged
 
@@ -173,18 +173,18 @@ def classify(rows):
 def test_an_interruption_of_the_speed_trial_does_not_make_a_spec_look_slow(tmp_path):
     """Each second batch is interrupted for 50 ms."""
     spec = waiting(tmp_path, "0.05 * (len(asked) % 2)")
-    assert foreign.foreign_method(spec, Limits(), []).timed > 10_000
+    assert foreign_method(spec, Limits(), []).timed > 10_000
 
 
 def test_the_speed_trial_sends_a_batch_to_a_slow_spec_twice_at_most(tmp_path):
     """Once to warm up, and once to take the time."""
-    found = foreign.foreign_method(waiting(tmp_path, "0.01 * len(rows)"), Limits(), [])
+    found = foreign_method(waiting(tmp_path, "0.01 * len(rows)"), Limits(), [])
     assert found.timed == 1
     assert (tmp_path / "asked").read_text().split() == ["1", "64", "64"]
 
 
 def test_spec_with_a_baseline_is_timed_on_as_many_rows_as_in_the_baseline(tmp_path):
-    other = foreign.foreign_method(subject(tmp_path), Limits(), [])
+    other = foreign_method(subject(tmp_path), Limits(), [])
     line = decoded(bench_lines.speed("one", "uniform", "batch", 20.0, 10.0), SpeedLine)
     asked = {("uniform", "batch"): 53, ("flight", "batch"): 50, ("uniform", "single"): 256}
     before = speeds_of(
@@ -197,7 +197,7 @@ def test_a_spec_that_never_answers_is_refused_after_one_timeout(tmp_path):
     path = tmp_path / "never.py"
     path.write_text("def classify(rows):\n    while True:\n        pass\n", encoding="utf-8")
     with pytest.raises(StartError, match=r"does not answer its first question, about one row: no answer within 0\.7 s"):
-        foreign.foreign_method(f"python:{path}:classify", QUICK, [])
+        foreign_method(f"python:{path}:classify", QUICK, [])
 
 
 SMALL = ["--workloads", "uniform", "--methods", "fast-numpy"]

@@ -13,7 +13,7 @@ from msgspec import structs
 
 from hypcheck.bench import forest as contenders
 from hypcheck.bench import scene as scene_kernel
-from hypcheck.bench.contender import prepared
+from hypcheck.bench.loaded import prepared
 from hypcheck.bench.plan import BenchPlan
 from hypcheck.bench.run import codes_of
 from hypcheck.cli.bench import bench

@@ -7,9 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from hypcheck.bench import foreign
 from hypcheck.bench.accuracy import WorkloadTruth, workload_truths
-from hypcheck.bench.contenders import contenders
+from hypcheck.bench.contenders import contenders, foreign_method
 from hypcheck.bench.plan import PASSAGE, PASSAGE_REFERENCE, QUICK, BenchPlan
 from hypcheck.bench.workloads import listed, scene_of
 from hypcheck.errors import InputError
@@ -118,9 +117,9 @@ def test_bench_of_sweeps_refuses_methods_and_workloads_that_sweeps_do_not_have(t
 
 @pytest.mark.slow
 def test_bench_takes_a_spec_only_if_it_answers_the_question_of_the_run():
-    found = foreign.foreign_method(command("passage", "binary"), NOT_ISOLATED, [], layout=SWEEPS)
+    found = foreign_method(command("passage", "binary"), NOT_ISOLATED, [], layout=SWEEPS)
     assert found.name in contenders(BenchPlan(question=PASSAGE, foreign=(found,)))
     with pytest.raises(InputError, match="answers the question passage; it is measured with --question passage"):
-        foreign.foreign_method(command("passage", "binary"), NOT_ISOLATED, [])
+        foreign_method(command("passage", "binary"), NOT_ISOLATED, [])
     with pytest.raises(InputError, match="answers the question position; it is measured without --question passage"):
-        foreign.foreign_method(command("right", "binary"), NOT_ISOLATED, [], layout=SWEEPS)
+        foreign_method(command("right", "binary"), NOT_ISOLATED, [], layout=SWEEPS)

@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 
 import hypcheck
-from hypcheck.bench import foreign
-from hypcheck.bench.contender import InPython
-from hypcheck.bench.contenders import contenders
+from hypcheck.bench.contenders import contenders, foreign_method
+from hypcheck.bench.loaded import InPython
 from hypcheck.bench.plan import POSITION, TILTED_REFERENCE, BenchPlan
 from hypcheck.bench.workloads import listed, scene_of, scene_workloads
 from hypcheck.errors import InputError
@@ -185,11 +184,11 @@ def test_bench_refuses_a_tilted_scene_together_with_another_scene(tmp_path):
 
 def test_bench_tilted_takes_a_spec_only_if_its_description_says_tilt():
     limits = replace(Limits(), **QUICK) if isinstance(QUICK, dict) else Limits()
-    found = foreign.foreign_method(command("tilted", "binary"), limits, [], tilted=True)
+    found = foreign_method(command("tilted", "binary"), limits, [], tilted=True)
     plan = BenchPlan(tilted=True, foreign=(found,))
     assert found.name in contenders(plan)
     with pytest.raises(InputError, match='its description has no "tilt": true'):
-        foreign.foreign_method(command("right", "binary"), limits, [], tilted=True)
+        foreign_method(command("right", "binary"), limits, [], tilted=True)
 
 
 def test_bench_tilted_records_that_coal_is_missing_where_it_is_not_installed(tmp_path):

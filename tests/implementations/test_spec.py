@@ -16,7 +16,7 @@ from hypcheck.implementations import description
 from hypcheck.implementations.builtin import builtin
 from hypcheck.implementations.frames import WIDTH
 from hypcheck.implementations.implementation import open_implementation
-from hypcheck.implementations.output import KEPT, OutputTail, quoted, stderr_excerpt
+from hypcheck.implementations.process import KEPT, OutputTail, quoted, stderr_excerpt
 from hypcheck.implementations.session import Outcome
 from hypcheck.implementations.spec import parse_spec
 from hypcheck.messages import escaped

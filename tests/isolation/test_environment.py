@@ -8,7 +8,7 @@ import sys
 import pytest
 
 from hypcheck.cli.main import main
-from hypcheck.implementations.output import OutputTail, quoted
+from hypcheck.implementations.process import OutputTail, quoted
 from hypcheck.isolation.launch import VARIABLES, environment_of, masked
 
 RUNTIMES = {"PATH": "/bin", "PYTHONPATH": "lib", "JAVA_HOME": "/opt/java", "OMP_NUM_THREADS": "1", "R_LIBS": "/r"}

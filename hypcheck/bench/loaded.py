@@ -1,27 +1,29 @@
-"""A contender: a method, its language, how a measuring process loads it, and how one loop of it is called.
+"""Methods that are loaded in a measuring process, and the work of one loop of each, ready to be timed.
 
-A method is called in a batch and one row at a time; a mesh is also built.
+A method is called in a batch and one row at a time; a mesh is also built. A method is a function in Python of rows or
+of numbers, a collision engine with its meshes, or a SPEC that runs in a separate process and is timed by its own clock
+if it offers one; c_library.py has methods in C.
 """
 
 from __future__ import annotations
 
-import dataclasses
+import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import partial
-from typing import Any, Protocol
+from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hypcheck.bench.workloads import scene_of
 from hypcheck.geometry.pair import Sizes
 from hypcheck.geometry.rows import CANNOT_SAY, PAIRS, Layout, Rows
-from hypcheck.implementations.description import QUESTIONS
-from hypcheck.implementations.domain import claimed
+from hypcheck.implementations.frames import LARGEST
+from hypcheck.implementations.implementation import Implementation
 from hypcheck.implementations.meshes import height_of, rows_by_sizes
-from hypcheck.implementations.method import Answers, Method, MethodClaims
-from hypcheck.runs.timing import Clocked, clocked
+from hypcheck.implementations.method import Answers
+from hypcheck.implementations.session import TimingError
+from hypcheck.runs.timing import Clocked, TimingRefusedError, clocked
 
 Answering = Callable[[Rows], Answers]
 
@@ -243,45 +245,83 @@ class InEngine(LoadedMethod):
         self.meshes.clear()
 
 
-@dataclass(frozen=True, kw_only=True)
-class Contender(MethodClaims):
-    """A method, with the settings of its comparison.
+@dataclass
+class RunningForeign(LoadedMethod):
+    """A running implementation; `kind` is that of its SPEC. `trouble` says why rows have no answer."""
 
-    `tier` is its language or engine: "C", "numpy", "python", "FCL" or "foreign"; `kind` is its kind of algorithm. At
-    most `judged` rows of a workload are judged; in a quick run `quick_judged`, or a quarter if `judged` is small.
-    `timed` rows make a timed batch. Its first `singles` rows are also timed one by one; they are enough that a branch
-    predictor does not learn them. `amortised` says whether a mesh is built once for a scene or for each row. `load`
-    loads the method. `scenes`, if not None, is the
-    largest number of different sizes in a workload that it can take. `quick` says whether it is fast enough for a quick
-    run; a quick run includes slower methods only if they are named.
-    """
-
-    tier: str
+    implementation: Implementation
     kind: str
-    load: Callable[[], LoadedMethod]
-    judged: int | None = None
-    timed: int | None = None
-    singles: int = 32
-    amortised: str | None = None
-    accuracy_only: bool = False
-    note: str = ""
-    scenes: int | None = None
-    quick: bool = True
-    quick_judged: int | None = None
 
-    def asked(self, rows: Rows) -> NDArray[np.intp]:
-        """The indices of the rows that it must answer: inside its domain, with numbers of its format."""
-        if self.scenes is not None and len(np.unique(rows[:, :4], axis=0)) > self.scenes:
-            return np.empty(0, dtype=np.intp)
-        return claimed(rows, self.domain, self.precision, layout=QUESTIONS[self.question].layout)[: self.judged]
+    def answer(self, rows: Rows) -> Answers:
+        """The implementation's answers; CANNOT_SAY for rows without one."""
+        return self._asked(rows, by_scene=False)
+
+    def batch(self, rows: Rows) -> PreparedWork:
+        """All rows in one question; as a scene if the implementation offers scenes and the rows share their sizes."""
+        rows, by_scene = rows[:LARGEST], self.implementation.scene and scene_of(rows) is not None
+        answers = partial(self._asked, rows, by_scene=by_scene)
+        if self._clock is None:
+            return PreparedWork(len(rows), self._round_trips(rows), answers, "process")
+        return PreparedWork(len(rows), self._times(rows, answers, by_scene=by_scene), answers, self._clock)
+
+    def single(self, rows: Rows) -> PreparedWork | None:
+        """A question for each row; None for a command without a clock, since the time would be that of the pipe."""
+        if self._clock is None:
+            return None
+        answers = partial(self._asked, rows, by_scene=False)
+        return PreparedWork(len(rows), self._times(rows, answers, row_by_row=True), answers, self._clock)
+
+    def empty(self, rows: Rows, mode: str) -> EmptyCall | None:
+        """The empty call: of a library one that does nothing, of a command without a clock a question about one row."""
+        name = f"of {self.implementation.spec}"
+        if self._clock is None and mode == "batch":
+            return EmptyCall(name, PreparedWork(1, self._round_trips(rows[:1]), partial(self.answer, rows[:1])))
+        if self.kind == "library" and mode == "single":
+            calls = self._times(rows[:0], _none, row_by_row=True)
+            return EmptyCall(name, PreparedWork(1, calls, _none))
+        return None
+
+    def close(self) -> None:
+        """End the program."""
+        self.implementation.close()
+
+    @property
+    def _clock(self) -> str | None:
+        if self.kind == "command":
+            return "time protocol" if self.implementation.declared.time else None
+        return "worker"
+
+    def _asked(self, rows: Rows, *, by_scene: bool) -> Answers:
+        answered = self.implementation.classify(rows, by_scene=by_scene and len(rows) > 0)
+        if answered.reasons:
+            place, reason = next(iter(answered.reasons.items()))
+            self.trouble = f"{reason}; the row is {', '.join(map(repr, rows[place].tolist()))}"
+        return answered.answers
+
+    def _times(
+        self, rows: Rows, answers: Callable[[], Answers], *, by_scene: bool = False, row_by_row: bool = False
+    ) -> Clocked:
+        """The time by the clock of the implementation, whose checksum Implementation.time checks."""
+        right = int(answers().sum(dtype=np.int64))
+
+        def run(repeat: int) -> tuple[int, int]:
+            try:
+                took = self.implementation.time(rows, repeat, by_scene=by_scene, row_by_row=row_by_row)
+            except TimingError as error:
+                raise TimingRefusedError(str(error)) from None
+            return took or 0, right
+
+        return run
+
+    def _round_trips(self, rows: Rows) -> Clocked:
+        def run(repeat: int) -> tuple[int, int]:
+            started = time.perf_counter_ns()
+            for _ in range(repeat):
+                answers = self.implementation.classify(rows, batch=len(rows)).answers
+            return time.perf_counter_ns() - started, int(answers.sum(dtype=np.int64))
+
+        return run
 
 
-def of_method(method: Method, tier: str, kind: str, **fields: Any) -> Contender:  # noqa: ANN401 - of a contender
-    """A built-in method as a contender; `fields` replace the method's values and the defaults."""
-    claims: dict[str, Any] = {claim.name: getattr(method, claim.name) for claim in dataclasses.fields(MethodClaims)}
-    return Contender(tier=tier, kind=kind, **{"load": partial(in_python, method), **claims, **fields})
-
-
-def in_python(method: Method) -> InPython:
-    """A built-in method, loaded."""
-    return InPython(method.answer, None if method.scene is None else method.scene())
+def _none() -> Answers:
+    return np.empty(0, dtype=np.int8)
