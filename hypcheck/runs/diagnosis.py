@@ -101,37 +101,30 @@ def _joined(parts: Sequence[Explained]) -> Explained:
     return structs.replace(worst, cases=sum(explained.cases for explained in parts))
 
 
-@dataclass(frozen=True)
-class Diagnosis:
-    """Wrong answers by the set of causes that explain them, and how many right answers deny each cause, by name.
-
-    A tally has the same two fields.
-    """
-
-    explained: list[Explained] = field(default_factory=list)
-    denied: dict[str, int] = field(default_factory=dict)
-
-
-def merged(parts: Iterable[Diagnosis | Tally]) -> Diagnosis:
-    """The sum of these diagnoses, the same in any order; the sets of causes are sorted."""
-    denied: Counter[str] = Counter()
+def merged(parts: Iterable[Explained]) -> list[Explained]:
+    """The sums of wrong answers that the same causes explain, the same in any order; the sets of causes are sorted."""
     by_set: dict[int, list[Explained]] = {}
-    for part in parts:
-        denied.update(part.denied)
-        for explained in part.explained:
-            by_set.setdefault(int(explained.causes, 16), []).append(explained)
-    return Diagnosis([_joined(by_set[causes]) for causes in sorted(by_set)], dict(sorted(denied.items())))
+    for explained in parts:
+        by_set.setdefault(int(explained.causes, 16), []).append(explained)
+    return [_joined(by_set[causes]) for causes in sorted(by_set)]
 
 
-def diagnose(
-    answered: AnsweredRows, wrong: Sequence[WrongCase], right: Sequence[int], named: Sequence[tuple[Place, str]]
-) -> Diagnosis:
-    """The diagnosis of answers to rows: the wrong cases, their places and ids, and the indices of the right answers."""
+def with_diagnosis(
+    tally: Tally,
+    answered: AnsweredRows,
+    wrong: Sequence[WrongCase],
+    right: Sequence[int],
+    named: Sequence[tuple[Place, str]],
+) -> Tally:
+    """The tally of answers to rows with its diagnosis.
+
+    `wrong` are the wrong cases, `named` their places and ids, and `right` the indices of the right answers.
+    """
     failing = [
         (case, place_and_name) for case, place_and_name in zip(wrong, named, strict=True) if case.status in FAILING
     ]
     if not failing:
-        return Diagnosis()
+        return tally
     witnesses = list(right[:: max(1, -(-len(right) // WITNESSES))])
     share = len(right) / len(witnesses) if witnesses else 0.0
     places = [case.index for case, _ in failing]
@@ -152,10 +145,8 @@ def diagnose(
     for causes, one in zip(sets, failing, strict=True):
         by_set.setdefault(causes, []).append(one)
     layout = answered.criterion.layout
-    return Diagnosis(
-        [_explained(causes, by_set[causes], layout) for causes in sorted(by_set)],
-        dict(sorted(denied.items())),
-    )
+    explained = [_explained(causes, by_set[causes], layout) for causes in sorted(by_set)]
+    return structs.replace(tally, explained=explained, denied=dict(sorted(denied.items())))
 
 
 def _explained(causes: int, some: Sequence[tuple[WrongCase, tuple[Place, str]]], layout: Layout) -> Explained:
@@ -245,20 +236,20 @@ CLEAN = 16
 
 
 def causes_of(
-    diagnoses: Mapping[str, Diagnosis | Tally], clean: Sequence[str], criterion: Criterion, domain: Domain
+    tallies: Mapping[str, Tally], clean: Sequence[str], criterion: Criterion, domain: Domain
 ) -> list[CountedCause]:
     """The accepted causes after all families: those with most wrong answers first, unexplained answers last.
 
     `clean` are the tested families without a wrong answer.
     """
-    by_subject: dict[str, dict[str, Diagnosis | Tally]] = {}
-    for family, diagnosis in diagnoses.items():
-        if diagnosis.explained:
-            numbers = numbers_of(diagnosis.explained[0].worst)
-            by_subject.setdefault(criterion.layout.subject(numbers), {})[family] = diagnosis
+    by_subject: dict[str, dict[str, Tally]] = {}
+    for family, tally in tallies.items():
+        if tally.explained:
+            numbers = numbers_of(tally.explained[0].worst)
+            by_subject.setdefault(criterion.layout.subject(numbers), {})[family] = tally
     if not by_subject:
         return []
-    explaining = {int(explained.causes, 16) for diagnosis in diagnoses.values() for explained in diagnosis.explained}
+    explaining = {int(explained.causes, 16) for tally in tallies.values() for explained in tally.explained}
     suspects = [cause for cause in CAUSES if any(causes & _bits([cause]) for causes in explaining)]
     denied: Counter[str] = Counter()
     for answered in _right_answers(clean, criterion, domain):
@@ -267,7 +258,7 @@ def causes_of(
                 denied[cause.name] += _against(cause, answered, cause.rule(answered))
     named: dict[str, list[CountedCause]] = {}
     for part in by_subject.values():
-        for one in _standing(part, denied):
+        for one in _accepted(part, denied):
             named.setdefault(one.cause.name if one.cause else "", []).append(one)
     return sorted(
         map(_in_all_families, named.values()),
@@ -303,14 +294,16 @@ def _in_all_families(some: list[CountedCause]) -> CountedCause:
     return CountedCause(some[0].cause, dict(sorted(families.items())), _joined([counted.worst for counted in some]))
 
 
-def _standing(diagnoses: Mapping[str, Diagnosis | Tally], elsewhere: Mapping[str, int]) -> list[CountedCause]:
+def _accepted(tallies: Mapping[str, Tally], elsewhere: Mapping[str, int]) -> list[CountedCause]:
     """The accepted causes for the families of one subject; `elsewhere` holds denials in other families."""
-    denied = Counter(merged(diagnoses.values()).denied) + Counter(elsewhere)
+    denied = Counter(elsewhere)
+    for tally in tallies.values():
+        denied.update(tally.denied)
     left = _Left(
         {
             (family, int(explained.causes, 16)): explained
-            for family, one in diagnoses.items()
-            for explained in one.explained
+            for family, tally in tallies.items()
+            for explained in tally.explained
         }
     )
 

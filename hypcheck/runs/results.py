@@ -26,7 +26,7 @@ from hypcheck.record.progress import Place, Tally
 from hypcheck.runs import judge, tally
 from hypcheck.runs.cases import CaseChunk, ChunkCases, cases_of_chunk, flip_exponents_of
 from hypcheck.runs.causes import AnsweredRows
-from hypcheck.runs.diagnosis import Diagnosis, diagnose
+from hypcheck.runs.diagnosis import with_diagnosis
 from hypcheck.runs.judge import Criterion, Status, WrongCase
 from hypcheck.runs.known_failures import KnownFailure, entries_about
 from hypcheck.runs.score import Score, as_slice, score, status_of, unanswered_cases
@@ -216,28 +216,17 @@ def result_of_final(
     answered = AnsweredRows(scored.rows, scored.truth, scored.answers, scored.criterion, scored.times)
     wrong, excusing = _excused(list(scored.judged()), made.chunk, indices, answered, rules)
     tallied = scored.tally(made.chunk, indices, flip_exponents_of(made, indices), left_out=left_out, wrong=wrong)
+    if wrong:
+        right = np.flatnonzero(scored.status == STATUS_CODES[Status.RIGHT]).tolist()
+        cases = [int(indices[case.index]) for case in wrong]
+        named = [(made.chunk.place(case), made.chunk.name(case)) for case in cases]
+        tallied = with_diagnosis(tallied, answered, wrong, right, named)
     fresh = len(indices) if rules.are_fresh(made.chunk) else 0
-    diagnosed = _diagnosed(made.chunk, indices, scored, answered, wrong)
     return CasesResult(
-        tallies={
-            made.chunk.family: structs.replace(
-                tallied, explained=diagnosed.explained, denied=diagnosed.denied, fresh=fresh
-            )
-        },
+        tallies={made.chunk.family: structs.replace(tallied, fresh=fresh)},
         excusing=frozenset(excusing),
         named=frozenset(_named_cases(made.chunk, indices, rules.known)),
     )
-
-
-def _diagnosed(
-    chunk: CaseChunk, indices: Indices, scored: Score, answered: AnsweredRows, wrong: Sequence[WrongCase]
-) -> Diagnosis:
-    """The diagnosis of the wrong answers to the cases `indices` (n,) of a chunk, by causes."""
-    if not wrong:
-        return Diagnosis()
-    right = np.flatnonzero(scored.status == STATUS_CODES[Status.RIGHT]).tolist()
-    cases = [int(indices[case.index]) for case in wrong]
-    return diagnose(answered, wrong, right, [(chunk.place(case), chunk.name(case)) for case in cases])
 
 
 def _first_pending(chunk: CaseChunk, indices: Indices, least: int) -> int:

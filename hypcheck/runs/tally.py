@@ -140,7 +140,6 @@ EMPTY = Tally(
 def merged_tally(tallies: Iterable[Tally]) -> Tally:
     """The tally of all cases of these tallies, which may come in any order."""
     parts = tuple(tallies)
-    diagnosed = diagnosis.merged(parts)
     return Tally(
         asked=sum(part.asked for part in parts),
         fresh=sum(part.fresh for part in parts),
@@ -154,8 +153,8 @@ def merged_tally(tallies: Iterable[Tally]) -> Tally:
         place_bins=added(part.place_bins for part in parts),
         worst=sorted((case for part in parts for case in part.worst), key=rank_of)[:WORST_KEPT],
         faults=kept_unanswered(case for part in parts for case in part.faults),
-        explained=diagnosed.explained,
-        denied=diagnosed.denied,
+        explained=diagnosis.merged(explained for part in parts for explained in part.explained),
+        denied=dict(sorted(_added(part.denied for part in parts).items())),
     )
 
 

@@ -13,9 +13,10 @@ from hypcheck.implementations.domain import EVERYWHERE
 from hypcheck.implementations.session import Answered
 from hypcheck.record.fields import row_of
 from hypcheck.runs.causes import SILENT, AnsweredRows, Scope
-from hypcheck.runs.diagnosis import CAUSES, PLACE_CAUSES, Diagnosis, causes_of, diagnose, merged
+from hypcheck.runs.diagnosis import CAUSES, PLACE_CAUSES, causes_of, with_diagnosis
 from hypcheck.runs.judge import Criterion, Mistake, Status, WrongCase
 from hypcheck.runs.score import score
+from hypcheck.runs.tally import EMPTY, merged_tally
 from hypcheck.vectors.frozen import load
 
 FAMILIES = ("ring", "ring-neighbourhood", "out-of-regime", "coefficient-zero", "near-axis", "uniform")
@@ -24,7 +25,7 @@ ORDINARY = Criterion()
 
 def diagnosed(implementation, families=FAMILIES, criterion=ORDINARY, step=1):
     """The causes, None of what is unexplained, with the number of wrong answers; and how many are wrong in all."""
-    diagnoses, clean, wrong = {}, [], 0
+    tallies, clean, wrong = {}, [], 0
     for family in families:
         found = load(family)
         rows, positions, ids = found.rows[::step], found.positions[::step], found.ids[::step]
@@ -33,11 +34,11 @@ def diagnosed(implementation, families=FAMILIES, criterion=ORDINARY, step=1):
         cases = [case for case in scored.judged() if case.status == "wrong"]
         right = np.flatnonzero(given == positions).tolist()
         named = [((0, case.index), ids[case.index]) for case in cases]
-        diagnoses[family] = diagnose(AnsweredRows(rows, positions, given, criterion), cases, right, named)
+        tallies[family] = with_diagnosis(EMPTY, AnsweredRows(rows, positions, given, criterion), cases, right, named)
         wrong += len(cases)
         if not cases:
             clean.append(family)
-    causes = causes_of(diagnoses, clean, criterion, EVERYWHERE)
+    causes = causes_of(tallies, clean, criterion, EVERYWHERE)
     return {each.cause and each.cause.name: each.cases for each in causes}, wrong
 
 
@@ -139,12 +140,12 @@ def test_diagnoses_can_be_merged_in_any_order():
     cases = list(scored.judged())
     answered = AnsweredRows(found.rows, found.positions, given, ORDINARY)
     parts = [
-        diagnose(answered, some, [], [((0, case.index), found.ids[case.index]) for case in some])
+        with_diagnosis(EMPTY, answered, some, [], [((0, case.index), found.ids[case.index]) for case in some])
         for some in (cases[:50], cases[50:90], cases[90:])
     ]
-    assert merged(parts) == merged(parts[::-1]) == merged([merged(parts[:2]), parts[2]])
-    assert sum(each.cases for each in merged(parts).explained) == len(cases)
-    assert merged([]) == Diagnosis()
+    assert merged_tally(parts) == merged_tally(parts[::-1]) == merged_tally([merged_tally(parts[:2]), parts[2]])
+    assert sum(each.cases for each in merged_tally(parts).explained) == len(cases)
+    assert merged_tally([]) == EMPTY
 
 
 def test_wrong_answers_that_no_rule_gives_at_all_are_counted_as_unexplained():
@@ -152,8 +153,8 @@ def test_wrong_answers_that_no_rule_gives_at_all_are_counted_as_unexplained():
     clear = np.flatnonzero(found.positions == 1)[:1]
     answered = AnsweredRows(found.rows[clear], found.positions[clear], np.array([7], dtype=np.int8), ORDINARY)
     case = WrongCase(0, tuple(answered.rows[0].tolist()), 1, 7, Mistake.FALSE_CONTACT, Status.WRONG, -1.0)
-    diagnoses = {"uniform": diagnose(answered, [case], [], [((0, 0), "uniform-0000")])}
-    (counted,) = causes_of(diagnoses, [], ORDINARY, EVERYWHERE)
+    tallies = {"uniform": with_diagnosis(EMPTY, answered, [case], [], [((0, 0), "uniform-0000")])}
+    (counted,) = causes_of(tallies, [], ORDINARY, EVERYWHERE)
     assert (counted.cause, counted.families) == (None, {"uniform": 1})
     kept = counted.worst.worst
     assert (row_of(kept), kept.answer, kept.mistake, counted.worst.exponent) == (case.row, 7, case.mistake, -1.0)
