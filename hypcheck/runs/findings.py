@@ -28,8 +28,8 @@ from hypcheck.implementations.domain import EVERYWHERE
 from hypcheck.implementations.method import Method
 from hypcheck.implementations.session import Answered
 from hypcheck.record.lines import FindingLine, GroupLine, MapLine
-from hypcheck.record.progress import Place
 from hypcheck.runs import judge, tally
+from hypcheck.runs.cases import CaseChunk
 from hypcheck.runs.judge import DEFAULT_TOLERANCE, Criterion
 from hypcheck.runs.results import JudgingRules
 from hypcheck.runs.score import score
@@ -38,7 +38,6 @@ from hypcheck.truth.exact import Decision
 from hypcheck.truth.kinds import Kind
 from hypcheck.truth.pencil import cubic
 from hypcheck.vectors.draw import Family
-from hypcheck.vectors.families import case_id
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,13 +72,11 @@ class SelfCheckPlan:
 
 @dataclass(frozen=True)
 class Batch:
-    """Cases of one family from `start` on: the ids by which they can be replayed, their rows, and exact decisions."""
+    """Cases of one family with their rows and exact decisions."""
 
-    family: Family
-    ids: tuple[str, ...]
+    chunk: CaseChunk
     rows: Rows
     decisions: tuple[Decision, ...]
-    start: int = 0
 
     @cached_property
     def positions(self) -> Positions:
@@ -88,22 +85,14 @@ class Batch:
 
     def head(self, count: int) -> Batch:
         """The first `count` cases."""
-        return replace(self, ids=self.ids[:count], rows=self.rows[:count], decisions=self.decisions[:count])
-
-    def name(self, index: int) -> str:
-        """The id of a case."""
-        return self.ids[index]
-
-    def place(self, index: int) -> Place:
-        """The place of a case in the family."""
-        return 1, self.start + index
+        return Batch(self.chunk.between(0, min(count, len(self.rows))), self.rows[:count], self.decisions[:count])
 
 
 def batch_of(family: Family, seed: int, start: int, stop: int) -> Batch:
     """The cases of one family from `start` to `stop` − 1, decided exactly."""
     rows = np.ascontiguousarray(family.columns_between(seed, start, stop).T)
     decisions = tuple(exact.decide(Pair.from_row(row).lengths) for row in rows.tolist())
-    return Batch(family, tuple(case_id(family, seed, index) for index in range(start, stop)), rows, decisions, start)
+    return Batch(CaseChunk(family.name, seed, start, stop), rows, decisions)
 
 
 def mathematical_findings(formula: Formula, batch: Batch, plan: SelfCheckPlan) -> list[FindingLine]:
@@ -121,12 +110,12 @@ def mathematical_findings(formula: Formula, batch: Batch, plan: SelfCheckPlan) -
     return [
         FindingLine(
             formula=formula.name,
-            family=batch.family.name,
+            family=batch.chunk.family,
             inside=side,
             cause=why,
             asked=int((inside == side).sum()),
             wrong=len(places),
-            first_case=batch.name(places[0]),
+            first_case=batch.chunk.name(places[0]),
             first_row=tuple(value.hex() for value in batch.rows[places[0]].tolist()),
             reason=None,
         )
@@ -154,13 +143,13 @@ def method_group(method: Method, batch: Batch, exponents: NDArray[np.float64], p
     """The record's line about one method and one family; `exponents` as in Score.tally, of all the batch's rows."""
     tolerance = Fraction(0) if method.exact else plan.tolerance
     criterion = Criterion(method.question, method.precision, tolerance)
-    inside, left_out = JudgingRules(criterion, method.domain).asked_of(batch.family.name, batch.rows)
+    inside, left_out = JudgingRules(criterion, method.domain).asked_of(batch.chunk.family, batch.rows)
     places = inside[: method.max_rows]
     rows = batch.rows[places]
     scored = score(rows, batch.positions[places], Answered.of(method.answer(rows)), criterion)
-    tallied = scored.tally(batch, places, exponents[places], left_out=left_out)
+    tallied = scored.tally(batch.chunk, places, exponents[places], left_out=left_out)
     return tally.group_line(
-        tallied, batch.family.name, criterion, method=method.name, title=method.title, exact=method.exact
+        tallied, batch.chunk.family, criterion, method=method.name, title=method.title, exact=method.exact
     )
 
 

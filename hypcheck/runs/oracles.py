@@ -22,6 +22,7 @@ from hypcheck.geometry.pair import COLUMNS, Pair, Position
 from hypcheck.geometry.rows import PAIRS, Rows
 from hypcheck.record.fields import row_fields
 from hypcheck.record.lines import DisagreementPart, OracleLine
+from hypcheck.runs.cases import CaseChunk
 from hypcheck.runs.findings import Batch, SelfCheckPlan
 from hypcheck.truth import exact, least, mesh, mesh_oracle, nearest_rows, roots, sections
 from hypcheck.truth.certificate import Certificate, check_certificate
@@ -147,7 +148,7 @@ def frozen_batch(family: Family, count: int) -> Batch:
     """The first `count` frozen vectors of such a family."""
     cases = frozen.load(family.name).cases[:count]
     decisions = tuple(Decision(case.position, _limit_of(case)) for case in cases)
-    return Batch(family, tuple(case.id for case in cases), np.asarray([case.row for case in cases]), decisions)
+    return Batch(CaseChunk(family.name, None, 0, len(cases)), np.asarray([case.row for case in cases]), decisions)
 
 
 def _limit_of(case: Vector) -> Position | None:
@@ -179,7 +180,7 @@ def shares(plan: SelfCheckPlan, family: Family, families: Sequence[Family]) -> d
 
 def oracle_lines(batch: Batch, shares: Mapping[str, int]) -> list[OracleLine]:
     """The record's lines about a batch, for each oracle: about its share of the family's first cases."""
-    parts = ((oracle, batch.rows[: max(0, share - batch.start)]) for oracle, share in shares.items())
+    parts = ((oracle, batch.rows[: max(0, share - batch.chunk.start)]) for oracle, share in shares.items())
     return [_oracle_line(oracle, batch, rows) for oracle, rows in parts if len(rows)]
 
 
@@ -192,7 +193,7 @@ def _oracle_line(oracle: str, batch: Batch, rows: Rows) -> OracleLine:
     disagreements = [
         DisagreementPart(
             oracle=oracle,
-            case=batch.name(index),
+            case=batch.chunk.name(index),
             **row_fields(rows[index].tolist()),
             exact=words[0],
             opinion=words[1],
@@ -202,7 +203,7 @@ def _oracle_line(oracle: str, batch: Batch, rows: Rows) -> OracleLine:
     ]
     return OracleLine(
         oracle=oracle,
-        family=batch.family.name,
+        family=batch.chunk.family,
         asked=len(opinions),
         undecided=sum(opinion.position is None for opinion in opinions),
         stages=dict(sorted(Counter(opinion.stage for opinion in opinions).items())),

@@ -35,7 +35,7 @@ def batches():
 
 @pytest.mark.slow
 def test_tilted_oracles_decide_the_frozen_vectors_of_every_family_except_the_extreme_one(batches):
-    assert [batch.family.name for batch in batches] == [n for n in frozen.TILTED_NAMES if not n.startswith("extreme")]
+    assert [batch.chunk.family for batch in batches] == [n for n in frozen.TILTED_NAMES if not n.startswith("extreme")]
     assert all(batch.rows.shape == (6, 10) for batch in batches)
     assert batches[0].name(3) == "tilted-uniform-0003"
     assert oracles.frozen_families(SelfCheckPlan(families=("ring",))) == ()
@@ -50,7 +50,7 @@ def ended():
 @pytest.mark.skipif(ORACLES["mesh"].available() is not None, reason="python-fcl is not installed")
 def test_four_oracles_decide_frozen_vectors_and_agree_with_the_labels(batches, ended):
     """Of three families each; tests/test_corpus.py asks all oracles about all."""
-    assert {batch.family.name for batch in ended} == set(frozen.ENDED_NAMES)
+    assert {batch.chunk.family for batch in ended} == set(frozen.ENDED_NAMES)
     for names, some in ((ASKED, batches[:3]), (ENDED, ended[:3])):
         for batch in some:
             found = oracles.oracle_lines(batch, {name: int(name in names) for name in ORACLES})
@@ -63,7 +63,7 @@ def test_four_oracles_decide_frozen_vectors_and_agree_with_the_labels(batches, e
 def test_wrong_oracle_for_hyperboloids_that_end_is_reported_with_their_heights(monkeypatch, ended, name):
     wrong = replace(ORACLES[name], ask=lambda rows: [Opinion(Position.INTERIOR)] * len(rows))
     monkeypatch.setitem(oracles.ORACLES, name, wrong)
-    opening = next(batch for batch in ended if batch.family.name == "ended-rim")
+    opening = next(batch for batch in ended if batch.chunk.family == "ended-rim")
     (found,) = oracles.oracle_lines(opening, {name: 4})
     assert found.disagreeing == sum(decision.position is not Position.INTERIOR for decision in opening.decisions) > 0
     assert len(found.disagreements[0].heights) == 3
@@ -87,7 +87,7 @@ def test_roots_oracle_gets_all_upright_rows_by_default_a_tenth_as_many_tilted_on
 def test_wrong_oracle_for_tilted_spheroids_is_reported_as_disagreeing(monkeypatch, batches, name):
     wrong = replace(ORACLES[name], ask=lambda rows: [Opinion(Position.CONTACT, tangent=False)] * len(rows))
     monkeypatch.setitem(oracles.ORACLES, name, wrong)
-    ring = next(batch for batch in batches if batch.family.name == "tilted-ring")
+    ring = next(batch for batch in batches if batch.chunk.family == "tilted-ring")
     (found,) = oracles.oracle_lines(ring, {name: 4})
     assert len(found.disagreements) == found.asked == 4
     assert found.disagreements[0].case == "tilted-ring-0000"
@@ -98,7 +98,7 @@ def test_wrong_oracle_for_tilted_spheroids_is_reported_as_disagreeing(monkeypatc
 def test_a_tangency_that_an_oracle_calls_a_crossing_is_a_disagreement(monkeypatch, batches):
     wrong = replace(ORACLES["roots"], ask=lambda rows: [Opinion(Position.CONTACT, tangent=False)] * len(rows))
     monkeypatch.setitem(oracles.ORACLES, "roots", wrong)
-    tangent = next(batch for batch in batches if batch.family.name == "tilted-tangent")
+    tangent = next(batch for batch in batches if batch.chunk.family == "tilted-tangent")
     (found,) = oracles.oracle_lines(tangent, {"roots": 4})
     assert found.disagreeing == found.asked == 4
 
@@ -108,7 +108,7 @@ def test_oracle_decides_only_cases_of_a_later_batch_that_are_among_the_first_of_
     later, none = batch_of(uniform, 1, 400, 410), batch_of(uniform, 1, 403, 410)
     assert [line.asked for line in oracles.oracle_lines(later, {"exact": 405, "roots": 403})] == [5, 3]
     assert oracles.oracle_lines(none, {"roots": 403}) == []
-    assert none.name(0) == case_id(uniform, 1, 403)
+    assert none.chunk.name(0) == case_id(uniform, 1, 403)
     assert none.rows.tolist() == uniform.rows(1, 410)[403:].tolist()
 
 
