@@ -37,7 +37,7 @@ def batches():
 def test_tilted_oracles_decide_the_frozen_vectors_of_every_family_except_the_extreme_one(batches):
     assert [batch.chunk.family for batch in batches] == [n for n in frozen.TILTED_NAMES if not n.startswith("extreme")]
     assert all(batch.rows.shape == (6, 10) for batch in batches)
-    assert batches[0].name(3) == "tilted-uniform-0003"
+    assert batches[0].chunk.name(3) == "tilted-uniform-0003"
     assert oracles.frozen_families(SelfCheckPlan(families=("ring",))) == ()
 
 
