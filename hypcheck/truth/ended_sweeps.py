@@ -183,8 +183,8 @@ def _with_all_roots(polynomials: Sequence[Polynomial]) -> Polynomial:
     return primitive(product)
 
 
-def _clear_in_pieces(sweep: EndedSweep, pieces: int = 4) -> bool:
-    return all(sweep.clear(Fraction(place, pieces), Fraction(place + 1, pieces)) for place in range(pieces))
+def _clear_in_pieces(sweep: EndedSweep) -> bool:
+    return all(sweep.clear(Fraction(place, 4), Fraction(place + 1, 4)) for place in range(4))
 
 
 def _clusters(critical: Sequence[Polynomial], bits: int) -> list[Interval]:

@@ -21,7 +21,7 @@ from hypcheck.geometry.arithmetic import dot
 from hypcheck.geometry.pair import COLUMNS, SIZES
 from hypcheck.geometry.rows import Floats, Mask, Rows
 from hypcheck.truth.box_proofs import SHARES, BoxKind, Form, Goal, Margin, Place, stays_clear, stays_off
-from hypcheck.truth.distances import multipliers
+from hypcheck.truth.nearest_tilted import multipliers
 
 LEAST = -46
 """Changes below 2^LEAST are not tried: there float64 intervals tell nothing."""

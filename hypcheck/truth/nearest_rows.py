@@ -5,8 +5,8 @@ the centre to the hyperboloid is over 1; else it is in contact (docs/mathematics
 distance comes from its Lagrange dual, which has no duality gap: every value of the dual is a lower bound, so no answer
 rests on an iteration having converged. Nothing is shared with the other oracles.
 
-Upright rows are decided here and other rows in distances.py, with an error bound that shows which answers are certain.
-Exact enclosures decide the rest, pair by pair (nearest.py). All round the clearance to the same float64.
+Upright rows are decided here, other rows in nearest_tilted.py, with an error bound that shows which answers are
+certain. Exact enclosures decide the rest, pair by pair (nearest.py). All round the clearance to the same float64.
 
 **Upright.** The dual function: on (−A, B)
 
@@ -35,10 +35,10 @@ from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import COLUMNS, Pair
 from hypcheck.geometry.rows import Floats, Mask, Positions, Rows, require_valid, upright_mask
-from hypcheck.truth import distances, double_double
-from hypcheck.truth.distances import Decided
+from hypcheck.truth import double_double, nearest_tilted
 from hypcheck.truth.double_double import DoubleDouble
 from hypcheck.truth.nearest import NearestStage, nearest
+from hypcheck.truth.nearest_tilted import Decided
 
 _CHUNK = 4096
 """Rows whose intermediate arrays fit in a core's second-level cache."""
@@ -80,7 +80,7 @@ def _run(rows: Rows, *, clearances_wanted: bool) -> NearestBatch:
     upright = upright_mask(rows)
     for places, decide, width in (
         (np.flatnonzero(upright), decide_upright, len(COLUMNS)),
-        (np.flatnonzero(~upright), distances.decide, rows.shape[1]),
+        (np.flatnonzero(~upright), nearest_tilted.decide, rows.shape[1]),
     ):
         for begin in range(0, len(places), _CHUNK):
             chunk = places[begin : begin + _CHUNK]

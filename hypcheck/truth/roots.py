@@ -16,7 +16,7 @@ not in a table is an error of this program, never an answer.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import combinations, pairwise
@@ -101,30 +101,26 @@ class Invariants:
         )
 
 
-def classify_by_roots(
-    pair: Pair, kinds: Mapping[str, Kind] = KIND_OF, sides: Mapping[str, Side] = MEANING
-) -> RootReport:
-    """The position of a pair by the roots, and the kind of an upright one. `kinds` and `sides` are the tables.
+def classify_by_roots(pair: Pair) -> RootReport:
+    """The position of a pair by the roots, and the kind of an upright one.
 
     Raises AssertionError, naming the pair, if the pattern is not in the table: an error of this program.
     """
     try:
         if pair.is_upright:
-            return classify_invariants(Invariants.of(pair), kinds, sides)
-        return _position(*roots_outward(characteristic(pair.lengths), *poles(pair.lengths)), sides)
+            return classify_invariants(Invariants.of(pair))
+        return _position(*roots_outward(characteristic(pair.lengths), *poles(pair.lengths)))
     except AssertionError as error:
         raise AssertionError(f"{error}, for {pair}") from error
 
 
-def classify_invariants(
-    pair: Invariants, kinds: Mapping[str, Kind] = KIND_OF, sides: Mapping[str, Side] = MEANING
-) -> RootReport:
+def classify_invariants(pair: Invariants) -> RootReport:
     """As classify_by_roots, for an upright pair given by its invariants, which need not come from float64 numbers."""
     roots = _upright_roots(pair)
     pattern = pattern_of(of_both_sides(*roots))
     occurs = _occurs(pair)
     possible = [kind for kind in Kind if occurs[kind.occurs]]
-    kind, report = kinds.get(pattern), _position(*roots, sides)
+    kind, report = KIND_OF.get(pattern), _position(*roots)
     if kind not in possible or (kind.position, kind.tangent) != (report.position, report.tangent):
         raise AssertionError(f"the roots of g form a pattern that is not possible: {pattern}")
     literal_kinds = same_signs(pattern, possible)
@@ -138,11 +134,9 @@ def classify_invariants(
     )
 
 
-def _position(
-    roots_below: Iterable[tuple[str, int]], roots_above: Iterable[tuple[str, int]], table: Mapping[str, Side]
-) -> RootReport:
+def _position(roots_below: Roots, roots_above: Roots) -> RootReport:
     below, above = word_of(roots_below), word_of(roots_above)
-    sides = table.get(below), table.get(above)
+    sides = MEANING.get(below), MEANING.get(above)
     if None in sides or sides.count(Side.NEITHER) == 0:
         raise AssertionError(f"the roots form a pattern that is not possible: {below} | {above}")
     position = Position.CONTACT

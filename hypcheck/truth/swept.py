@@ -210,9 +210,9 @@ def passage(
 
 
 @in_default_environment
-def passage_of_row(row: Sequence[Rational], scale: Rational = 1) -> Passage:
-    """The passage of a row's sweep, as sweep_of_row takes it. Raises InputError."""
-    return passage_on(sweep_of_row(row, scale))
+def passage_of_row(row: Sequence[Rational]) -> Passage:
+    """The passage of a row's sweep. Raises InputError as `passage` does."""
+    return passage_on(sweep_of_row(row))
 
 
 def passage_on(sweep: StraightSweep) -> Passage:

@@ -10,7 +10,7 @@ import pytest
 from hypcheck.answer import DisagreementError
 from hypcheck.answers import answers
 from hypcheck.geometry.pair import Pair
-from hypcheck.truth import distances
+from hypcheck.truth import nearest_tilted
 from hypcheck.vectors.families import TILTED_FAMILIES
 from tests.support.inside import nearest
 
@@ -23,7 +23,7 @@ def one_by_one(rows):
 @pytest.mark.parametrize("name", TILTED_FAMILIES)
 def test_certain_float_clearances_and_positions_equal_those_exact_enclosures(name):
     rows = TILTED_FAMILIES[name].rows(7, 40)
-    found = distances.decide(rows)
+    found = nearest_tilted.decide(rows)
     for number, each in enumerate(one_by_one(rows)):
         if found.clearance_certain[number]:
             assert (found.clearance[number], found.position[number]) == (each.clearance, each.position)
@@ -40,7 +40,7 @@ def test_certain_float_clearances_and_positions_equal_those_exact_enclosures(nam
     ],
 )
 def test_float_stage_is_certain_about_most_tilted_rows_of_ordinary_sizes_and_no_tangency(name, least, most):
-    assert least <= distances.decide(TILTED_FAMILIES[name].rows(7, 400)).clearance_certain.mean() <= most
+    assert least <= nearest_tilted.decide(TILTED_FAMILIES[name].rows(7, 400)).clearance_certain.mean() <= most
 
 
 @pytest.mark.parametrize(("column", "value"), [(0, 2.0**-101), (4, 2.0**101), (5, 2.0**-101), (8, 2.0**-101)])
@@ -49,7 +49,7 @@ def test_float_stage_is_never_certain_about_a_length_or_axis_out_of_range(column
     rows = np.array([row, row, row])
     rows[1, column] = value
     rows[2, column] = value * 4 if value < 1 else value / 4
-    certain = distances.decide(rows).clearance_certain
+    certain = nearest_tilted.decide(rows).clearance_certain
     assert certain[0]
     assert not certain[1]
 
@@ -60,9 +60,9 @@ def test_answers_are_refused_if_the_kernel_and_the_nearest_point_disagree_about_
     each = one_by_one(rows)
     assert expected.clearance.tolist() == [one.clearance for one in each]
     assert expected.positions.tolist() == [one.position for one in each]
-    right = distances.decide(rows)
+    right = nearest_tilted.decide(rows)
     wrong = replace(right, position=(right.position == 0).astype(np.int8))
-    monkeypatch.setattr(distances, "decide", lambda _rows: wrong)
+    monkeypatch.setattr(nearest_tilted, "decide", lambda _rows: wrong)
     with pytest.raises(DisagreementError):
         answers(rows)
 
@@ -72,11 +72,11 @@ def test_the_bound_below_all_eigenvalues_of_the_pencil_is_below_them_and_not_0_w
     draw = np.random.default_rng(3)
     for name in ("tilted-uniform", "tilted-stiff", "tilted-slight"):
         rows = TILTED_FAMILIES[name].rows(3, 2000)
-        pairs = distances._Pairs.of(rows)
+        pairs = nearest_tilted._Pairs.of(rows)
         end = 1 / np.max(np.abs(np.stack(pairs.D)), axis=0) * np.maximum(pairs.thick, pairs.long)
         at = end * draw.uniform(-1.5, 1.5, len(rows))
-        found = distances._least_eigenvalue(pairs, at)
-        upper = distances._matrix(pairs, at)
+        found = nearest_tilted._least_eigenvalue(pairs, at)
+        upper = nearest_tilted._matrix(pairs, at)
         full = np.stack([upper[k] for k in (0, 1, 2, 1, 3, 4, 2, 4, 5)], axis=1).reshape(-1, 3, 3)
         values = np.linalg.eigvalsh(full)
         scale = np.abs(values).max(axis=1)
