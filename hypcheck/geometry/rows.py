@@ -286,11 +286,26 @@ def parts_of(rows: Rows, layout: Layout = PAIRS) -> tuple[Rows, Rows, Rows]:
 
 def with_axis(rows: Rows, layout: Layout = PAIRS) -> Rows:
     """The same queries with an axis: rows without one get the axis 0, 0, 1, others are returned as they are."""
-    if layout.has_axis(rows):
+    return _widened(rows, len(layout.tilted), layout)
+
+
+def with_heights(rows: Rows, layout: Layout = PAIRS) -> Rows:
+    """The same queries with an axis and heights: rows without them get those that mean upright and without ends."""
+    return _widened(rows, len(layout.ended), layout)
+
+
+def as_wide(parts: Sequence[Rows], layout: Layout = PAIRS) -> list[Rows]:
+    """The parts with columns alike: with heights if one of them has heights, with an axis if one has an axis."""
+    widest = max((part.shape[1] for part in parts), default=0)
+    return [_widened(part, widest, layout) for part in parts]
+
+
+def _widened(rows: Rows, width: int, layout: Layout) -> Rows:
+    """The same queries with that many columns at least, contiguous; missing ones get their defaults."""
+    missing = [_DEFAULTS[name] for name in layout.ended[rows.shape[1] : width]]
+    if not missing:
         return rows
-    wide = np.empty((len(rows), len(layout.tilted)))
-    wide[:, : len(layout.upright)], wide[:, len(layout.upright) :] = rows, UPRIGHT
-    return wide
+    return np.ascontiguousarray(np.hstack([rows, np.broadcast_to(missing, (len(rows), len(missing)))]))
 
 
 def upright_mask(rows: Rows) -> Mask:
@@ -307,20 +322,6 @@ def scenes_of(rows: Rows) -> list[Indices]:
     order = np.argsort(scene.reshape(-1), kind="stable")
     parts = np.split(order, np.cumsum(np.bincount(scene.reshape(-1)))[:-1]) if len(rows) else []
     return sorted(parts, key=len, reverse=True)
-
-
-def with_heights(rows: Rows, layout: Layout = PAIRS) -> Rows:
-    """The same queries with an axis and heights: rows without them get those that mean upright and without ends."""
-    if layout.has_heights(rows):
-        return rows
-    return np.hstack([with_axis(rows, layout), np.broadcast_to(WITHOUT_ENDS, (len(rows), len(HEIGHTS)))])
-
-
-def as_wide(parts: Sequence[Rows], layout: Layout = PAIRS) -> list[Rows]:
-    """The parts with columns alike: with heights if one of them has heights, with an axis if one has an axis."""
-    if any(layout.has_heights(part) for part in parts):
-        return [with_heights(part, layout) for part in parts]
-    return [with_axis(part, layout) for part in parts] if any(layout.has_axis(part) for part in parts) else list(parts)
 
 
 def first_trouble(rows: Rows, first_number: int = 0, layout: Layout = PAIRS) -> str | None:
