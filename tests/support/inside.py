@@ -137,8 +137,17 @@ from hypcheck.truth.passage_error import (
 from hypcheck.truth.pencil import cubic, quartic
 from hypcheck.truth.polynomials import _none_by_descartes, linear_factor, polynomial_product, sign_at, value
 from hypcheck.truth.prove import prove
-from hypcheck.truth.root_patterns import COMPLEX, KIND_OF, PATTERNS, RootPlace, admissible
-from hypcheck.truth.roots import Invariants, classify_by_roots, classify_invariants, coefficients, real_roots
+from hypcheck.truth.roots import (
+    COMPLEX,
+    KIND_OF,
+    PATTERNS,
+    Invariants,
+    RootPlace,
+    classify_by_roots,
+    classify_invariants,
+    coefficients,
+    real_roots,
+)
 from hypcheck.truth.sections import position as heights_position
 from hypcheck.truth.sweep import piece, sign_at_root
 from hypcheck.truth.swept import WIDTH_BITS, by_roots, by_steps, passage, passage_of_row, reach, steps, sweep_of
@@ -193,7 +202,6 @@ __all__ = [
     "TiltedSearch",
     "U",
     "_none_by_descartes",
-    "admissible",
     "answer_sweeps",
     "availability",
     "backward_bound",

@@ -18,7 +18,8 @@ import sympy
 from sympy.abc import w
 
 from hypcheck.geometry.pair import Position
-from tests.support.inside import COMPLEX, KIND_OF, PATTERNS, Invariants, Kind, admissible, classify_invariants
+from hypcheck.paper.ledger.checks import admissible
+from tests.support.inside import COMPLEX, KIND_OF, PATTERNS, Invariants, Kind, classify_invariants
 
 # Multiplicities of the real roots of W in ascending order, for each contact set off the axis …
 CONTACT_SETS = {

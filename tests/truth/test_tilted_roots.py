@@ -9,9 +9,9 @@ import pytest
 import sympy
 
 from hypcheck.geometry.pair import Pair, Position
+from hypcheck.paper.ledger.checks import sides_by_signs
 from hypcheck.truth import roots
-from hypcheck.truth.root_patterns import MEANING, SIDES, sides_by_signs, word_of
-from hypcheck.truth.roots import classify_by_roots
+from hypcheck.truth.roots import MEANING, SIDES, classify_by_roots, word_of
 from hypcheck.vectors import frozen
 from tests.support.tilted_fractions import interpolated, matrices, value
 from tests.tools.oracle_agreement import rows

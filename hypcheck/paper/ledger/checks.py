@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
-from itertools import chain
+from itertools import chain, combinations_with_replacement, groupby, product
 from math import inf
 
 import sympy
@@ -23,7 +23,7 @@ from hypcheck.truth import exact
 from hypcheck.truth.certificate import check_certificate
 from hypcheck.truth.kinds import Kind
 from hypcheck.truth.prove import prove
-from hypcheck.truth.root_patterns import PATTERNS, RootPlace, admissible, pattern_of
+from hypcheck.truth.roots import BEYOND, END, INNER, PATTERNS, RootPlace, of_both_sides, pattern_of
 
 
 def _same(text: str, left: sympy.Expr, right: sympy.Expr) -> Evidence:
@@ -43,6 +43,40 @@ def listed_patterns(patterns: Mapping[Kind, Sequence[str]] = PATTERNS) -> Eviden
     wrong = sorted(set(listed) ^ set(allowed)) or (["a pattern twice"] if listed != allowed else [])
     text = f"{len(listed)} patterns are listed, the {len(allowed)} that can occur"
     return Evidence("exhaustive", f"the table is wrong in {', '.join(wrong)}" if wrong else text, not wrong)
+
+
+def sides_by_signs(*numbers: int) -> Iterator[list[tuple[str, int]]]:
+    """The roots of one side, outward, that the signs of f allow: exact reasoning, without the table.
+
+    The number of roots on a side is one of `numbers`. The number beyond R has the same parity, unless R is a root.
+    """
+    for number in numbers:
+        for places in combinations_with_replacement((INNER, END, BEYOND), number):
+            if END in places or (places.count(BEYOND) - number) % 2 == 0:
+                yield from _multiplicities(places)
+
+
+def admissible() -> frozenset[str]:
+    """Every pattern of an upright pair that the signs allow: one root or three, an odd number of them above 0."""
+    return frozenset(
+        pattern_of(of_both_sides(below, above))
+        for numbers in ((0, 1), (0, 3), (2, 1))
+        for below, above in product(*(tuple(sides_by_signs(number)) for number in numbers))
+    )
+
+
+_COMPOSITIONS = {1: ((1,),), 2: ((1, 1), (2,)), 3: ((1, 1, 1), (1, 2), (2, 1), (3,))}
+
+
+def _multiplicities(places: Iterable[str]) -> Iterator[list[tuple[str, int]]]:
+    """Every grouping of the roots in one open interval into multiple roots; roots at R are one root."""
+    choices = []
+    for place, group in groupby(places):
+        count = len(list(group))
+        groups = ((count,),) if place == END else _COMPOSITIONS[count]
+        choices.append([[(place, multiplicity) for multiplicity in sizes] for sizes in groups])
+    for choice in product(*choices):
+        yield list(chain.from_iterable(choice))
 
 
 def patterns_in_coq(patterns: Mapping[Kind, Sequence[str]] = PATTERNS) -> Evidence:
