@@ -28,6 +28,7 @@ BESIDE = (
     "docs/**/*.csv",
     "cases/LICENSE",
     "cases/**/*.json",
+    "cases/*.csv",
     "hypcheck/report/schemas/*.json",
     "reports/engines/*.json",
     "reports/engines/*.csv",

@@ -397,10 +397,9 @@ def proofs_of(formula: Formula) -> tuple[Proof, ...]:
 
 def prove(formula: Formula) -> Iterable[Proof]:
     """The proofs of one formula, by its name: what a program of that name must compute and must decide."""
-    numbers, answers = _REQUIREMENTS[formula.name]
-    for obligation in (obligation for required in numbers for obligation in required()):
-        yield _prove_number(formula, obligation)
-    for decision in answers:
+    for numbers in _REQUIREMENTS[formula.name][0]:
+        yield from (_prove_number(formula, obligation) for obligation in numbers())
+    for decision in decisions(formula.name):
         yield _prove_decision(formula, decision)
 
 

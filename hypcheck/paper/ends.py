@@ -55,7 +55,7 @@ class EndVerdicts(VerdictCounts):
 
     def watch(self, craft: Craft, moves: Moves) -> None:
         """Count the results of a draw of many flights."""
-        some = np.flatnonzero((moves.accepted | moves.refused) & ~moves.turning)
+        some = moves.tested
         self.asked += len(some)
         near = some[_reaching(craft, moves.end[2][some])]
         at, heading = of(moves.end, near), headed(moves.before, near)

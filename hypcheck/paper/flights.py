@@ -57,6 +57,11 @@ class Moves:
     executed: Mask
     touching: Mask
 
+    @property
+    def tested(self) -> NDArray[np.int64]:
+        """The indices of the movements, not turns in place, that the procedure tested."""
+        return np.flatnonzero((self.accepted | self.refused) & ~self.turning)
+
 
 @dataclass(slots=True)
 class Tallies:

@@ -235,7 +235,7 @@ class MoveVerdicts(VerdictCounts):
 
     def _compare(self, craft: Craft, moves: Moves) -> None:
         """Count the answers of 2.a and of both repaired procedures that differ, about the moves that 2.b tested."""
-        some = np.flatnonzero((moves.accepted | moves.refused) & ~moves.turning)
+        some = moves.tested
         at, heading, answer = of(moves.end, some), headed(moves.before, some), moves.accepted[some]
         printed, repaired = Procedures(craft), Procedures(craft, repaired=True)
         second = printed.ask_rotors(at, heading)
@@ -401,7 +401,7 @@ class PitchVerdicts(VerdictCounts):
 
     def watch(self, craft: Craft, degrees: float, moves: Moves) -> None:
         """Count the results of a draw of many flights."""
-        some = np.flatnonzero((moves.accepted | moves.refused) & ~moves.turning & ~moves.vertical)
+        some = moves.tested[~moves.vertical[moves.tested]]
         (x, y, z), heading = of(moves.end, some), headed(moves.before, some)
         move = x - moves.start[0][some], y - moves.start[1][some]
         back = move[0] * heading[0] + move[1] * heading[1] < 0

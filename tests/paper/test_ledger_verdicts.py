@@ -14,6 +14,7 @@ import hypcheck
 from hypcheck.derivation.links import printed
 from hypcheck.derivation.pencil import symbol
 from hypcheck.derivation.printed_equations import check, printed_claims
+from hypcheck.derivation.proofs import decisions
 from hypcheck.geometry.pair import Position
 from hypcheck.paper.ledger import checks, statements
 from hypcheck.paper.ledger import entry as entry_module
@@ -143,6 +144,14 @@ FALSE_STATEMENTS = [
     statements.PROCEDURE_2A,
     statements.CONTACT_MEANS_NOT_POSITIVE,
 ]
+
+
+def rule_of_all_sizes(facts):
+    """The position by the rule that, as is proved, the program "coefficients" uses."""
+    (decision,) = decisions("coefficients")
+    return decision.rule(*(facts.delta, facts.c1, facts.c2), *(getattr(facts, name) for name in decision.letters[3:]))
+
+
 TRUE_STATEMENTS = [
     statements.REMARK_4,
     statements.REMARK_6,
@@ -151,7 +160,7 @@ TRUE_STATEMENTS = [
     Statement(
         "the position is that of the coefficient rule for all sizes",
         lambda _: True,
-        lambda facts: statements.rule_of_all_sizes(facts) == facts.position,
+        lambda facts: rule_of_all_sizes(facts) == facts.position,
     ),
     statements.CONTACT_IF_TALL,
 ]

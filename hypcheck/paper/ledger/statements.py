@@ -13,7 +13,6 @@ from fractions import Fraction
 
 from hypcheck.derivation.evaluation import EXACT
 from hypcheck.derivation.formulas import FORMULAS, answers
-from hypcheck.derivation.proofs import decisions
 from hypcheck.geometry.pair import COLUMNS, Position
 from hypcheck.paper.ledger.entry import Evidence, described, with_counterexample
 from hypcheck.paper.ledger.points import (
@@ -97,13 +96,6 @@ def printed_interior(facts: PointFacts) -> bool:
 def ring(facts: PointFacts) -> bool:
     """The exterior positions with Δ = 0: Q = 0, g'(B) = 0 and A < B²."""
     return facts.Q == 0 and facts.slope_at_B == 0 and facts.A < facts.B**2
-
-
-def rule_of_all_sizes(facts: PointFacts) -> int:
-    """The position by the rule that, as is proved, the program "coefficients" uses."""
-    (decision,) = decisions("coefficients")
-    numbers = (facts.delta, facts.c1, facts.c2, facts.A, facts.B, facts.Q, facts.slope_at_B, facts.slope_at_minus_A)
-    return decision.rule(*numbers)
 
 
 PROPOSITION_3_1 = Statement(
