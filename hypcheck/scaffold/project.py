@@ -35,17 +35,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Language:
-    """The data for making an adapter in one language.
-
-    files: the templates in the language's folder; `predicate` is the one that holds the stub.
-    build: the command line that builds the adapter.
-    spec: the SPEC that verify is given after the build.
-    products: the files that the build leaves behind.
-    """
+    """The data for making an adapter in one language, as languages.toml has it."""
 
     name: str
     files: tuple[str, ...]
-    predicate: str
     build: str
     spec: str
     products: tuple[str, ...]
@@ -55,72 +48,18 @@ class Language:
         """The folder of the adapter."""
         return f"hypcheck-{self.name}"
 
+    @property
+    def predicate(self) -> str:
+        """The template that holds the stub."""
+        return self.files[0]
 
-# -ffp-contract=off: otherwise a×b + c may round once instead of twice, and answers depend on the machine.
-# GOWORK=off, and [workspace] in Cargo.toml: the adapter does not belong to a workspace in a folder above.
-# -buildvcs=false: Go would ask git about the folder, and fail if git does not trust it.
-_LISTED = (
-    Language(
-        name="c",
-        files=("predicate.c", "adapter.c", "predicate.h"),
-        predicate="predicate.c",
-        build="cc -std=c11 -O2 -ffp-contract=off -o hypcheck-c/adapter hypcheck-c/adapter.c hypcheck-c/predicate.c -lm",
-        spec="command:hypcheck-c/adapter",
-        products=("/adapter", "/predicate.so"),
-    ),
-    Language(
-        name="cpp",
-        files=("predicate.cpp", "adapter.cpp", "predicate.hpp"),
-        predicate="predicate.cpp",
-        build="c++ -std=c++17 -O2 -ffp-contract=off "
-        "-o hypcheck-cpp/adapter hypcheck-cpp/adapter.cpp hypcheck-cpp/predicate.cpp",
-        spec="command:hypcheck-cpp/adapter",
-        products=("/adapter", "/predicate.so"),
-    ),
-    Language(
-        name="rust",
-        files=("src/predicate.rs", "src/main.rs", "Cargo.toml"),
-        predicate="src/predicate.rs",
-        build="cargo build --release --offline "
-        "--manifest-path hypcheck-rust/Cargo.toml --target-dir hypcheck-rust/target",
-        spec="command:hypcheck-rust/target/release/hypcheck-adapter",
-        products=("/target/",),
-    ),
-    Language(
-        name="go",
-        files=("predicate.go", "main.go", "go.mod"),
-        predicate="predicate.go",
-        build="env GOWORK=off go build -C hypcheck-go -buildvcs=false -o adapter .",
-        spec="command:hypcheck-go/adapter",
-        products=("/adapter",),
-    ),
-    Language(
-        name="java",
-        files=("Predicate.java", "Adapter.java"),
-        predicate="Predicate.java",
-        build="javac -d hypcheck-java/classes hypcheck-java/Adapter.java hypcheck-java/Predicate.java",
-        spec="command:java -XX:+UseSerialGC -cp hypcheck-java/classes Adapter",
-        products=("/classes/",),
-    ),
-    Language(
-        name="javascript",
-        files=("predicate.mjs", "adapter.mjs"),
-        predicate="predicate.mjs",
-        build="node --check hypcheck-javascript/adapter.mjs",
-        spec="command:node hypcheck-javascript/adapter.mjs",
-        products=(),
-    ),
-    Language(
-        name="python",
-        files=("predicate.py",),
-        predicate="predicate.py",
-        build="python3 -m py_compile hypcheck-python/predicate.py",
-        spec="python:hypcheck-python/predicate.py:classify",
-        products=("__pycache__/",),
-    ),
+
+LANGUAGES: Mapping[str, Language] = MappingProxyType(
+    {
+        name: Language(name, tuple(entry["files"]), entry["build"], entry["spec"], tuple(entry["products"]))
+        for name, entry in toml.shipped("hypcheck.scaffold", "languages.toml").items()
+    }
 )
-
-LANGUAGES: Mapping[str, Language] = MappingProxyType({language.name: language for language in _LISTED})
 """The languages by the names of `--language`."""
 
 
