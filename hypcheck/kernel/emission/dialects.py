@@ -160,23 +160,33 @@ for (size_t part = 0; part < sizeof parts / sizeof *parts; part++)
 return text;"""
 
 
-def description_in_language(value: dict[str, Any], language: str, prefix: str) -> str:
-    """The description in a language: in C the body of the function that returns it, in Rust the whole function."""
+def description_in_language(
+    value: dict[str, Any],
+    language: str,
+    prefix: str,
+    asked: tuple[str, int],
+    separators: tuple[str, str] | None = None,
+) -> str:
+    """The description in a language: in C the body of the function that returns it, in Rust the whole function.
+
+    `asked` is the name of the function that the description is about, and the numbers of a row; `separators` are those
+    of json.dumps.
+    """
     if language == "python":
         return "\n    ".join(line.rstrip() for line in _lines(value, repr))
-    lines = list(_lines(value, partial(json.dumps, separators=(",", ":"))))  # adapters look for "tilt":true
+    lines = list(_lines(value, partial(json.dumps, separators=separators)))
     if language == "javascript":
         return "\n    ".join(line.rstrip() for line in lines)
     quoted = [json.dumps(line) for line in lines]  # C, C++ and Rust escape quotation marks and backslashes alike
     if language == "rust":
-        return in_rust(quoted, prefix, *(("tilted", 10) if "tilt" in value else ("predicate", 7)))
+        return _in_rust(quoted, prefix, *asked)
     if language == "c" and sum(map(len, lines)) > LONGEST:
         size = sum(map(len, lines)) + 1
         return _BY_PARTS.format(parts=",\n    ".join(quoted), size=size, longest=LONGEST)
     return "return " + "\n    ".join(quoted) + ";"
 
 
-def in_rust(quoted: Sequence[str], prefix: str, predicate: str, width: int) -> str:
+def _in_rust(quoted: Sequence[str], prefix: str, predicate: str, width: int) -> str:
     """The description in Rust, with the names that the adapter of `hypcheck init` takes from a module.
 
     `predicate` is that function, `width` the numbers of a row; another function is there and answers none.
@@ -190,7 +200,10 @@ def in_rust(quoted: Sequence[str], prefix: str, predicate: str, width: int) -> s
 
 def _lines(value: dict[str, Any], written: Callable[[Any], str]) -> Iterator[str]:
     """The text of a value in pieces: the part before its domain's settings, each setting, the end."""
-    settings = value["domain"]["settings"]
+    settings = value["domain"].get("settings")
+    if settings is None:
+        yield written(value)
+        return
     text = written({**value, "domain": {"settings": []}})  # the settings come last: the text ends with []}}
     yield text[:-3]
     for place, setting in enumerate(settings, start=1):

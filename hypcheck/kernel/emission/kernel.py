@@ -81,7 +81,13 @@ def _common_parts(plan: ScenePlan, dialect: Dialect, prefix: str) -> dict[str, s
         "arithmetic": dialect.asked_of_compiler,
         **{phrase: dialect.say(phrase) for phrase in phrases},
         "search": _searches_text(plan, dialect),
-        "description": description_in_language(description(plan, dialect.name), dialect.name, prefix),
+        "description": description_in_language(
+            description(plan, dialect.name),
+            dialect.name,
+            prefix,
+            ("predicate", 7) if plan.axis is None else ("tilted", 10),
+            (",", ":"),  # adapters look for "tilt":true
+        ),
     }
 
 

@@ -17,7 +17,6 @@ straight-line program has room for the bits that are counted for it (`bits_count
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from sys import float_info
@@ -27,7 +26,14 @@ from hypcheck.derivation.program import Program, Step, needed
 from hypcheck.derivation.routines import Routine
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import AXIS, COLUMNS, SIZES, TILTED_COLUMNS
-from hypcheck.kernel.emission.dialects import PREFIX, Dialect, dialect_of, in_rust, require_prefix, routines_text
+from hypcheck.kernel.emission.dialects import (
+    PREFIX,
+    Dialect,
+    description_in_language,
+    dialect_of,
+    require_prefix,
+    routines_text,
+)
 from hypcheck.kernel.programs import dual
 from hypcheck.kernel.programs.certified import CERTIFIED, CONSTANTS
 from hypcheck.kernel.programs.integers import INTEGERS, bits_counted
@@ -382,14 +388,7 @@ def _described(method: str, kind: Kind, language: str, prefix: str) -> str:
         **({"tilt": True} if kind.tilted and kind.sizes else {}),
         "domain": kind.domain,
     }
-    if language == "python":
-        return repr(description)
-    text = json.dumps(description)
-    if language == "javascript":
-        return text
-    return (
-        in_rust([json.dumps(text)], prefix, kind.asked, len(kind.columns)) if language == "rust" else json.dumps(text)
-    )
+    return description_in_language(description, language, prefix, (kind.asked, len(kind.columns)))
 
 
 def _whole(program: Program, language: str) -> Iterator[str]:

@@ -112,11 +112,16 @@ PLACES = (0, 1, 2)
 
 LINE_CONSTANTS = tuple(f"{part}_{side}_{place}" for side in SIDES for place in PLACES for part in "KM")
 
-_IN_REACH = """
+_PLANE = """
     xx = x * x
     yy = y * y
     R = xx + yy
     T = z * z
+"""
+"""From a centre to its place in the plane of R = x² + y² and T = z²."""
+
+_IN_REACH = f"""
+    {_PLANE}
     R_plus_T = R + T
     in_reach = T <= reach
 """
@@ -197,10 +202,7 @@ TANGENT_BEYOND = program_of(
 """,
 )
 
-TANGENT_WITHIN = program_of(
-    "tangent-within",
-    ("alpha", "gamma", "b", "d", "mu", "u_8", "less"),
-    """
+_ACROSS = """
     p = alpha * alpha
     q = b * b
     q_mu = q * mu
@@ -208,42 +210,42 @@ TANGENT_WITHIN = program_of(
     across_terms = p + q_mu
     across_error = u_8 * across_terms
     across_least = across - across_error
-    mu_minus_one = mu - 1
-    product = across_least * mu_minus_one
-    K = product / mu                    # b² (A − μ)(1 − 1/μ)
-    K_least = less * K
+"""
+
+_WITHIN_SLOPE = """
     s = gamma * gamma
     t = d * d
     t_mu = t * mu
     along = s + t_mu                    # d² (B + μ)
     M = across_least / along
     M_least = less * M
+"""
+
+TANGENT_WITHIN = program_of(
+    "tangent-within",
+    ("alpha", "gamma", "b", "d", "mu", "u_8", "less"),
+    _ACROSS,
+    """
+    mu_minus_one = mu - 1
+    product = across_least * mu_minus_one
+    K = product / mu                    # b² (A − μ)(1 − 1/μ)
+    K_least = less * K
 """,
+    _WITHIN_SLOPE,
 )
 
 TANGENT_HIGH = program_of(
     "tangent-high",
     ("alpha", "gamma", "b", "d", "mu", "u_8", "more", "less"),
+    _ACROSS,
     """
-    p = alpha * alpha
-    q = b * b
-    q_mu = q * mu
-    across = p - q_mu                   # b² (A − μ)
-    across_terms = p + q_mu
-    across_error = u_8 * across_terms
-    across_least = across - across_error
     across_most = across + across_error
     one_minus_mu = 1 - mu
     product = across_most * one_minus_mu
     fall = product / mu                 # b² (A − μ)(1 − μ)/μ
     fall_most = more * fall
-    s = gamma * gamma
-    t = d * d
-    t_mu = t * mu
-    along = s + t_mu                    # d² (B + μ)
-    M = across_least / along
-    M_least = less * M
 """,
+    _WITHIN_SLOPE,
 )
 """From sizes and μ in (0, 1) to K = −fall_most and M_least of a half plane R < K + M T that proves interior positions,
 where across_least > 0."""
@@ -327,11 +329,8 @@ ONE_PLANE, TWO_PLANES = _one_and_two(
 PIECE = program_of(
     "piece",
     ("x", "y", "z", "u", "v", "w", "K", "M", "side", "u_8"),
+    _PLANE,
     """
-    xx = x * x
-    yy = y * y
-    R = xx + yy
-    T = z * z
     rise = M * T
     line = K + rise
     gap = R - line
@@ -380,17 +379,7 @@ FLOAT32_CAP = 2.0**100
 LEAST_REACH, GREATEST_REACH = 2.0**-60, 2.0**60
 FLOAT32_GREATEST_SLOPE = 2.0**40
 
-PLANE = program_of(
-    "plane",
-    ("x", "y", "z"),
-    """
-    xx = x * x
-    yy = y * y
-    R = xx + yy
-    T = z * z
-""",
-)
-"""From a centre to the place in the plane of R = x² + y² and T = z²."""
+PLANE = program_of("plane", ("x", "y", "z"), _PLANE)
 
 PARALLEL_LINES = program_of(
     "parallel-lines",

@@ -198,12 +198,8 @@ ARITHMETIC = program_of("arithmetic", ("low", "high"), "sum_of_both = low + high
 PLACE = program_of(
     "place",
     ("pole", "other", "distance", "near_zero", "inside"),
+    tilted.FROM_POLE,
     """
-    is_near_zero = near_zero > 0
-    is_inside = inside > 0
-    complement = pole - distance
-    to_pole = is_near_zero ? complement : distance
-    from_zero = is_near_zero ? distance : complement
     to_other = other + from_zero
     to_a = is_inside ? to_pole : to_other
     to_b = is_inside ? to_other : to_pole

@@ -202,15 +202,20 @@ FALLS = program_of(
 )
 """Whether φ′ ≤ 0, in doubles, at these distances to the poles."""
 
-PLACE = program_of(
-    "place",
-    ("A1", "A2", "B", "gap1", "gap2", "pole", "distance", "near_zero", "inside"),
-    """
+FROM_POLE = """
     is_near_zero = near_zero > 0
     is_inside = inside > 0
     complement = pole - distance
     to_pole = is_near_zero ? complement : distance
     from_zero = is_near_zero ? distance : complement
+"""
+"""From the distance to 0 (near_zero = 1) or to the pole (0) to both."""
+
+PLACE = program_of(
+    "place",
+    ("A1", "A2", "B", "gap1", "gap2", "pole", "distance", "near_zero", "inside"),
+    FROM_POLE,
+    """
     outside_a1 = A1 + from_zero
     inside_a1 = gap1 + to_pole
     to_a1 = is_inside ? inside_a1 : outside_a1
