@@ -36,7 +36,7 @@ from hypcheck.record.measurements import AccuracyLine, MemoryLine, Mistaken
 from hypcheck.runs import judge
 from hypcheck.runs.judge import Criterion, Mistake, Status
 from hypcheck.runs.score import Score, score
-from hypcheck.runs.tally import STATUS_CODES, by_exponent
+from hypcheck.runs.tally import STATUS_CODES, by_octave
 from hypcheck.truth.backward_error import flip_exponents
 from hypcheck.truth.passage_error import passage_of, size_error
 
@@ -190,7 +190,7 @@ def accuracy_line(
                 sum(counts.values()),
                 counts.get("wrong", 0),
             )
-            for exponent, counts in by_exponent(exponents, scored.status).items()
+            for exponent, counts in by_octave(exponents, scored.status).items()
         ],
         reliable_above=Unsigned(reliable_above(exponents, scored.status != STATUS_CODES[Status.RIGHT])),
         worst=_worst(scored, exponents, results, tried),

@@ -130,7 +130,7 @@ def at_first(rows: int) -> int:
     return -(-rows // 2)
 
 
-def beside_border(step: SearchStep, first: int) -> Rows:
+def first_near_rows(step: SearchStep, first: int) -> Rows:
     """The first rows of the near sides of a search that begins at the rung `first`."""
     sides = islice(_sides(first, step.rows // FAR), at_first(step.rows))
     near = np.array([_place(side) for side in sides][2 * (step.rows // FAR) :], dtype=np.int64)

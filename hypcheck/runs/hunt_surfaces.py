@@ -333,6 +333,7 @@ def border_factors(rows: Rows, mask: Mask, far: Mask, layout: Layout = PAIRS) ->
 
 
 UNUSABLE = 3
+"""The truth about a row whose numbers are outside the range of float64."""
 
 
 def _truths(rows: Rows, layout: Layout) -> Positions:
@@ -386,7 +387,7 @@ def strata(settings: tuple[FixedSizes, ...] = (), taken: Groups = NO_GROUPS) -> 
         return tuple(map(_of_sweeps, families))
     if settings:
         return tuple(map(_of_family, families_for(settings)))
-    crossings = [names for size in (1, 2, 3) for names in combinations(SURFACES, size) if _movers(names)]
+    crossings = [names for size in (1, 2, 3) for names in combinations(SURFACES, size) if _movers_within(names)]
     return (*map(_of_family, families), *map(_of_crossing, crossings))
 
 
@@ -412,7 +413,7 @@ def crossing(draw: Draw, n: int, surfaces: tuple[str, ...]) -> Rows:
     height = heights(draw, size.c) * _slack(draw, n, pinned="z = 0" in surfaces)
     radius = np.abs(size.a + offsets(draw, n)) * _slack(draw, n, pinned="r = 0" in surfaces)
     rows = centred(draw, size, radius, height)
-    movers = np.asarray(_movers(surfaces))
+    movers = np.asarray(_movers_within(surfaces))
     return beside_border(draw, rows, movers[draw.integers(n, 0, len(movers) - 1)])
 
 
@@ -441,7 +442,7 @@ def _nearly_one(draw: Draw, n: int) -> Floats:
     return np.asarray(1 + draw.signs(n) * np.where(draw.signs(n) < 0, 0.0, draw.log_uniform(n, -52, -3)))
 
 
-def _movers(surfaces: tuple[str, ...]) -> list[str]:
+def _movers_within(surfaces: tuple[str, ...]) -> list[str]:
     """The movers that can bring a row to the border without leaving these surfaces."""
     kept = {SURFACES[surface] for surface in surfaces}
     return [mover for mover in ("radius", "height", "alpha") if mover not in kept]

@@ -19,7 +19,7 @@ from hypcheck.geometry.rows import Floats, Indices, Mask, Rows
 from hypcheck.implementations.description import Description
 from hypcheck.kernel.classify import classify
 from hypcheck.record.lines import SlicesPart
-from hypcheck.runs.border_search import SearchStep, beside_border, far_numbers, first_of, rows_at
+from hypcheck.runs.border_search import SearchStep, far_numbers, first_near_rows, first_of, rows_at
 from hypcheck.runs.cases import frozen_count
 from hypcheck.runs.plan import ConformancePlan, chosen_families, rows_of, searches
 from hypcheck.runs.results import JudgingRules
@@ -99,7 +99,7 @@ def slices_of(plan: ConformancePlan, used: Description, rules: JudgingRules) -> 
         if family.name in _FAMILIES.values():
             rows = _asked(rules, family.name, np.concatenate([*rows_of(plan, family, MOST)]))
             if family.name in steps:
-                beside = beside_border(steps[family.name], first)
+                beside = first_near_rows(steps[family.name], first)
                 rows = np.concatenate([rows, _asked(rules, steps[family.name].family, beside)])
             if len(rows):
                 slices[family.name] = evenness(rows, tuple(COORDINATES) if "axis" in family.groups else UPRIGHT)

@@ -245,7 +245,7 @@ def counts_of(status: StatusCodes) -> dict[str, int]:
     return {name.value: number for name, number in zip(STATUSES, numbers, strict=True) if number}
 
 
-def by_exponent(exponents: NDArray[np.float64], status: StatusCodes) -> dict[str, dict[str, int]]:
+def by_octave(exponents: NDArray[np.float64], status: StatusCodes) -> dict[str, dict[str, int]]:
     """The number of cases by floor(log2) of their distance to the nearest other position, ascending, and by status."""
     table = {}
     for exponent in sorted(set(exponents.tolist())):  # np.unique would load numpy.ma

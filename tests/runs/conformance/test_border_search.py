@@ -16,7 +16,7 @@ from hypcheck.implementations.description import Description, parse_domain
 from hypcheck.record import read
 from hypcheck.record.lines import GroupLine, ImplementationLine
 from hypcheck.runs.border_search import SearchStep as Step
-from hypcheck.runs.border_search import beside_border, far_numbers, first_of, rows_at, searched
+from hypcheck.runs.border_search import far_numbers, first_near_rows, first_of, rows_at, searched
 from hypcheck.runs.judge import Criterion, Status
 from hypcheck.runs.plan import ConformancePlan, searches
 from hypcheck.runs.tally import STATUS_CODES
@@ -102,7 +102,7 @@ def test_first_question_of_a_search_contains_all_rows_that_do_not_depend_on_answ
     step = Step("search", 4, 800)
     (first, *_) = numbers_asked(800, lambda numbers: np.full(len(numbers), WRONG))
     expected = [tuple(row) for row in rows_at("search", 4, far_numbers(step, 0)).tolist()]
-    expected += [tuple(row) for row in beside_border(step, 0).tolist()]
+    expected += [tuple(row) for row in first_near_rows(step, 0).tolist()]
     assert sorted(expected) == sorted(tuple(row) for row in rows_at("search", 4, first).tolist())
 
 
