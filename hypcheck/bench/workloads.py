@@ -166,14 +166,14 @@ def _in_the_box(draw: Draw, n: int) -> Vectors:
 
 
 def _tilted_near_contact(draw: Draw, n: int, before: int) -> Rows:
-    return _tilted_near(draw, _in_cycle(NEAR_SCENES, n, before), anywhere(draw, n))
+    return tilted_near(draw, _in_cycle(NEAR_SCENES, n, before), anywhere(draw, n))
 
 
-def _tilted_near(draw: Draw, sizes: Floats, axis: Vectors) -> Rows:
-    """Centres on either side of the surface, one radius plus or minus m 2^e from a point of it, with e in NEAR_GAPS."""
+def tilted_near(draw: Draw, sizes: Floats, axis: Vectors, gaps: tuple[int, int] = NEAR_GAPS) -> Rows:
+    """Centres on either side of the surface, one radius plus or minus m 2^e from a point of it, with e in `gaps`."""
     n = len(sizes)
     height = draw.signs(n) * draw.unit(n)
-    gap = draw.signs(n) * draw.log_uniform(n, *NEAR_GAPS)
+    gap = draw.signs(n) * draw.log_uniform(n, *gaps)
     return beside(draw, Sizes(*sizes.T), height, axis, draw.signs(n) * (1 + gap))
 
 
@@ -293,7 +293,7 @@ def _ends(setting: Setting) -> list[tuple[float, float]]:
 
 
 def _near_in_scene(scene: SceneModel, settings: tuple[Setting, ...], draw: Draw, n: int, before: int) -> Rows:
-    return _tilted_near(draw, _in_cycle([setting.sizes for setting in settings], n, before), _axes_of(scene, draw, n))
+    return tilted_near(draw, _in_cycle([setting.sizes for setting in settings], n, before), _axes_of(scene, draw, n))
 
 
 def workloads_of(plan: BenchPlan) -> dict[str, Workload]:

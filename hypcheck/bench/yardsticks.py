@@ -23,7 +23,8 @@ from numpy.typing import NDArray
 import hypcheck
 from hypcheck import toml
 from hypcheck.bench.c_library import TOWER_SIZES, CBaseline, c_baselines
-from hypcheck.geometry.rows import Columns, Floats, Rows, tilted_rows
+from hypcheck.bench.workloads import near, tilted_near
+from hypcheck.geometry.rows import Columns, Floats, Rows
 from hypcheck.kernel.choice import choice
 from hypcheck.record.measurements import KernelLine
 from hypcheck.runs.timing import (
@@ -36,8 +37,9 @@ from hypcheck.runs.timing import (
     times_as_fast,
     times_as_long,
 )
+from hypcheck.vectors.draw import Draw
 from hypcheck.vectors.families import FAMILIES
-from hypcheck.vectors.random_pairs import beside_surface
+from hypcheck.vectors.random_pairs import Sizes
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,16 +142,19 @@ def uniform_columns(count: int) -> Columns:
     return x, y, z
 
 
+TOUCHING = (-52, -50)
+"""Distances of touching rows from contact, in radii: from 2e-16 to 2e-15, before their numbers are rounded."""
+
+
+def _towers(count: int) -> Floats:
+    """The sizes of the scene in each of `count` rows."""
+    return np.tile(TOWER_SIZES, (count, 1))
+
+
 def touching_columns(count: int) -> Columns:
     """Centres within about 1e-15 radii of contact, on both sides of the wall and all over it."""
-    random = np.random.Generator(np.random.PCG64(SEED))
-    alpha, gamma, b, d = TOWER_SIZES
-    ratios = np.full(count, alpha / b), np.full(count, gamma / d)
-    height = random.random(count) * gamma / d
-    side = np.where(random.random(count) < 0.5, -1.0, 1.0) * (1 + (2 * random.random(count) - 1) * 1e-15)
-    radius, level = beside_surface(*ratios, height, side)
-    turn = 2 * np.pi * random.random(count)
-    return radius * b * np.cos(turn), radius * b * np.sin(turn), level * d
+    x, y, z = near(Draw("bench-touching", 1, SEED), Sizes(*_towers(count).T), TOUCHING)[:, 4:].T
+    return np.ascontiguousarray(x), np.ascontiguousarray(y), np.ascontiguousarray(z)
 
 
 def tower_rows(columns: Columns) -> Rows:
@@ -164,18 +169,8 @@ def axes(count: int) -> Floats:
 
 def touching_rows(count: int) -> Rows:
     """Rows of the tower's body tilted in all directions, within about 1e-15 radii of contact: (n, 10)."""
-    random = np.random.Generator(np.random.PCG64(SEED))
-    alpha, gamma, b, d = TOWER_SIZES
-    turn, height = 2 * np.pi * random.random(count), (2 * random.random(count) - 1) * gamma
-    radius = alpha * np.sqrt(1 + (height / gamma) ** 2)
-    point = np.column_stack([radius * np.cos(turn), radius * np.sin(turn), height])
-    normal = point * [alpha**-2, alpha**-2, -(gamma**-2)]
-    axis = axes(count)
-    along = (axis * normal).sum(axis=1, keepdims=True) / (axis * axis).sum(axis=1, keepdims=True) * axis
-    reach = b * b * (normal - along) + d * d * along
-    side = np.where(random.random(count) < 0.5, -1.0, 1.0) * (1 + (2 * random.random(count) - 1) * 1e-15)
-    centre = point + (side / np.sqrt((reach * normal).sum(axis=1)))[:, None] * reach
-    return tilted_rows(TOWER_SIZES, (centre[:, 0], centre[:, 1], centre[:, 2]), (*axis.T,))
+    x, y, z = axes(count).T
+    return tilted_near(Draw("bench-touching", 1, SEED), _towers(count), (x, y, z), TOUCHING)
 
 
 END = 17.8
