@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from hypcheck.cli import options
-from hypcheck.cli.running import is_terminal
+from hypcheck.cli.running import is_terminal, watched
 from hypcheck.cli.settings import print_file_settings
 from hypcheck.errors import Exit, NothingJudgedError, first_that_applies
 from hypcheck.geometry.pair import Pair
@@ -152,6 +152,10 @@ def hunt(
     context.exit(_exit_code(run))
 
 
+_STEPS = 1000
+"""Steps of the progress bar of a hunt."""
+
+
 def _hunt_with_bar(run: Hunt) -> None:
     """Hunt, under a progress bar on a terminal."""
     from hypcheck.runs.hunt_search import run_hunt
@@ -159,12 +163,16 @@ def _hunt_with_bar(run: Hunt) -> None:
     if not is_terminal(sys.stderr):
         run_hunt(run)
         return
-    with click.progressbar(length=1000, label="hunt", file=sys.stderr, show_pos=False, show_eta=False) as bar:
+    with watched(_STEPS, "hunt") as pace:
+        shown = 0
 
         def show(run: Hunt) -> None:
+            nonlocal shown
             kinds = len(run.worst_first())
-            bar.label = f"{run.asked:>11,} rows, {kinds:>3} kinds of wrong answers"
-            bar.update(int(1000 * run.spent) - bar.pos)
+            pace.name(f"{run.asked:>11,} rows, {kinds:>3} kinds of wrong answers", "")
+            now = int(_STEPS * run.spent)
+            pace.advance(now - shown)
+            shown = now
 
         run_hunt(run, show)
 

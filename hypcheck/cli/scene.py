@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import os
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -44,11 +45,10 @@ hypcheck plan tower --measure
 @click.option("--json", "as_json", is_flag=True, help="One JSON object.")
 def plan(scene: str, precision: str, question: str | None, measure: bool, as_json: bool) -> None:
     """Plan, and print the plan."""
-    import json
-
     from hypcheck.kernel.emission.plan_text import plan_as_json, plan_lines
+    from hypcheck.kernel.specialise.plan import plan_of
 
-    plan = planned(scene, precision, question)
+    plan = plan_of(asked_scene(scene, question), precision)
     times = list(_measured(plan)) if measure else []
     if as_json:
         measured = {"measured": times} if measure else {}
@@ -60,18 +60,8 @@ def plan(scene: str, precision: str, question: str | None, measure: bool, as_jso
         click.echo(printable(f"{place}. {took['says']}"))
 
 
-def planned(scene: str, precision: str, question: str | None) -> ScenePlan:
-    """The plan for a scene file or a shipped scene. Raises InputError."""
-    from hypcheck.kernel.specialise.plan import plan_of
-
-    return plan_of(asked_scene(scene, question), precision)
-
-
 def asked_scene(scene: str, question: str | None) -> SceneModel:
     """The scene from a file or a shipped scene; `question`, if given, replaces its question. Raises InputError."""
-    from dataclasses import replace
-
-    from hypcheck.errors import InputError
     from hypcheck.scene.model import QUESTIONS
     from hypcheck.scene.reading import read_scene
 
@@ -85,7 +75,6 @@ def asked_scene(scene: str, question: str | None) -> SceneModel:
 
 def _measured(plan: ScenePlan) -> Iterator[dict[str, Any]]:
     """The saving of each setting. Raises UnavailableError if there is no C compiler."""
-    from pathlib import Path
     from tempfile import TemporaryDirectory
 
     from hypcheck.bench.scene import kernel_savings
@@ -166,7 +155,6 @@ def emit(
     proof: str | None,
 ) -> None:
     """Write the kernel of a scene, or the code for one pair."""
-    from hypcheck.errors import InputError
     from hypcheck.kernel.emission.dialects import require_prefix
     from hypcheck.kernel.emission.pair import emitted_pair, emitted_scene, needs_routine
     from hypcheck.kernel.printing.coq import proof_of
@@ -200,8 +188,6 @@ def emit(
 
 def _require_routine(sweeps: bool, whole: bool, question: str | None, proof: str | None, precision: str) -> None:
     """Raise InputError if an option does not apply to code that answers by a routine."""
-    from hypcheck.errors import InputError
-
     if sweeps and whole:
         raise InputError("--whole is about positions, --sweeps about straight motions; give one of them")
     if sweeps and question is not None:

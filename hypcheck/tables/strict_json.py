@@ -62,8 +62,16 @@ LARGEST = 256 << 20
 _BLANKS = re.compile(r"[ \t\n\r]*")
 
 
+class JsonOrigin(Origin):
+    """The source of tables of JSON."""
+
+    def shown(self, value: object) -> str:
+        """A value as JSON writes it, cut if it is long."""
+        return shown_json(value)
+
+
 @dataclass(frozen=True)
-class JsonPlace(Origin):
+class JsonPlace(JsonOrigin):
     """A place, as messages name it: a file, a line of it, and the id of a case."""
 
     file: str
@@ -80,13 +88,9 @@ class JsonPlace(Origin):
         """The place."""
         return str(self)
 
-    def shown(self, value: object) -> str:
-        """A value as JSON writes it, cut if it is long."""
-        return shown_json(value)
-
 
 @dataclass(frozen=True)
-class JsonDocument(Origin):
+class JsonDocument(JsonOrigin):
     """A document: its file, its members except the cases, the line of each, and the cases with their places."""
 
     file: str
@@ -100,10 +104,6 @@ class JsonDocument(Origin):
         """The file, and the line where the member begins."""
         line = nearest_line(self.lines, path)
         return self.file if line is None else f"{self.file}, line {line}"
-
-    def shown(self, value: object) -> str:
-        """A value as JSON writes it, cut if it is long."""
-        return shown_json(value)
 
     def table(self, keys: Sequence[str]) -> StrictTable:
         """The members, which must be among these keys. Raises InputError."""

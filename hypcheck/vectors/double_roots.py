@@ -75,14 +75,18 @@ def turned(draw: Draw, n: int) -> tuple[BigIntegers, BigIntegers, BigIntegers]:
     return np.where(on_axis, 1, x), np.where(on_axis, 0, y), np.where(on_axis, 1, radius)
 
 
+def in_lowest_terms(numbers: Sequence[BigIntegers]) -> list[BigIntegers]:
+    """The numbers of each row without their common factors."""
+    shared = np.maximum(reduce(np.gcd, numbers), 1)
+    return [number // shared for number in numbers]
+
+
 def to_rows(radial: Sequence[BigIntegers], axial: Sequence[BigIntegers]) -> tuple[Rows, Mask]:
     """The rows of α, b, x, y and γ, d, z without common factors, and which of them are exact, with sizes > 0."""
     rows = np.empty((len(radial[0]), 7))
     exact = np.ones(len(rows), dtype=np.bool_)
     for columns, lengths in ((RADIAL_COLUMNS, radial), (AXIAL_COLUMNS, axial)):
-        together = np.stack(list(lengths))
-        shared = np.maximum(reduce(np.gcd, together), 1)
-        reduced = together // shared
+        reduced = np.stack(in_lowest_terms(lengths))
         rows[:, columns] = reduced.T.astype(np.float64)
         exact &= np.asarray(abs(reduced) <= 2**53).all(axis=0) & np.asarray(reduced[:2] > 0).all(axis=0)
     return rows, exact

@@ -244,18 +244,28 @@ def select(patterns: Sequence[str] = (), taken: Groups | None = NO_GROUPS) -> tu
     chosen: set[str] = set()
     for pattern in patterns:
         named = _named(pattern, known)
-        if not named and _named(pattern, TILTED_FAMILIES):
-            raise InputError(f"{pattern!r} names tilted spheroids; only implementations with tilt are tested on them")
-        if not named and _named(pattern, ENDED_FAMILIES | ENDED_SWEEP_FAMILIES):
-            raise InputError(
-                f"{pattern!r} names hyperboloids that end; only implementations that take heights are tested on them"
-            )
-        if not named and _named(pattern, SWEEP_FAMILIES):
-            raise InputError(f"{pattern!r} names sweeps, which only the question passage is about")
         if not named:
-            raise InputError(f"there is no family {pattern!r}; {_advice(pattern)}")
+            raise InputError(_why_none(pattern, taken or NO_GROUPS))
         chosen |= named
     return tuple(family for name, family in known.items() if name in chosen)
+
+
+_NOT_ASKED = {
+    "heights": "hyperboloids that end; only implementations that take heights are tested on them",
+    "end": "sweeps, which only the question passage is about",
+    "axis": "tilted spheroids; only implementations with tilt are tested on them",
+}
+"""Why rows with a group are not asked of an implementation that does not take it."""
+
+
+def _why_none(pattern: str, taken: Groups) -> str:
+    """Why a pattern selects no family where these groups are taken."""
+    named = _named(pattern, ALL)
+    if not named:
+        return f"there is no family {pattern!r}; {_advice(pattern)}"
+    lacking = next(family.groups for name, family in ALL.items() if name in named) - taken
+    reasons = [reason for group, reason in _NOT_ASKED.items() if group in lacking]
+    return f"{pattern!r} names {reasons[0] if reasons else 'pairs; the question passage is about sweeps alone'}"
 
 
 def _named(pattern: str, known: Mapping[str, Family]) -> set[str]:

@@ -17,7 +17,6 @@ tangent if and only if M + λD is positive semidefinite there. At last a rationa
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import reduce
 
 import numpy as np
 
@@ -32,6 +31,7 @@ from hypcheck.vectors.double_roots import (
     big_integers_of_any_length,
     gather,
     gathered,
+    in_lowest_terms,
     one_moved,
     triples,
     turned,
@@ -346,15 +346,10 @@ def _turned(
         sine * axis[0] + cosine * axis[1],
         radius * axis[2] * upward,
     ]
-    reduced = [*_in_lowest_terms(lengths), *_in_lowest_terms(axis_parts)]
+    reduced = [*in_lowest_terms(lengths), *in_lowest_terms(axis_parts)]
     exact = np.all([np.abs(number) <= 2**53 for number in reduced], axis=0).astype(np.bool_)
     rows = np.stack([number.astype(np.float64) for number in reduced], axis=1)
     return _anywhere(draw, rows), exact
-
-
-def _in_lowest_terms(numbers: list[BigIntegers]) -> list[BigIntegers]:
-    shared = np.maximum(reduce(np.gcd, numbers), 1)
-    return [number // shared for number in numbers]
 
 
 def _anywhere(draw: Draw, rows: Rows) -> Rows:

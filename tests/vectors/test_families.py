@@ -333,6 +333,8 @@ def test_select_takes_families_of_sweeps_only_if_sweeps_are_requested():
         select(["ended-way-thin"])
     with pytest.raises(InputError, match="'way-ring' names sweeps"):
         select(["way-ring"])
+    with pytest.raises(InputError, match="'ring' names pairs; the question passage is about sweeps alone"):
+        select(["ring"], frozenset({"end"}))
 
 
 @pytest.mark.parametrize(
