@@ -233,6 +233,14 @@ class Lengths:
         places = zip(across[::2], across[1::2], along, strict=False)  # the ends are behind the heights of centres
         return [cls(p, q, x, y, s, t, z, *axes, low, high, solid) for x, y, z in places]
 
+    def finer(self, factor: int, step: Vector = (0, 0, 0)) -> Lengths:
+        """The same pair in units that are `factor` times as fine, its centre moved by a step in these units."""
+        (u, v, w), low, high = step, self.low, self.high
+        low, high = None if low is None else low * factor, None if high is None else high * factor
+        radial = (self.alpha * factor, self.b * factor, self.x * factor + u, self.y * factor + v)
+        axial = (self.gamma * factor, self.d * factor, self.z * factor + w)
+        return Lengths(*radial, *axial, self.axis, self.upward, low, high, self.solid)
+
     @property
     def has_ends(self) -> bool:
         """Whether the hyperboloid ends at one of the heights."""

@@ -37,7 +37,7 @@ from functools import cached_property
 from typing import Any
 
 from hypcheck.geometry.arithmetic import QuadraticSurd
-from hypcheck.geometry.pair import Lengths, Position
+from hypcheck.geometry.pair import Position
 from hypcheck.truth import exact
 from hypcheck.truth.polynomials import (
     Interval,
@@ -115,7 +115,7 @@ def _larger(sweep: StraightSweep, middle: Fraction, half: Fraction) -> Position:
         return exact.position(lengths)
     bits = radii.denominator.bit_length() - radii.numerator.bit_length() - 1  # 2^−bits ≥ radii
     unit, more = (1 << bits, 1) if bits > 0 else (1, 1 << -bits)
-    return exact.position(_scaled(lengths, unit, unit + more))
+    return exact.position(replace(lengths.finer(unit), b=lengths.b * (unit + more), d=lengths.d * (unit + more)))
 
 
 def _radii(sweep: StraightSweep) -> Fraction:
@@ -124,20 +124,6 @@ def _radii(sweep: StraightSweep) -> Fraction:
     if sweep.is_upright and start.upward == (0, 0, 1):
         return Fraction(u + v, start.b) + Fraction(w, start.d)
     return Fraction(u + v + w, min(start.b, start.d))
-
-
-def _scaled(lengths: Lengths, unit: int, radius: int) -> Lengths:
-    """The same lengths in another unit, with semi-axes `radius` over `unit` times as long."""
-    low, high = (None if end is None else end * unit for end in (lengths.low, lengths.high))
-    names = ("alpha", "x", "y", "gamma", "z")
-    return replace(
-        lengths,
-        b=lengths.b * radius,
-        d=lengths.d * radius,
-        low=low,
-        high=high,
-        **{name: getattr(lengths, name) * unit for name in names},
-    )
 
 
 def first_contact(sweep: EndedSweep) -> Interval | None:

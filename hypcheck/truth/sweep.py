@@ -111,20 +111,13 @@ class StraightSweep:
 
     def at(self, time: Fraction) -> Lengths:
         """The pair at a rational time."""
-        return self._moved(time.numerator, time.denominator)
+        u, v, w = (part * time.numerator for part in self.step)
+        return self.start.finer(time.denominator, (u, v, w))
 
     def until(self, time: Fraction) -> StraightSweep:
         """The part of the sweep from its start to a rational time."""
         u, v, w = (part * time.numerator for part in self.step)
-        return StraightSweep(self._moved(0, time.denominator), (u, v, w))
-
-    def _moved(self, n: int, m: int) -> Lengths:
-        """The pair at the time n/m, in units that are m times as fine."""
-        here, (u, v, w) = self.start, self.step
-        x, y, z = here.x * m + u * n, here.y * m + v * n, here.z * m + w * n
-        low, high = (None if end is None else end * m for end in (here.low, here.high))
-        lengths = (here.alpha * m, here.b * m, x, y, here.gamma * m, here.d * m, z)
-        return Lengths(*lengths, here.axis, here.upward, low, high, here.solid)
+        return StraightSweep(self.start.finer(time.denominator), (u, v, w))
 
     def position(self, time: Fraction) -> Position:
         """The exact position at a rational time."""
