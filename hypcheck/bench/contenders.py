@@ -75,12 +75,9 @@ class Contender(MethodClaims):
 def of_method(method: Method, tier: str, kind: str, **fields: Any) -> Contender:  # noqa: ANN401 - of a contender
     """A built-in method as a contender; `fields` replace the method's values and the defaults."""
     claims: dict[str, Any] = {claim.name: getattr(method, claim.name) for claim in dataclasses.fields(MethodClaims)}
-    return Contender(tier=tier, kind=kind, **{"load": partial(in_python, method), **claims, **fields})
-
-
-def in_python(method: Method) -> InPython:
-    """A built-in method, loaded."""
-    return InPython(method.answer, None if method.scene is None else method.scene())
+    return Contender(
+        tier=tier, kind=kind, **{"load": partial(InPython, method.answer, method.scene), **claims, **fields}
+    )
 
 
 COMPILER = "C compiler"

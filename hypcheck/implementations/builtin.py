@@ -75,7 +75,7 @@ def _fast_methods() -> Iterator[Method]:
         ("fast-numpy", "in numpy", numpy_kernel.positions, numpy_kernel.positions_of_scene),
     ):
         title = f"the fast path, {where}: certified floats, integers where they cannot tell"
-        yield Method(name, title, answer, domain=EVERYWHERE, exact=True, scene=partial(_same, scene))
+        yield Method(name, title, answer, domain=EVERYWHERE, exact=True, scene=scene)
 
 
 def fast_positions(rows: Rows) -> Answers:
@@ -88,17 +88,13 @@ def fast_scene(sizes: Sizes, x: Floats, y: Floats, z: Floats, axis: Axis | None 
     return kernel().answer_scene(sizes, (x, y, z), "position", 1, axis)[0]
 
 
-def _same(scene: Callable[..., Answers]) -> Callable[..., Answers]:
-    return scene
-
-
 def _formula_method(formula: Formula, format_name: str) -> Method:
     dual = alternatives.dual(format_name) if formula.name == "dual" else None
     return Method(
         f"{formula.name}-{format_name}",
         f"{formula.title}, {format_name}",
         on_rows(dual) if dual else by_rows(formula, format_name),
-        scene=partial(on_scene, dual) if dual else partial(by_scene, formula, format_name),
+        scene=on_scene(dual) if dual else by_scene(formula, format_name),
         question=formula.question,
         precision=format_name,
         domain=Domain(regimes=formula.regimes),
@@ -113,7 +109,7 @@ def _measured_methods() -> Iterator[Method]:
     for precision in PRECISIONS:
         title = f"the roots of g by the trigonometric form, {precision}"
         roots = alternatives.trigonometric_roots(precision)
-        answer, scene = on_rows(roots), partial(on_scene, roots)
+        answer, scene = on_rows(roots), on_scene(roots)
         yield Method(f"trigonometric-{precision}", title, answer, precision=precision, scene=scene)
     yield Method("numpy-roots", "the roots of g by numpy.roots, float64", alternatives.numpy_roots, max_rows=400)
     for digits in DIGITS:
@@ -126,10 +122,10 @@ def _measured_methods() -> Iterator[Method]:
         ("nearest-point", "the nearest point, in double-double and then in exact enclosures", _nearest),
     ):
         yield Method(name, title, answer, domain=EVERYWHERE, exact=True, max_rows=400)
-    sphere, cylinder = partial(_same, alternatives.bounding_sphere_scene), alternatives.bounding_cylinder
+    sphere, cylinder = alternatives.bounding_sphere_scene, alternatives.bounding_cylinder
     for shape, how, answer, of_scene in (
         ("sphere", "exact", alternatives.bounding_sphere, sphere),
-        ("cylinder", "float64", on_rows(cylinder), partial(on_scene, cylinder)),
+        ("cylinder", "float64", on_rows(cylinder), on_scene(cylinder)),
     ):
         title = f"the circumscribed {shape} in the spheroid's place, {how}"
         yield Method(f"bounding-{shape}", title, answer, scene=of_scene)
@@ -171,7 +167,7 @@ def _tilted_methods() -> Iterator[Method]:
             "eigh",
             "eigenvectors by numpy.linalg.eigh, then the dual function, float64",
             alternatives.by_eigenvectors,
-            partial(_same, alternatives.by_eigenvectors_scene),
+            alternatives.by_eigenvectors_scene,
         ),
         (
             "roots",
@@ -183,7 +179,7 @@ def _tilted_methods() -> Iterator[Method]:
             "upright",
             "the spheroid taken for upright, exact",
             alternatives.upright,
-            partial(_same, alternatives.upright_scene),
+            alternatives.upright_scene,
         ),
     ):
         yield Method(name, title, answer, tilt=True, scene=scene)

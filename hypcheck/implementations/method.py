@@ -50,9 +50,9 @@ class Method(MethodClaims):
     `answer` maps valid rows, float64 (n, 7) or of sweeps (n, 10), to answers, int8 (n,): +1, 0, −1 for a position, 1
     and 0 for yes and no; with `tilt` its rows have an axis. `max_rows` limits the rows of each family for a slow one.
     `measured` marks a method that only `bench` uses: its errors are no finding of `verify`. `timed` stands in the place
-    of `answer` where a method also gives the times of hits. `scene` makes the function for rows that share their sizes,
-    and their axis if they have one: it takes the sizes and the columns of the centres; without it such rows are as any
-    others.
+    of `answer` where a method also gives the times of hits. `scene` is the function for rows that share their sizes,
+    and their axis if they have one: it takes the sizes, the columns of the centres, and the axis; without it such rows
+    are as any others.
     """
 
     answer: Callable[[Rows], Answers] = field(repr=False)
@@ -61,7 +61,7 @@ class Method(MethodClaims):
     measured: bool = False
     tilt: bool = False
     timed: Callable[[Rows], tuple[Answers, Floats]] | None = field(default=None, repr=False)
-    scene: Callable[[], Callable[..., Answers]] | None = field(default=None, repr=False)
+    scene: Callable[..., Answers] | None = field(default=None, repr=False)
 
 
 CHUNK = 8192
@@ -96,13 +96,24 @@ def by_rows(formula: Formula, format_name: str) -> ByRows:
 
 
 def by_scene(formula: Formula, format_name: str) -> ByScene:
-    """The formula for many centres and one α, γ, b, d; steps that depend on these only are evaluated once a call."""
-    first, then = parts(formula)
-    arithmetic, names = float_arithmetic(format_name), tuple(step.name for step in first.steps)
-    outside, inside = Evaluator(first, arithmetic, names), Evaluator(then, arithmetic, (formula.answer,))
-    return on_scene(
-        lambda columns: inside(columns)[0], lambda sizes: {**sizes, **dict(zip(names, outside(sizes), strict=True))}
-    )
+    """The formula for many centres and one α, γ, b, d; steps that depend on these only are evaluated once a call.
+
+    The first call makes the evaluators, which take longer than a run without scenes needs to list its methods.
+    """
+
+    @cache
+    def ready() -> ByScene:
+        first, then = parts(formula)
+        arithmetic, names = float_arithmetic(format_name), tuple(step.name for step in first.steps)
+        outside, inside = Evaluator(first, arithmetic, names), Evaluator(then, arithmetic, (formula.answer,))
+        return on_scene(
+            lambda columns: inside(columns)[0], lambda sizes: {**sizes, **dict(zip(names, outside(sizes), strict=True))}
+        )
+
+    def answers(sizes: Sizes, x: Floats, y: Floats, z: Floats) -> Answers:
+        return ready()(sizes, x, y, z)
+
+    return answers
 
 
 @cache
