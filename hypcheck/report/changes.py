@@ -226,68 +226,52 @@ def change_section(record: Record, against: Record) -> document.Section:
         ),
     ]
     if statuses:
-        blocks.append(_status_table(statuses))
+        blocks.append(document.table_of("changed statuses", statuses, _STATUS_CELLS))
     if accuracies:
-        blocks.append(_accuracy_table(accuracies))
+        blocks.append(document.table_of("changed errors", accuracies, _ERROR_CELLS))
     if not statuses and not accuracies:
         blocks.append(document.Paragraph("No case ended otherwise."))
     if ratios:
-        blocks += [document.Paragraph(_RATIOS), _ratio_table(ratios)]
+        blocks += [document.Paragraph(_RATIOS), document.table_of("ratios of times", ratios, _RATIO_CELLS)]
     return document.Section("What changed", tuple(blocks))
-
-
-def _status_table(changes: list[StatusChange]) -> document.TableBlock:
-    rows = [
-        (
-            document.Code(change.implementation),
-            document.Code(change.family),
-            _counts(change.before),
-            document.TableCell(_counts(change.after), tone="bad" if change.worse else ""),
-            measured(worst_u(change.before)),
-            measured(worst_u(change.after)),
-        )
-        for change in changes
-    ]
-    columns = "implementation | family | before | after | # worst before, u | # worst after, u"
-    return document.table("changed statuses", columns, rows)
 
 
 def _counts(group: GroupLine) -> str:
     return listed([f"{cases:,} {status}" for status, cases in group.counts.items()]) or "nothing"
 
 
-def _accuracy_table(changes: list[AccuracyChange]) -> document.TableBlock:
-    rows: list[document.Row] = [
-        (
-            document.Code(change.after.method),
-            change.after.workload,
-            *(
-                document.TableCell(f"{line.wrong:,} of {line.asked:,}", line.wrong / max(1, line.asked))
-                for line in both
-            ),
-            *(measured(line.reliable_above) for line in both),
-        )
-        for change in changes
-        for both in [(change.before, change.after)]
-    ]
-    columns = "method | workload | # wrong before | # wrong after | # reliable above, before | # reliable above, after"
-    return document.table("changed errors", columns, rows)
+_STATUS_CELLS: document.Cells[StatusChange] = {
+    "implementation": lambda change: document.Code(change.implementation),
+    "family": lambda change: document.Code(change.family),
+    "before": lambda change: _counts(change.before),
+    "after": lambda change: document.TableCell(_counts(change.after), tone="bad" if change.worse else ""),
+    "# worst before, u": lambda change: measured(worst_u(change.before)),
+    "# worst after, u": lambda change: measured(worst_u(change.after)),
+}
+
+_ERROR_CELLS: document.Cells[AccuracyChange] = {
+    "method": lambda change: document.Code(change.after.method),
+    "workload": lambda change: change.after.workload,
+    "# wrong before": lambda change: document.ratio_of(change.before.wrong, change.before.asked),
+    "# wrong after": lambda change: document.ratio_of(change.after.wrong, change.after.asked),
+    "# reliable above, before": lambda change: measured(change.before.reliable_above),
+    "# reliable above, after": lambda change: measured(change.after.reliable_above),
+}
 
 
-def _ratio_table(changes: list[RatioChange]) -> document.TableBlock:
-    columns = "method | workload | mode | # ratio before | # ratio after | # change | verdict"
-    return document.table("ratios of times", columns, [_ratio_row(change) for change in changes])
+def _factor(change: RatioChange) -> document.TableCell:
+    factor = change.after[0] / change.before[0] if change.before[0] else 0.0
+    return document.TableCell(f"× {figure(factor)}" if factor else document.MISSING, factor)
 
 
-def _ratio_row(change: RatioChange) -> document.Row:
-    before, after = change.before[0], change.after[0]
-    factor = after / before if before else 0.0
-    return (
-        document.Code(change.method),
-        change.workload,
-        change.mode,
-        measured(*change.before),
-        measured(*change.after),
-        document.TableCell(f"× {figure(factor)}" if factor else document.MISSING, factor),
-        document.TableCell(change.verdict, tone={SLOWER: "bad", FASTER: "good"}.get(change.verdict, "")),
-    )
+_RATIO_CELLS: document.Cells[RatioChange] = {
+    "method": lambda change: document.Code(change.method),
+    "workload": lambda change: change.workload,
+    "mode": lambda change: change.mode,
+    "# ratio before": lambda change: measured(*change.before),
+    "# ratio after": lambda change: measured(*change.after),
+    "# change": _factor,
+    "verdict": lambda change: document.TableCell(
+        change.verdict, tone={SLOWER: "bad", FASTER: "good"}.get(change.verdict, "")
+    ),
+}

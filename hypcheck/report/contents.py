@@ -18,8 +18,8 @@ from hypcheck.record.fields import numbers_of
 from hypcheck.record.lines import IsolationPart
 from hypcheck.record.measurements import AbsentLine, CompilerLine, MethodLine, WorkloadLine
 from hypcheck.report import advice, changes, document
-from hypcheck.report.facts import Failure, cause_facts
-from hypcheck.report.measured import measured_methods
+from hypcheck.report.facts import CauseFacts, Failure, cause_facts
+from hypcheck.report.measured import MeasuredMethod, measured_methods
 from hypcheck.report.messages import error_text, figure, from_hex, settings_facts
 from hypcheck.report.model import implementations, under_test
 from hypcheck.report.run_facts import benchmark_facts, method_facts, oracle_facts, paper_facts
@@ -135,23 +135,20 @@ def cause_sections(record: Record) -> Iterator[document.Section]:
     causes = cause_facts(record)
     if not causes:
         return
-    rows = [
-        (
-            document.Code(facts.line.method),
-            document.count(facts.line.cases, bad=True),
-            facts.share,
-            document.Code(facts.name),
-            facts.line.sentence + (f" ({facts.line.claim})" if facts.line.claim else ""),
-            facts.families(6),
-            document.with_code(facts.line.remedy),
-            (error_text(facts.line.worst), ": ", document.Code(facts.replay)),
-        )
-        for facts in causes
-    ]
-    columns = "implementation | # wrong | # share | cause | why | where | what to do | the worst of them"
-    yield document.Section(
-        "Why wrong answers are wrong", (document.Paragraph(_CAUSES), document.table("causes", columns, rows))
-    )
+    table = document.table_of("causes", causes, _CAUSE_CELLS)
+    yield document.Section("Why wrong answers are wrong", (document.Paragraph(_CAUSES), table))
+
+
+_CAUSE_CELLS: document.Cells[CauseFacts] = {
+    "implementation": lambda facts: document.Code(facts.line.method),
+    "# wrong": lambda facts: document.count(facts.line.cases, bad=True),
+    "# share": lambda facts: facts.share,
+    "cause": lambda facts: document.Code(facts.name),
+    "why": lambda facts: facts.line.sentence + (f" ({facts.line.claim})" if facts.line.claim else ""),
+    "where": lambda facts: facts.families(6),
+    "what to do": lambda facts: document.with_code(facts.line.remedy),
+    "the worst of them": lambda facts: (error_text(facts.line.worst), ": ", document.Code(facts.replay)),
+}
 
 
 ON_THE_RING = (1.0, 2.0, 1.0, 1.0, 2.5, 0.0, 0.0)
@@ -218,19 +215,6 @@ def compared_sections(record: Record) -> Iterator[document.Section]:
     methods = measured_methods(record)
     if not methods:
         return
-    columns = "method | what it is | tier | precision | question | exact | remarks"
-    rows = [
-        (
-            document.Code(method.name),
-            method.line.title,
-            method.tier,
-            method.line.precision,
-            method.line.question,
-            "yes" if method.exact else "",
-            "; ".join(_remarks(method.line)),
-        )
-        for method in methods
-    ]
     items = [
         (document.Strong(line.title), f" ({line.rows:,} rows, seed {line.seed}): {line.text}")
         for line in record.of(WorkloadLine)
@@ -240,10 +224,21 @@ def compared_sections(record: Record) -> Iterator[document.Section]:
         f"Compiled with {line.program} {line.version}: {' '.join(line.flags)}." for line in record.of(CompilerLine)
     ]
     blocks: list[document.Block] = [
-        document.table("methods", columns, rows),
+        document.table_of("methods", methods, _METHOD_CELLS),
         document.bullets([*items, *compiled, *missing]),
     ]
     yield document.Section("What was compared", tuple(blocks))
+
+
+_METHOD_CELLS: document.Cells[MeasuredMethod] = {
+    "method": lambda method: document.Code(method.name),
+    "what it is": lambda method: method.line.title,
+    "tier": lambda method: method.tier,
+    "precision": lambda method: method.line.precision,
+    "question": lambda method: method.line.question,
+    "exact": lambda method: "yes" if method.exact else "",
+    "remarks": lambda method: "; ".join(_remarks(method.line)),
+}
 
 
 def _remarks(line: MethodLine) -> Iterator[str]:

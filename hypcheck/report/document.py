@@ -6,14 +6,16 @@ Text is foreign unless `prose` returned it; each renderer escapes it.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Union
+from typing import TypeVar, Union
 
 from hypcheck.report.messages import figure, pace, with_interval
 
 NONE, MISSING = "·", "–"
 """The texts of a cell where nothing is wrong, and of one that has no value."""
+
+Value = TypeVar("Value")
 
 LONGEST = 2000
 """Characters of one foreign text that a report shows, so that a long name does not hide the rest."""
@@ -220,6 +222,15 @@ def table(name: str, heads: str | Iterable[Column], rows: Iterable[Row]) -> Tabl
     return TableBlock(name, columns(heads) if isinstance(heads, str) else tuple(heads), cells)
 
 
+Cells = Mapping[str, Callable[[Value], TableCell | Text]]
+"""The titles of a table's columns, as of table(), each with what the cell under it says of a row's value."""
+
+
+def table_of(name: str, values: Iterable[Value], cells: Cells[Value]) -> TableBlock:
+    """A table with a row for each value."""
+    return table(name, " | ".join(cells), [tuple(cell(value) for cell in cells.values()) for value in values])
+
+
 def bullets(items: Sequence[Text | Item]) -> Bullets:
     """A list of texts or items."""
     return Bullets(tuple(item if isinstance(item, Item) else Item(item) for item in items))
@@ -249,6 +260,11 @@ def paced(ratio: float | None, interval: tuple[float, float] | None = None) -> T
 def share(part: float, whole: float) -> TableCell:
     """The cell of a share in per cent; a dash if there is no whole."""
     return TableCell(f"{figure(100 * part / whole)} %", part / whole) if whole else TableCell(MISSING)
+
+
+def ratio_of(part: int, whole: int) -> TableCell:
+    """The cell of a part and its whole, sorted by the share: "3 of 40"."""
+    return TableCell(f"{part:,} of {whole:,}", part / max(1, whole))
 
 
 def number(title: Text, hint: str = "") -> Column:

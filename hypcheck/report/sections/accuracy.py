@@ -267,48 +267,40 @@ def peer_sections(record: Record) -> Iterator[document.Section]:
             (
                 document.Paragraph(_MESHES),
                 document.Figures("convergence"),
-                _meshes(record.of(measurements.ConvergenceLine)),
+                document.table_of("meshes", record.of(measurements.ConvergenceLine), _MESH_CELLS),
             ),
         )
     if record.of(measurements.BoundingLine):
         lines = record.of(measurements.BoundingLine)
         yield document.Section(
             "Bounding volumes",
-            (document.Paragraph(_BOUNDS), document.Figures("bounding"), _bounds(lines), _overlaps(lines)),
+            (
+                document.Paragraph(_BOUNDS),
+                document.Figures("bounding"),
+                document.table_of("bounding volumes", lines, _BOUND_CELLS),
+                _overlaps(lines),
+            ),
         )
 
 
-def _meshes(lines: list[measurements.ConvergenceLine]) -> document.TableBlock:
-    rows = [
-        (
-            document.Code(line.method),
-            document.count(line.triangles),
-            document.measured(line.deviation),
-            document.count(line.asked),
-            document.count(line.wrong),
-            document.measured(line.query_ns),
-            document.measured(line.build_ns),
-        )
-        for line in lines
-    ]
-    columns = "method | # triangles | # deviation, radii | # asked | # wrong | # query, ns | # build, ns"
-    return document.table("meshes", columns, rows)
+_MESH_CELLS: document.Cells[measurements.ConvergenceLine] = {
+    "method": lambda line: document.Code(line.method),
+    "# triangles": lambda line: document.count(line.triangles),
+    "# deviation, radii": lambda line: document.measured(line.deviation),
+    "# asked": lambda line: document.count(line.asked),
+    "# wrong": lambda line: document.count(line.wrong),
+    "# query, ns": lambda line: document.measured(line.query_ns),
+    "# build, ns": lambda line: document.measured(line.build_ns),
+}
 
-
-def _bounds(lines: list[measurements.BoundingLine]) -> document.TableBlock:
-    rows = [
-        (
-            line.shape,
-            line.workload,
-            document.count(line.asked),
-            document.count(line.false_contact),
-            document.share(line.false_contact, line.asked),
-            document.count(line.false_clear, bad=True),
-        )
-        for line in lines
-    ]
-    columns = "shape | workload | # asked | # false contact | # share | # false clear"
-    return document.table("bounding volumes", columns, rows)
+_BOUND_CELLS: document.Cells[measurements.BoundingLine] = {
+    "shape": lambda line: line.shape,
+    "workload": lambda line: line.workload,
+    "# asked": lambda line: document.count(line.asked),
+    "# false contact": lambda line: document.count(line.false_contact),
+    "# share": lambda line: document.share(line.false_contact, line.asked),
+    "# false clear": lambda line: document.count(line.false_clear, bad=True),
+}
 
 
 def _overlaps(lines: list[measurements.BoundingLine]) -> document.TableBlock:

@@ -31,7 +31,13 @@ def speed_sections(record: Record) -> Iterator[document.Section]:
             "Run times", (document.Paragraph(_TIMES), *blocks, document.Figures("speeds"), _speed_table(record))
         )
     if record.of(measurements.MemoryLine):
-        yield document.Section("Memory", (document.Paragraph(_MEMORY), _memory(record)))
+        yield document.Section(
+            "Memory",
+            (
+                document.Paragraph(_MEMORY),
+                document.table_of("memory", record.of(measurements.MemoryLine), _MEMORY_CELLS),
+            ),
+        )
 
 
 def _untimed(
@@ -70,17 +76,12 @@ def _time(record: Record, line: measurements.SpeedLine) -> document.Row:
     return (document.paced(line.ratio, line.ratio_ci95), document.measured(median, line.ci95_ns), rate, *ends)
 
 
-def _memory(record: Record) -> document.TableBlock:
-    rows = [
-        (
-            document.Code(line.method),
-            document.count(line.rows),
-            document.TableCell(figure(line.peak_bytes / 1e6), line.peak_bytes),
-            document.measured(line.peak_bytes / max(1, line.rows)),
-        )
-        for line in record.of(measurements.MemoryLine)
-    ]
-    return document.table("memory", "method | # rows | # growth, MB | # bytes a row", rows)
+_MEMORY_CELLS: document.Cells[measurements.MemoryLine] = {
+    "method": lambda line: document.Code(line.method),
+    "# rows": lambda line: document.count(line.rows),
+    "# growth, MB": lambda line: document.TableCell(figure(line.peak_bytes / 1e6), line.peak_bytes),
+    "# bytes a row": lambda line: document.measured(line.peak_bytes / max(1, line.rows)),
+}
 
 
 _FOREST = document.prose(
@@ -103,27 +104,22 @@ def scene_sections(record: Record) -> Iterator[document.Section]:
         )
     if forests:
         titles = {line.method: line.title for line in forests}
-        methods = document.bullets([(document.Code(name), f": {title}") for name, title in titles.items()])
+        methods = document.terms((document.Code(name), title) for name, title in titles.items())
+        steps = document.table_of("a step in a forest", forests, _FOREST_CELLS)
         yield document.Section(
-            "A step in a forest", (document.Paragraph(_FOREST), document.Figures("forest"), _forest(forests), methods)
+            "A step in a forest", (document.Paragraph(_FOREST), document.Figures("forest"), steps, methods)
         )
 
 
-def _forest(lines: list[measurements.ForestLine]) -> document.TableBlock:
-    rows = [
-        (
-            document.Code(line.method),
-            document.count(line.trees),
-            document.measured(line.step_ns, line.ci95_ns),
-            document.paced(line.ratio, line.ratio_ci95),
-            document.measured(line.build_s),
-            document.count(line.asked),
-            document.count(line.wrong, bad=line.exact),
-        )
-        for line in lines
-    ]
-    heads = "asked | # trees | # ns a step | # against hypcheck.Scene | # building, s | # steps | # wrong"
-    return document.table("a step in a forest", heads, rows)
+_FOREST_CELLS: document.Cells[measurements.ForestLine] = {
+    "asked": lambda line: document.Code(line.method),
+    "# trees": lambda line: document.count(line.trees),
+    "# ns a step": lambda line: document.measured(line.step_ns, line.ci95_ns),
+    "# against hypcheck.Scene": lambda line: document.paced(line.ratio, line.ratio_ci95),
+    "# building, s": lambda line: document.measured(line.build_s),
+    "# steps": lambda line: document.count(line.asked),
+    "# wrong": lambda line: document.count(line.wrong, bad=line.exact),
+}
 
 
 def _shares(lines: list[measurements.SceneLine]) -> document.TableBlock:
@@ -168,9 +164,12 @@ _BASELINE = document.prose(
 def baseline_sections(record: Record) -> Iterator[document.Section]:
     """The comparison with the baseline; none if there is no baseline."""
     if record.of(measurements.ComparisonLine):
-        yield document.Section(
-            "Against the baseline", (document.Paragraph(_BASELINE), _baseline(record.of(measurements.ComparisonLine)))
+        order = ["slower", "inconclusive", "faster", "same"]
+        lines = sorted(
+            record.of(measurements.ComparisonLine), key=lambda line: (not line.gates, order.index(line.verdict))
         )
+        compared = document.table_of("against the baseline", lines, _BASELINE_CELLS)
+        yield document.Section("Against the baseline", (document.Paragraph(_BASELINE), compared))
 
 
 def target_sections(record: Record) -> Iterator[document.Section]:
@@ -178,27 +177,10 @@ def target_sections(record: Record) -> Iterator[document.Section]:
     if record.of(measurements.CostLine):
         yield document.Section("The paper's claims of cost", tuple(_claims(record)))
     if record.of(measurements.KernelLine):
-        yield document.Section("The kernels' targets", (_kernels(record.of(measurements.KernelLine)),))
-
-
-def _baseline(lines: list[measurements.ComparisonLine]) -> document.TableBlock:
-    order = ["slower", "inconclusive", "faster", "same"]
-    ranked = sorted(lines, key=lambda line: (not line.gates, order.index(line.verdict)))
-    rows = [
-        (
-            document.Code(line.method),
-            line.workload,
-            line.mode,
-            document.paced(line.before),
-            document.paced(line.after),
-            document.measured(line.change, line.ci95),
-            document.measured(line.allowed),
-            _verdict(line),
+        lines = sorted(record.of(measurements.KernelLine), key=lambda line: line.met)
+        yield document.Section(
+            "The kernels' targets", (document.table_of("targets of the kernels", lines, _TARGET_CELLS),)
         )
-        for line in ranked
-    ]
-    heads = "method | workload | mode | # before | # after | # change | # allowed | verdict"
-    return document.table("against the baseline", heads, rows)
 
 
 def _verdict(line: measurements.ComparisonLine) -> document.TableCell:
@@ -206,6 +188,18 @@ def _verdict(line: measurements.ComparisonLine) -> document.TableCell:
     return (
         document.TableCell(verdict, tone=_TONES.get(verdict, "")) if line.gates else document.TableCell(f"({verdict})")
     )
+
+
+_BASELINE_CELLS: document.Cells[measurements.ComparisonLine] = {
+    "method": lambda line: document.Code(line.method),
+    "workload": lambda line: line.workload,
+    "mode": lambda line: line.mode,
+    "# before": lambda line: document.paced(line.before),
+    "# after": lambda line: document.paced(line.after),
+    "# change": lambda line: document.measured(line.change, line.ci95),
+    "# allowed": lambda line: document.measured(line.allowed),
+    "verdict": _verdict,
+}
 
 
 def costs_by_claim(record: Record) -> dict[str, list[measurements.CostLine]]:
@@ -256,19 +250,13 @@ def _compared(line: measurements.CostLine) -> Iterator[document.Row]:
         )
 
 
-def _kernels(lines: list[measurements.KernelLine]) -> document.TableBlock:
-    rows = [
-        (
-            line.name,
-            line.target,
-            document.measured(line.wanted),
-            document.measured(line.measured, line.ci95),
-            document.TableCell("yes", tone="good")
-            if line.met
-            else document.TableCell(document.Strong("no"), tone="bad"),
-            line.says,
-        )
-        for line in sorted(lines, key=lambda line: line.met)
-    ]
-    heads = "kernel | target | # wanted | # measured | met | which says"
-    return document.table("targets of the kernels", heads, rows)
+_MET, _MISSED = document.TableCell("yes", tone="good"), document.TableCell(document.Strong("no"), tone="bad")
+
+_TARGET_CELLS: document.Cells[measurements.KernelLine] = {
+    "kernel": lambda line: line.name,
+    "target": lambda line: line.target,
+    "# wanted": lambda line: document.measured(line.wanted),
+    "# measured": lambda line: document.measured(line.measured, line.ci95),
+    "met": lambda line: _MET if line.met else _MISSED,
+    "which says": lambda line: line.says,
+}

@@ -10,7 +10,15 @@ from msgspec import UNSET
 from hypcheck.messages import counted
 from hypcheck.record import Record
 from hypcheck.record.fields import numbers_of
-from hypcheck.record.lines import EquationLine, FindingLine, ImplementationLine, MapLine, NotStartedLine, ProofLine
+from hypcheck.record.lines import (
+    EquationLine,
+    FindingLine,
+    ImplementationLine,
+    MapLine,
+    NotStartedLine,
+    ProofLine,
+    WrongAnswer,
+)
 from hypcheck.report import document, messages, model
 
 _ORACLES = document.prose(
@@ -29,27 +37,19 @@ def oracle_sections(record: Record) -> Iterator[document.Section]:
     missing = [
         (document.Code(total.name), f" was not asked: {total.unavailable}") for total in totals if total.unavailable
     ]
-    yield document.Section(
-        "The oracles",
-        (document.Paragraph(_ORACLES), *([_oracle_table(answering)] if answering else []), document.bullets(missing)),
-    )
+    answers = [document.table_of("oracles", answering, _ORACLE_CELLS)] if answering else []
+    yield document.Section("The oracles", (document.Paragraph(_ORACLES), *answers, document.bullets(missing)))
 
 
-def _oracle_table(totals: list[model.OracleTotal]) -> document.TableBlock:
-    rows = [
-        (
-            document.Code(total.name),
-            document.count(total.asked),
-            document.count(total.agreed),
-            document.count(total.undecided),
-            document.count(total.disagreements, bad=True),
-            ", ".join(f"{stage or 'answered'} {answers:,}" for stage, answers in total.stages.items()),
-            document.measured(total.seconds),
-        )
-        for total in totals
-    ]
-    columns = "oracle | # asked | # agreed | # undecided | # disagreed | how it answered | # seconds"
-    return document.table("oracles", columns, rows)
+_ORACLE_CELLS: document.Cells[model.OracleTotal] = {
+    "oracle": lambda total: document.Code(total.name),
+    "# asked": lambda total: document.count(total.asked),
+    "# agreed": lambda total: document.count(total.agreed),
+    "# undecided": lambda total: document.count(total.undecided),
+    "# disagreed": lambda total: document.count(total.disagreements, bad=True),
+    "how it answered": lambda total: ", ".join(f"{stage or 'answered'} {n:,}" for stage, n in total.stages.items()),
+    "# seconds": lambda total: document.measured(total.seconds),
+}
 
 
 _IN_TABLE = ("right", "tolerated", "wrong", "skipped")
@@ -70,16 +70,15 @@ def method_sections(record: Record) -> Iterator[document.Section]:
 
 
 def _exact(methods: Sequence[model.ImplementationTotal]) -> document.Section:
-    rows = [
-        (document.Code(method.name), method.title, document.count(method.asked), _statuses(method.statuses))
-        for method in methods
-    ]
+    cells: document.Cells[model.ImplementationTotal] = {
+        "method": lambda method: document.Code(method.name),
+        "what it is": lambda method: method.title,
+        "# asked": lambda method: document.count(method.asked),
+        "answers": lambda method: _statuses(method.statuses),
+    }
+    words = document.Paragraph("A single answer that is not right fails the run.")
     return document.Section(
-        "Methods that promise to be exact",
-        (
-            document.Paragraph("A single answer that is not right fails the run."),
-            document.table("exact methods", "method | what it is | # asked | answers", rows),
-        ),
+        "Methods that promise to be exact", (words, document.table_of("exact methods", methods, cells))
     )
 
 
@@ -103,7 +102,7 @@ def _introduction(record: Record, methods: Sequence[model.ImplementationTotal]) 
 def _glossary(methods: Sequence[model.ImplementationTotal]) -> document.Block:
     """The titles of the methods; one that runs in several precisions is described once."""
     titles = {_plain_name(method): method.title.removesuffix(f", {method.precision}") for method in methods}
-    return document.bullets([(document.Code(name), f": {title}") for name, title in titles.items() if title != name])
+    return document.terms((document.Code(name), title) for name, title in titles.items() if title != name)
 
 
 def _plain_name(method: model.ImplementationTotal) -> str:
@@ -117,30 +116,30 @@ def _part(precision: str, methods: Sequence[model.ImplementationTotal]) -> docum
     also: list[document.Text] = [
         (document.Code(method.name), f" also ended: {_statuses(rest)}") for method, rest in otherwise if rest
     ]
-    return document.Section(precision, (_totals(methods), document.bullets(also), *_matrix(methods)), level=3)
+    totals = document.table_of("methods", methods, _METHOD_CELLS)
+    return document.Section(precision, (totals, document.bullets(also), *_matrix(methods)), level=3)
 
 
-def _totals(methods: Sequence[model.ImplementationTotal]) -> document.TableBlock:
-    columns = (
-        "method | question | # asked | # right | # tolerated | # wrong | # false clear | # worst error in u | its case"
-    )
-    return document.table("methods", columns, [_method_row(method) for method in methods])
-
-
-def _method_row(method: model.ImplementationTotal) -> document.Row:
-    statuses, worst = method.statuses, method.worst
+def _worst_error(worst: WrongAnswer | None) -> document.TableCell:
     error = model.worst_error_u(worst)
-    return (
-        document.Code(_plain_name(method)),
-        method.question,
-        document.count(method.asked),
-        document.count(statuses.get("right", 0)),
-        document.count(statuses.get("tolerated", 0)),
-        document.count(statuses.get("wrong", 0), bad=True),
-        document.count(method.mistakes.get("false-clear", 0)),
-        document.TableCell(messages.figure(error) if worst else document.NONE, error),
-        document.Code(worst.case, messages.from_hex(numbers_of(worst))) if worst else document.NONE,
-    )
+    return document.TableCell(messages.figure(error) if worst else document.NONE, error)
+
+
+def _worst_case(worst: WrongAnswer | None) -> document.Text:
+    return document.Code(worst.case, messages.from_hex(numbers_of(worst))) if worst else document.NONE
+
+
+_METHOD_CELLS: document.Cells[model.ImplementationTotal] = {
+    "method": lambda method: document.Code(_plain_name(method)),
+    "question": lambda method: method.question,
+    "# asked": lambda method: document.count(method.asked),
+    "# right": lambda method: document.count(method.statuses.get("right", 0)),
+    "# tolerated": lambda method: document.count(method.statuses.get("tolerated", 0)),
+    "# wrong": lambda method: document.count(method.statuses.get("wrong", 0), bad=True),
+    "# false clear": lambda method: document.count(method.mistakes.get("false-clear", 0)),
+    "# worst error in u": lambda method: _worst_error(method.worst),
+    "its case": lambda method: _worst_case(method.worst),
+}
 
 
 def _matrix(methods: Sequence[model.ImplementationTotal]) -> tuple[document.Block, ...]:
@@ -257,21 +256,23 @@ def timing_sections(record: Record) -> Iterator[document.Section]:
         f" {model.REFERENCE} in the same round; the median of the rounds. Times do not carry over to another machine."
     )
     introduction = ("On ", workloads, how)
-    rows = [
-        (
-            total.name,
-            total.title,
-            document.count(total.rows),
-            document.measured(total.median_ns),
-            document.TableCell(
-                f"{messages.figure(total.least_ns)} to {messages.figure(total.greatest_ns)}", total.greatest_ns
-            ),
-            document.paced(total.ratio),
-        )
-        for total in totals
-    ]
-    columns = "contender | what it is | # rows | # ns a row, median | # least to greatest | # against the plain formula"
-    yield document.Section("Timings", (document.Paragraph(introduction), document.table("timings", columns, rows)))
+    times = document.table_of("timings", totals, _TIMING_CELLS)
+    yield document.Section("Timings", (document.Paragraph(introduction), times))
+
+
+def _spread(total: model.TimingTotal) -> document.TableCell:
+    ends = (messages.figure(total.least_ns), messages.figure(total.greatest_ns))
+    return document.TableCell(" to ".join(ends), total.greatest_ns)
+
+
+_TIMING_CELLS: document.Cells[model.TimingTotal] = {
+    "contender": lambda total: total.name,
+    "what it is": lambda total: total.title,
+    "# rows": lambda total: document.count(total.rows),
+    "# ns a row, median": lambda total: document.measured(total.median_ns),
+    "# least to greatest": _spread,
+    "# against the plain formula": lambda total: document.paced(total.ratio),
+}
 
 
 MAP = document.Figures("map", "exact positions and wrong answers over the half plane (r, z)", "map.svg")
@@ -334,11 +335,7 @@ def _proofs(lines: list[ProofLine]) -> document.Section:
     for line in lines:
         by_formula.setdefault(line.formula, []).append(line.holds)
     rows = [
-        (
-            document.Code(name),
-            document.TableCell(str(sum(holds)), sum(holds)),
-            document.TableCell(str(len(holds)), len(holds)),
-        )
+        (document.Code(name), document.count(sum(holds)), document.count(len(holds)))
         for name, holds in by_formula.items()
     ]
     proved = document.table("proofs", "formula | # proved | # to be shown", rows)
@@ -351,21 +348,21 @@ def _findings(lines: list[FindingLine]) -> document.Section:
     for line in sorted(lines, key=lambda line: not line.inside):
         key = (line.inside, line.family, line.cause, line.first_case, line.wrong, line.asked, line.reason)
         alike.setdefault(key, []).append(line)
-    columns = "formula | family | stated regimes | # wrong | why | first witness, to six digits | its case"
-    witnesses = document.table("mathematical findings", columns, [_finding(group) for group in alike.values()])
+    witnesses = document.table_of("mathematical findings", alike.values(), _FINDING_CELLS)
     return document.Section("Mathematical findings", (document.Paragraph(_FINDINGS), witnesses))
 
 
-def _finding(group: list[FindingLine]) -> document.Row:
-    line = group[0]
+def _why(line: FindingLine) -> document.TableCell:
     why = model.explanation(line)
-    row = messages.from_hex(line.first_row)
-    return (
-        document.joined([document.Code(finding.formula) for finding in group]),
-        document.Code(line.family),
-        document.Strong("inside") if line.inside else "outside",
-        document.TableCell(f"{line.wrong:,} of {line.asked:,}", line.wrong / max(1, line.asked)),
-        document.TableCell(document.Strong(why), tone="bad") if model.unlisted(line) else why,
-        messages.short_row(row),
-        document.Code(line.first_case, row),
-    )
+    return document.TableCell(document.Strong(why), tone="bad") if model.unlisted(line) else document.TableCell(why)
+
+
+_FINDING_CELLS: document.Cells[list[FindingLine]] = {
+    "formula": lambda group: document.joined([document.Code(finding.formula) for finding in group]),
+    "family": lambda group: document.Code(group[0].family),
+    "stated regimes": lambda group: document.Strong("inside") if group[0].inside else "outside",
+    "# wrong": lambda group: document.ratio_of(group[0].wrong, group[0].asked),
+    "why": lambda group: _why(group[0]),
+    "first witness, to six digits": lambda group: messages.short_row(messages.from_hex(group[0].first_row)),
+    "its case": lambda group: document.Code(group[0].first_case, messages.from_hex(group[0].first_row)),
+}
