@@ -20,7 +20,7 @@ from hypcheck.record.measurements import AbsentLine, CompilerLine, MethodLine, W
 from hypcheck.report import advice, changes, document
 from hypcheck.report.facts import CauseFacts, Failure, cause_facts
 from hypcheck.report.measured import MeasuredMethod, measured_methods
-from hypcheck.report.messages import error_text, figure, from_hex, settings_facts
+from hypcheck.report.messages import as_sentence, error_text, figure, from_hex, settings_facts
 from hypcheck.report.model import implementations, under_test
 from hypcheck.report.run_facts import benchmark_facts, method_facts, oracle_facts, paper_facts
 from hypcheck.report.sections import accuracy, times, verification
@@ -33,7 +33,7 @@ def settings_sections(record: Record) -> Iterator[document.Section]:
     """The settings file of the run and the options that weaken its gate; none if the run has neither."""
     facts = list(settings_facts(record.header.settings))
     if facts:
-        items = [document.Strong(f"{fact[:1].upper()}{fact[1:]}.") for fact in facts]
+        items = [document.Strong(as_sentence(fact)) for fact in facts]
         yield document.Section("Settings", (document.bullets(items),))
 
 
@@ -118,7 +118,7 @@ def square_sections(record: Record) -> Iterator[document.Section]:
         return
     blocks: list[document.Block] = []
     for square, passing in tables_of_answers(record):
-        blocks += [square, *([document.Paragraph(f"{passing[:1].upper()}{passing[1:]}.")] if passing else [])]
+        blocks += [square, *([document.Paragraph(as_sentence(passing))] if passing else [])]
     if blocks:
         yield document.Section("Answers against the truth", tuple(blocks))
 
@@ -324,7 +324,7 @@ _OTHER_REPORTS = (
 def overview(record: Record, beside: Collection[str]) -> ReportContent:
     """The content of the overview; it shows the pictures among the files `beside` it."""
     parts = (oracle_facts, paper_facts, method_facts, benchmark_facts)
-    shows = document.bullets([f"{fact[:1].upper()}{fact[1:]}." for part in parts for fact in part(record)])
+    shows = document.bullets([as_sentence(fact) for part in parts for fact in part(record)])
     pictures = tuple(figures for figures in (verification.MAP, FRONT, PARETO, ERRORS) if figures.file in beside)
     sections = [
         *square_sections(record),

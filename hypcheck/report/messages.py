@@ -25,6 +25,11 @@ from hypcheck.runs.judge import DEFAULT_TOLERANCE
 from hypcheck.vectors.border_lines import NEAREST_OCTAVE, SEARCHED
 
 
+def as_sentence(fact: str) -> str:
+    """A sentence without a full stop, as one that begins with a capital letter and ends with a full stop."""
+    return f"{fact[:1].upper()}{fact[1:]}."
+
+
 def listed(items: Sequence[str], last: str = "and") -> str:
     """The items as in a sentence: "a, b and c"."""
     return f" {last} ".join(part for part in (", ".join(items[:-1]), *items[-1:]) if part)
@@ -141,10 +146,15 @@ def implementation_claims(
     yield f"declares {description_text(declared)}"
     if changed:
         yield f"judged as {listed([_declared_value(used, name) for name in changed])}, as the options say"
+    yield from how_tested(line, rows, left_out=left_out)
+
+
+def how_tested(line: lines.ImplementationLine, rows: Mapping[str, int], *, left_out: bool = True) -> Iterator[str]:
+    """Sentences without a full stop: what was not tested, the evenness of the cases, and what was asked again."""
     not_asked = [text for text in (families_not_asked(line), rows_not_asked(rows)) if text]
     if not_asked and left_out:
         yield f"not asked: {'; '.join(not_asked)}"
-    yield from spread(line)
+    yield from _spread(line)
     again, restarts = line.retest, line.restarts
     other = again.within + again.beyond
     repetition = f"asked again about {counted(again.asked, 'case')}, {other:,} answered otherwise"
@@ -153,7 +163,7 @@ def implementation_claims(
     yield f"{repeated}; {counted(restarts, 'restart')}"
 
 
-def spread(line: lines.ImplementationLine) -> Iterator[str]:
+def _spread(line: lines.ImplementationLine) -> Iterator[str]:
     """Sentences without a full stop: the width of a fault that the run could miss, and the tested coincidences."""
     for family, slices in (line.slices or {}).items():
         if family in SEARCHED:

@@ -184,9 +184,14 @@ def gated_sections(record: Record) -> Iterator[document.Section]:
         for row in _gated_rows(tested.name, tested.line)
     ]
     declared = [document.table("implementations under test", columns, rows)] if rows else []
-    yield document.Section(
-        "Implementations under test", (*declared, document.bullets([_gated_value(tested) for tested in gated]))
-    )
+    tests = document.bullets([_gated_value(tested) for tested in gated])
+    yield document.Section("Implementations under test", (*declared, document.Paragraph(_AGAIN), tests))
+
+
+_AGAIN = (
+    "Some cases are asked again, in another order, in other batches and in a fresh process. Fresh rows are of a seed "
+    "that nobody knew before the run."
+)
 
 
 def _gated_rows(name: str, line: ImplementationLine) -> Iterator[document.Row]:
@@ -205,28 +210,20 @@ def _gated_rows(name: str, line: ImplementationLine) -> Iterator[document.Row]:
 
 
 def _gated_value(tested: model.UnderTest) -> document.Text:
+    """How an implementation was tested, in sentences."""
     line = tested.line
     name: document.Text = (document.Code(tested.name), ", ", document.Code(line.spec))
     if isinstance(line, NotStartedLine):
         return (name, f", was not started: {line.trouble}.")
-    again = line.retest
-    troubles = "".join(f" {trouble}." for trouble in line.troubles)
-    excused = sum(group.counts.get("excused", 0) for group in tested.groups)
-    known = f" {counted(excused, 'case')} excused as known failures." if excused else ""
-    fresh = sum(group.fresh or 0 for group in tested.groups)
-    freshness = f" {counted(fresh, 'row')} of a seed that nobody knew before the run." if fresh else " No fresh rows."
     counts: Counter[str] = sum((Counter(group.not_asked or {}) for group in tested.groups), Counter())
-    left_out = [text for text in (messages.rows_not_asked(counts), messages.families_not_asked(line)) if text]
-    known += (freshness if line.not_asked is not UNSET else "") + (
-        f" Not asked: {'; '.join(left_out)}." if left_out else ""
-    )
-    known += "".join(f" {fact[0].upper()}{fact[1:]}." for fact in messages.spread(line))
-    sentences = (
-        f": {counted(again.asked, 'case')} asked again in another order, in other batches and in a fresh process;"
-        f" {again.within:,} answered otherwise within the tolerance, {again.beyond:,} beyond it."
-        f" {counted(line.restarts, 'restart')}.{known}{troubles}"
-    )
-    return (name, sentences)
+    excused = sum(group.counts.get("excused", 0) for group in tested.groups)
+    fresh = sum(group.fresh or 0 for group in tested.groups)
+    facts = [
+        *messages.how_tested(line, counts),
+        *([f"{counted(excused, 'case')} excused as known failures"] if excused else []),
+        *([counted(fresh, "fresh row") if fresh else "no fresh rows"] if line.not_asked is not UNSET else []),
+    ]
+    return (name, ": ", " ".join([*map(messages.as_sentence, facts), *(f"{trouble}." for trouble in line.troubles)]))
 
 
 SWEEPS = document.Figures(
