@@ -13,7 +13,7 @@ from hypcheck.cli.options import OutputPath
 from hypcheck.cli.running import summary_options
 from hypcheck.errors import Exit, InputError
 from hypcheck.messages import counted, escaped, printable
-from hypcheck.report.formats import REPORTS, kept_formats
+from hypcheck.report import REPORTS, kept_formats
 from hypcheck.tables.streams import STREAM, replace_output, same_file
 
 if TYPE_CHECKING:

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from hypcheck.processes import Stage
     from hypcheck.record import Record, Recorder, RecordLine
     from hypcheck.record.writer import Provenance
-    from hypcheck.report.formats import WrittenReport
+    from hypcheck.report import WrittenReport
     from hypcheck.runs.plan import ConformancePlan
     from hypcheck.runs.resume import ResumedRun
 

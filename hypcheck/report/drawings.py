@@ -30,7 +30,7 @@ class DrawnPlot(NamedTuple):
 
 
 Drawings = Mapping[str, tuple[DrawnPlot, ...]]
-"""Plots that were drawn already, by their names in pictures.PLOTS."""
+"""Plots that were drawn already, by their names in plots.PLOTS."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,8 +90,8 @@ def pictures() -> ModuleType:
     try:
         import matplotlib  # noqa: F401, PLC0415
 
-        from hypcheck.report.plots import pictures  # noqa: PLC0415
+        from hypcheck.report import plots  # noqa: PLC0415
     except ImportError as error:
         reason = f"matplotlib cannot be imported ({escaped(error)}); pip install 'hypcheck[report]' brings it"
         raise UnavailableError(reason) from None
-    return pictures
+    return plots

@@ -27,10 +27,10 @@ from hypcheck.errors import UnavailableError
 from hypcheck.messages import escaped
 from hypcheck.record import Record
 from hypcheck.report import document
-from hypcheck.report.contents import ON_THE_RING, can_be_drawn, content
+from hypcheck.report.colours import colour_rules
 from hypcheck.report.drawings import ALONE, Drawings, ReportContext, drawn_plots
 from hypcheck.report.messages import short_row
-from hypcheck.report.plots.colours import colour_rules
+from hypcheck.report.sections import ON_THE_RING, can_be_drawn, content
 from hypcheck.version import VERSION
 
 _TAGS = {document.Strong: "strong", document.Emphasis: "em"}

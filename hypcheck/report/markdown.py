@@ -12,8 +12,8 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 from hypcheck.messages import escaped
 from hypcheck.record import Record
 from hypcheck.report import document
-from hypcheck.report.contents import ReportContent, content, overview
 from hypcheck.report.drawings import ALONE, ReportContext
+from hypcheck.report.sections import ReportContent, content, overview
 
 _SPECIAL = re.compile(r"[\\`*_\[\]~$|<>&]")
 _ENTITIES = {"|": "&#124;", "<": "&lt;", ">": "&gt;", "&": "&amp;"}

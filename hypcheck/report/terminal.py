@@ -11,13 +11,12 @@ from hypcheck.messages import counted, escaped
 from hypcheck.record import Record
 from hypcheck.record.lines import CauseLine
 from hypcheck.record.measurements import AbsentLine, CostLine
-from hypcheck.report import run_facts
+from hypcheck.report import WrittenReport, run_facts
 from hypcheck.report.advice import advice_facts, best_rival_facts, own_method_facts
 from hypcheck.report.benchmark_facts import sentences_of
 from hypcheck.report.changes import change_facts
 from hypcheck.report.drawings import ALONE, ReportContext
 from hypcheck.report.facts import Failure, cause_facts
-from hypcheck.report.formats import WrittenReport
 from hypcheck.report.messages import error_text, settings_facts
 from hypcheck.report.text import table_lines
 from hypcheck.report.verdict import failures, tables_of_answers, verdict

@@ -19,10 +19,9 @@ from hypcheck.kernel.in_use import kernel
 from hypcheck.messages import escaped
 from hypcheck.record import Record
 from hypcheck.record.reader import FILE, GROWING
-from hypcheck.report import csv, junit, markdown, summary, terminal
+from hypcheck.report import REPORTS, ReportFormat, WrittenReport, csv, junit, kept_formats, markdown, summary, terminal
 from hypcheck.report.code_hosts import render_badge, render_gitlab, render_sarif
 from hypcheck.report.drawings import ALONE, ReportContext, draw_ahead, drawn_plots, pictures, render_picture
-from hypcheck.report.formats import REPORTS, ReportFormat, WrittenReport, kept_formats
 from hypcheck.report.model import drawn_sweep, implementations
 from hypcheck.tables.streams import made_folder, remove_file, write_files
 

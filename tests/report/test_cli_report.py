@@ -10,7 +10,7 @@ import pytest
 
 from hypcheck.cli.main import main
 from hypcheck.record import read
-from hypcheck.report.formats import REPORTS, kept_formats
+from hypcheck.report import REPORTS, kept_formats
 from hypcheck.report.write import render
 from tests.report import record_samples
 

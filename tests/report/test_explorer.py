@@ -22,7 +22,7 @@ import hypcheck
 from hypcheck.derivation.formulas import FORMULAS, REPAIRED
 from hypcheck.geometry.pair import COLUMNS, Pair
 from hypcheck.implementations.method import by_rows
-from hypcheck.report import contents, html
+from hypcheck.report import html, sections
 from hypcheck.report.document import Code
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import FAMILIES
@@ -161,7 +161,7 @@ def test_roots_shown_by_the_explorer_are_those_of_the_cubic(found):
 
 
 def test_reports_draw_only_valid_rows_of_upright_spheroids_at_rest():
-    upright = contents.ON_THE_RING
+    upright = sections.ON_THE_RING
     for row, drawn in ((upright, True), ((*upright, 0.0, 0.0, 1.0), False), ((math.nan, *upright[1:]), False)):
         text = html.html_text(Code("ring-0001", row))
         assert ('<svg class="bodies"' in text, 'data-row="1.0 2.0 1.0 1.0 2.5 0.0 0.0"' in text) == (drawn, drawn)
@@ -174,11 +174,11 @@ def test_small_picture_has_finite_coordinates_and_draws_thin_bodies_wide_enough_
         assert all(math.isfinite(float(place)) for place in re.split("[ ,]", " ".join(places))), row
     thin = html.small_picture((0.052, 4.4, 0.17, 9.6, 0.03, 0.0, -10.5))
     assert 'rx="24" ry="16"' in thin
-    assert 'rx="16" ry="16"' in html.small_picture(contents.ON_THE_RING)
+    assert 'rx="16" ry="16"' in html.small_picture(sections.ON_THE_RING)
 
 
 def test_small_picture_shows_the_wall_however_far_or_small_the_spheroid_is():
-    far = [(1.0, 2.0, 0.1, 0.1, 50.0, 0.0, 0.0), (9.0, 2.0, 0.1, 0.3, 0.0, 0.0, 0.0), contents.ON_THE_RING]
+    far = [(1.0, 2.0, 0.1, 0.1, 50.0, 0.0, 0.0), (9.0, 2.0, 0.1, 0.3, 0.0, 0.0, 0.0), sections.ON_THE_RING]
     tiny = [(4e-308, 3e-308, 4e-308, 1e-307, -3e-307, 0.0, 0.0), (4e-315, 4.0, 3e-315, 0.9, -1e-314, 6e-315, -6.0)]
     for row in [*far, *tiny]:
         drawn = html.small_picture(row)

@@ -8,8 +8,8 @@ from xml.etree import ElementTree
 
 import pytest
 
+from hypcheck.report import REPORTS
 from hypcheck.report.document import LONGEST
-from hypcheck.report.formats import REPORTS
 from hypcheck.report.write import render
 from tests.report.hostile import SCRIPT, hostile_record
 from tests.report.pages import page_of

@@ -6,7 +6,7 @@ The goldens of recorded runs show the page whole, and that it loads nothing and 
 from __future__ import annotations
 
 from hypcheck.report import html, markdown
-from hypcheck.report.contents import IN_TABLE, LISTED
+from hypcheck.report.sections import IN_TABLE, LISTED
 from tests.report import record_samples
 from tests.report.hostile import hostile_record
 from tests.report.page_structure import Elements, faults

@@ -12,10 +12,9 @@ from matplotlib.text import Text
 
 from hypcheck.record import read
 from hypcheck.record.measurements import SpeedLine
-from hypcheck.report.plots import curves, pareto, planes
+from hypcheck.report.plots import PLOTS, curves, draw_plots, pareto, planes
 from hypcheck.report.plots.curves import TANGENT, Octave, curve, in_parts
 from hypcheck.report.plots.pareto import ParetoPoint, front
-from hypcheck.report.plots.pictures import PLOTS, draw_plots
 from hypcheck.report.plots.style import ROLES, curve_style, decades, new_figure, power_of_ten, styled, ticks
 from tests.report import record_samples
 from tests.report.bench_lines import bench_record

@@ -11,9 +11,8 @@ from hypcheck.bench.contenders import contenders
 from hypcheck.bench.plan import BenchPlan
 from hypcheck.record import SCHEMA, read
 from hypcheck.record.measurements import AbsentLine, AccuracyLine, MethodLine
-from hypcheck.report import markdown
+from hypcheck.report import REPORTS, markdown
 from hypcheck.report.drawings import ReportContext
-from hypcheck.report.formats import REPORTS
 from hypcheck.report.write import render
 from hypcheck.version import VERSION
 

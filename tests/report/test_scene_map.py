@@ -12,7 +12,8 @@ from matplotlib.colors import to_rgb
 
 from hypcheck.record.fields import as_json
 from hypcheck.record.lines import MapLine
-from hypcheck.report.plots import pictures, planes
+from hypcheck.report import plots
+from hypcheck.report.plots import planes
 from hypcheck.report.plots.style import styled
 from tests.report import record_samples
 
@@ -82,11 +83,11 @@ def test_scene_map_colours_differ_in_lightness():
 def test_matplotlib_settings_of_the_user_are_neither_used_nor_changed():
     import matplotlib
 
-    drawn = pictures.render_map(record_samples.record())
+    drawn = plots.render_map(record_samples.record())
 
     with matplotlib.rc_context({"font.size": 30, "axes.facecolor": "red"}):
         before = dict(matplotlib.rcParams)
-        assert pictures.render_map(record_samples.record()) == drawn
+        assert plots.render_map(record_samples.record()) == drawn
         assert dict(matplotlib.rcParams) == before
 
 
@@ -99,5 +100,5 @@ def test_importing_the_writer_of_reports_loads_no_matplotlib():
 @given(foreign=record_samples.FOREIGN)
 def test_a_map_with_any_foreign_name_is_valid_svg(foreign):
     body = record_samples.rewritten([as_json(line) for line in maps()], "table-2-float32", f"${foreign}$ \\frac")
-    content = pictures.render_map(record_samples.record(body))
+    content = plots.render_map(record_samples.record(body))
     ElementTree.fromstring(content)  # noqa: S314

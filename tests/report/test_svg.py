@@ -11,10 +11,10 @@ from xml.etree import ElementTree
 import pytest
 
 from hypcheck.errors import UnavailableError
+from hypcheck.report import plots
+from hypcheck.report.colours import colour_rules
 from hypcheck.report.drawings import render_picture
-from hypcheck.report.plots import pictures
-from hypcheck.report.plots.colours import colour_rules
-from hypcheck.report.plots.pictures import draw_plots
+from hypcheck.report.plots import draw_plots
 from hypcheck.report.plots.style import ROLES, Plot, colour, inline, new_figure, standalone, styled
 from tests.report import record_samples
 from tests.report.bench_lines import bench_record
@@ -124,10 +124,10 @@ def test_pictures_of_a_benchmark_have_all_their_plots(name):
 def test_pictures_of_the_same_record_are_the_same_bytes_in_every_process():
     """A picture of a benchmark, and the map of a run of verify behind it."""
     code = (
-        "import sys; from hypcheck.report.plots import pictures; from hypcheck.report.drawings import render_picture;"
+        "import sys; from hypcheck.report import plots; from hypcheck.report.drawings import render_picture;"
         "from tests.report import record_samples as samples;"
         "from tests.report.bench_lines import bench_record;"
-        "sys.stdout.buffer.write(render_picture('pareto', bench_record(), {}) + pictures.render_map(samples.record()))"
+        "sys.stdout.buffer.write(render_picture('pareto', bench_record(), {}) + plots.render_map(samples.record()))"
     )
     found = {
         subprocess.run(
@@ -135,7 +135,7 @@ def test_pictures_of_the_same_record_are_the_same_bytes_in_every_process():
         ).stdout
         for seed in ("1", "2")
     }
-    content = render_picture("pareto", bench_record(), {}) + pictures.render_map(record_samples.record())
+    content = render_picture("pareto", bench_record(), {}) + plots.render_map(record_samples.record())
     assert found == {content}
     assert b"<dc:date>" not in content
     assert b"Matplotlib v" not in content

@@ -14,7 +14,7 @@ from hypcheck.record import read
 from hypcheck.record.fields import as_json
 from hypcheck.record.lines import CauseLine, ImplementationLine
 from hypcheck.record.reader import line_of
-from hypcheck.report.formats import WrittenReport
+from hypcheck.report import WrittenReport
 from hypcheck.report.terminal import MOST_LINES, WIDTH, summary_lines
 from tests.report import bench_lines, record_samples
 from tests.report.record_samples import DISAGREEMENT, EXACT_WRONG, UNPROVED

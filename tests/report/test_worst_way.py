@@ -7,7 +7,7 @@ import pytest
 from hypcheck.report import markdown
 from hypcheck.report.drawings import ReportContext
 from hypcheck.report.model import drawn_sweep, implementations
-from hypcheck.report.plots.pictures import draw_plots
+from hypcheck.report.plots import draw_plots
 from hypcheck.report.write import files_of
 from tests.report.record_samples import group, hexes, record
 

@@ -12,8 +12,7 @@ from hypcheck.errors import InputError
 from hypcheck.processes import fresh
 from hypcheck.record import read
 from hypcheck.record.lines import MapLine
-from hypcheck.report import drawings, write
-from hypcheck.report.formats import REPORTS, kept_formats
+from hypcheck.report import REPORTS, drawings, kept_formats, write
 from hypcheck.report.write import render, write_reports
 from tests.report import bench_lines, record_samples
 from tests.support.without_drawing import draw_nothing

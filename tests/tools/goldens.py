@@ -26,7 +26,7 @@ from unittest.mock import patch
 from xml.etree import ElementTree as Xml
 
 from hypcheck.cli.main import main as hypcheck
-from hypcheck.report.formats import REPORTS
+from hypcheck.report import REPORTS
 from hypcheck.report.write import FOR_PROGRAMS
 from tests.report.record_samples import every_line
 

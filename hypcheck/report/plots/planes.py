@@ -26,11 +26,11 @@ from hypcheck.messages import escaped
 from hypcheck.record import Record
 from hypcheck.record.lines import MapLine
 from hypcheck.record.measurements import PlacesLine, StabilityLine
+from hypcheck.report.colours import MISTAKES, STEPS
 from hypcheck.report.measured import is_unstable, is_wrong_somewhere, stability_title
 from hypcheck.report.messages import figure, listed
 from hypcheck.report.model import ImplementationTotal, implementations
 from hypcheck.report.plots import style
-from hypcheck.report.plots.colours import MISTAKES, STEPS
 
 GAP = 0.08
 """Between two cells, of the width of a cell."""

@@ -30,7 +30,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from hypcheck.messages import escaped
-from hypcheck.report.plots.colours import ROLES, dark_rules
+from hypcheck.report.colours import ROLES, dark_rules
 
 WIDTH = 380.0
 SMALL = 178.0

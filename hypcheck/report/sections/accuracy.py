@@ -12,6 +12,7 @@ from hypcheck.record import Record, measurements
 from hypcheck.record.fields import numbers_of
 from hypcheck.record.lines import FaultPart, GroupLine, WrongAnswer
 from hypcheck.report import document
+from hypcheck.report.colours import MISTAKES, STEPS
 from hypcheck.report.measured import (
     SweepTotal,
     is_unstable,
@@ -25,7 +26,6 @@ from hypcheck.report.measured import (
 )
 from hypcheck.report.messages import Replays, figure, from_hex, rows_not_asked
 from hypcheck.report.model import ImplementationTotal, implementations, worst_u
-from hypcheck.report.plots.colours import MISTAKES, STEPS
 from hypcheck.runs.judge import Mistake, Status, truth_in_words
 
 MOST_CASES = 12

@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 import pytest
 
 from hypcheck.geometry.pair import Position
-from hypcheck.report.plots.colours import ROLES
+from hypcheck.report.colours import ROLES
 from tests.support.fractions_truth import exact_position
 from tests.tools.figures import bodies, paper
 from tests.tools.figures.__main__ import DOCS, DRAWN_WITH, bodies_pictures, pictures, versions

@@ -16,7 +16,7 @@ from hypcheck.record.integrity import check, repair
 from hypcheck.record.reader import notes, read, recorded_cases
 from hypcheck.report import code_hosts, html
 from hypcheck.report.drawings import DrawnPlot, ReportContext, drawn_plots
-from hypcheck.report.plots.pictures import PLOTS
+from hypcheck.report.plots import PLOTS
 from hypcheck.report.write import render as render_report
 from hypcheck.runs.known_failures import read_known_failures, render
 from hypcheck.scene.reading import read_scene
