@@ -60,7 +60,7 @@ def draw_ahead(record: Record, least: int = MANY, names: Collection[str] | None 
 
     Returns no plots for a smaller record, if plots cannot be drawn here, or if a process was killed.
     """
-    if sum(isinstance(line, (AccuracyLine, PlacesLine, StabilityLine)) for line in record.lines) < least:
+    if sum(len(record.of(kind)) for kind in (AccuracyLine, PlacesLine, StabilityLine)) < least:
         return {}
     try:
         slowest_first = sorted(

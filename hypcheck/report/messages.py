@@ -130,17 +130,15 @@ def settings_facts(settings: lines.SettingsPart | UnsetType | None) -> Iterator[
 
 
 def implementation_claims(
-    line: lines.ImplementationLine | lines.NotStartedLine,
+    line: lines.ImplementationLine,
     rows: Mapping[str, int] = MappingProxyType({}),
     *,
     left_out: bool = True,
 ) -> Iterator[str]:
-    """Sentences without a full stop about an implementation; none if it did not start.
+    """Sentences without a full stop about an implementation.
 
     `rows` counts rows that were not tested, by reason. `left_out`: with the sentence about what was not tested.
     """
-    if isinstance(line, lines.NotStartedLine):
-        return
     declared, used = line.declared, line.used
     changed = [name for name in ("question", "precision", "domain") if getattr(declared, name) != getattr(used, name)]
     yield f"declares {description_text(declared)}"

@@ -61,21 +61,11 @@ class OracleTotal:
 
 
 @dataclass(frozen=True, slots=True)
-class ImplementationTotal:
-    """An implementation that was judged, and the group lines about it, one for each family."""
+class CasesTotal:
+    """The cases of one implementation, by its name in reports: the group lines about its families, and their sums."""
 
     name: str
-    spec: str
-    title: str
-    question: str
-    precision: str
-    exact: bool
     groups: tuple[GroupLine, ...]
-
-    @property
-    def gated(self) -> bool:
-        """Whether it is under test, so that its wrong answers fail the run."""
-        return self.groups[0].tested
 
     @property
     def asked(self) -> int:
@@ -130,15 +120,37 @@ class ImplementationTotal:
 
 
 @dataclass(frozen=True, slots=True)
-class UnderTest:
-    """A gated implementation as a whole: its name in reports, and the implementation line about it.
+class ImplementationTotal(CasesTotal):
+    """An implementation that was judged. `whole` is the line about it; None if it is a built-in method."""
 
-    `groups` are the lines about its families; none if it could not be started.
-    """
+    spec: str
+    title: str
+    question: str
+    precision: str
+    exact: bool
+    whole: Tested | None
 
-    name: str
+    @property
+    def gated(self) -> bool:
+        """Whether it is under test, so that its wrong answers fail the run."""
+        return self.groups[0].tested
+
+
+@dataclass(frozen=True, slots=True)
+class UnderTest(CasesTotal):
+    """A gated implementation, and the line about it; it has no cases if it could not be started."""
+
     line: Tested | NotStartedLine
-    groups: tuple[GroupLine, ...]
+
+    @property
+    def started(self) -> Tested | None:
+        """Its line; None if it could not be started."""
+        return self.line if isinstance(self.line, Tested) else None
+
+    @property
+    def trouble(self) -> str | None:
+        """Why it could not be started; None if it was started."""
+        return self.line.trouble if isinstance(self.line, NotStartedLine) else None
 
 
 @dataclass(frozen=True, slots=True)
@@ -202,11 +214,11 @@ def explanation(finding: FindingLine) -> str:
 
 def implementations(record: Record) -> list[ImplementationTotal]:
     """Every implementation in the order of the record, exact ones first."""
-    names = names_in(record)
+    names, wholes = names_in(record), {subject_of(line): line for line in record.of(Tested)}
     by_subject: dict[SubjectKey, list[GroupLine]] = {}
     for line in record.of(GroupLine):
         by_subject.setdefault(subject_of(line), []).append(line)
-    totals = [_implementation(names[subject], lines) for subject, lines in by_subject.items()]
+    totals = [_implementation(names[subject], lines, wholes.get(subject)) for subject, lines in by_subject.items()]
     return sorted(totals, key=lambda total: not total.exact)
 
 
@@ -215,7 +227,7 @@ def under_test(record: Record) -> list[UnderTest]:
     names, groups = names_in(record), record.of(GroupLine)
     return [
         UnderTest(
-            names[subject_of(line)], line, tuple(group for group in groups if subject_of(group) == subject_of(line))
+            names[subject_of(line)], tuple(group for group in groups if subject_of(group) == subject_of(line)), line
         )
         for line in _tested(record)
     ]
@@ -238,7 +250,7 @@ def names_in(record: Record) -> dict[SubjectKey, str]:
     return {(name, spec): name if alike[name] == 1 else f"{name} ({spec})" for name, spec in subjects}
 
 
-def _implementation(name: str, lines: list[GroupLine]) -> ImplementationTotal:
+def _implementation(name: str, lines: list[GroupLine], whole: Tested | None) -> ImplementationTotal:
     first = lines[0]
     return ImplementationTotal(
         name=name,
@@ -248,6 +260,7 @@ def _implementation(name: str, lines: list[GroupLine]) -> ImplementationTotal:
         precision=first.precision,
         exact=first.exact,
         groups=tuple(lines),
+        whole=whole,
     )
 
 

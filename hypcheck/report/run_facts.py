@@ -7,7 +7,6 @@ between two runs in changes.py.
 from __future__ import annotations
 
 import math
-from collections import Counter
 from collections.abc import Iterator, Sequence
 
 from hypcheck.messages import counted
@@ -144,12 +143,12 @@ def tested_facts(record: Record, *, held: bool) -> Iterator[str]:
     """
     left_out = not (held and record.header.options.get("families"))
     for tested in model.under_test(record):
-        skipped = [] if held else [Counter(group.not_asked or {}) for group in tested.groups]
-        claims = implementation_claims(tested.line, sum(skipped, Counter()), left_out=left_out)
+        if tested.started is None:
+            continue
+        claims = implementation_claims(tested.started, {} if held else tested.not_asked, left_out=left_out)
         yield from (f"{tested.name}: {claim}" for claim in claims)
-        fresh = sum(group.fresh or 0 for group in tested.groups)
-        if fresh and not held:
-            yield f"{tested.name}: {counted(fresh, 'fresh row')}"
+        if tested.fresh and not held:
+            yield f"{tested.name}: {counted(tested.fresh, 'fresh row')}"
 
 
 def timing_facts(record: Record) -> Iterator[str]:

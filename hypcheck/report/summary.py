@@ -21,7 +21,6 @@ from hypcheck.record.lines import (
     SettingsPart,
     WrongAnswer,
 )
-from hypcheck.record.lines import ImplementationLine as Tested
 from hypcheck.report import model
 from hypcheck.report.measured import MeasuredMethod, measured_methods
 from hypcheck.report.model import implementations, unlisted, worst_case
@@ -255,7 +254,6 @@ def render(record: Record) -> bytes:
 def summary(record: Record) -> Summary:
     """The summary; its keys and their order are the same for every run."""
     ended, footer, causes = verdict(record), record.footer, record.of(CauseLine)
-    wholes = {tested.name: tested.line for tested in model.under_test(record) if isinstance(tested.line, Tested)}
     return Summary(
         hypcheck=record.header.hypcheck,
         schema=SCHEMA,
@@ -271,7 +269,7 @@ def summary(record: Record) -> Summary:
         proofs=_proofs(record.of(ProofLine)),
         findings=_findings(record),
         implementations=[
-            _implementation(judged, wholes.get(judged.name), [line for line in causes if line.spec == judged.spec])
+            _implementation(judged, [line for line in causes if line.spec == judged.spec])
             for judged in implementations(record)
         ],
         timings=[fields.decoded(total, TimingSummary) for total in model.timing_totals(record)],
@@ -314,9 +312,7 @@ def _findings(record: Record) -> Findings:
     )
 
 
-def _implementation(
-    total: model.ImplementationTotal, whole: Tested | None, causes: list[CauseLine]
-) -> ImplementationSummary:
+def _implementation(total: model.ImplementationTotal, causes: list[CauseLine]) -> ImplementationSummary:
     counts = ImplementationSummary(
         name=total.name,
         spec=total.spec,
@@ -327,6 +323,7 @@ def _implementation(
         families={group.family: _family(group) for group in total.groups},
         statuses=total.statuses,
     )
+    whole = total.whole
     if whole is None:
         return counts
     return replace(

@@ -196,12 +196,7 @@ def _passed(record: Record) -> Verdict:
     totals = [total for total in model.oracle_totals(record) if total.asked]
     tested = [method for method in model.implementations(record) if method.asked]
     compared = [method for method in measured_methods(record) if method.asked or method.speed]
-    if (
-        not totals
-        and not tested
-        and not compared
-        and not any(isinstance(line, WITHOUT_COMPARISON) for line in record.lines)
-    ):
+    if not totals and not tested and not compared and not any(record.of(kind) for kind in WITHOUT_COMPARISON):
         return Verdict(False, "NOTHING was asked and nothing was judged: this is not a pass.")
     clauses = [
         *([_oracle_clause(totals)] if totals else []),
@@ -243,9 +238,8 @@ def _skipped(total: model.ImplementationTotal) -> Iterator[str]:
 
 def _not_asked(total: model.ImplementationTotal, record: Record) -> Iterator[str]:
     """The families that the run left out."""
-    lines = [tested.line for tested in model.under_test(record) if tested.groups == total.groups]
-    for line in lines if record.header.options.get("families") else ():
-        families = "" if isinstance(line, NotStartedLine) else messages.families_not_asked(line)
+    if total.whole is not None and record.header.options.get("families"):
+        families = messages.families_not_asked(total.whole)
         if families:
             yield families
 

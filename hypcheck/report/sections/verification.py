@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterator, Sequence
-
-from msgspec import UNSET
 
 from hypcheck.messages import counted
 from hypcheck.record import Record
@@ -15,7 +12,6 @@ from hypcheck.record.lines import (
     FindingLine,
     ImplementationLine,
     MapLine,
-    NotStartedLine,
     ProofLine,
     WrongAnswer,
 )
@@ -177,12 +173,7 @@ def gated_sections(record: Record) -> Iterator[document.Section]:
     if not gated:
         return
     columns = " |  | question | spheroids | precision | domain | language | version"
-    rows = [
-        row
-        for tested in gated
-        if isinstance(tested.line, ImplementationLine)
-        for row in _gated_rows(tested.name, tested.line)
-    ]
+    rows = [row for tested in gated if tested.started is not None for row in _gated_rows(tested.name, tested.started)]
     declared = [document.table("implementations under test", columns, rows)] if rows else []
     tests = document.bullets([_gated_value(tested) for tested in gated])
     yield document.Section("Implementations under test", (*declared, document.Paragraph(_AGAIN), tests))
@@ -211,17 +202,14 @@ def _gated_rows(name: str, line: ImplementationLine) -> Iterator[document.Row]:
 
 def _gated_value(tested: model.UnderTest) -> document.Text:
     """How an implementation was tested, in sentences."""
-    line = tested.line
-    name: document.Text = (document.Code(tested.name), ", ", document.Code(line.spec))
-    if isinstance(line, NotStartedLine):
-        return (name, f", was not started: {line.trouble}.")
-    counts: Counter[str] = sum((Counter(group.not_asked or {}) for group in tested.groups), Counter())
-    excused = sum(group.counts.get("excused", 0) for group in tested.groups)
-    fresh = sum(group.fresh or 0 for group in tested.groups)
+    line, fresh, excused = tested.started, tested.fresh, tested.statuses.get("excused")
+    name: document.Text = (document.Code(tested.name), ", ", document.Code(tested.line.spec))
+    if line is None:
+        return (name, f", was not started: {tested.trouble}.")
     facts = [
-        *messages.how_tested(line, counts),
+        *messages.how_tested(line, tested.not_asked),
         *([f"{counted(excused, 'case')} excused as known failures"] if excused else []),
-        *([counted(fresh, "fresh row") if fresh else "no fresh rows"] if line.not_asked is not UNSET else []),
+        *([] if fresh is None else [counted(fresh, "fresh row") if fresh else "no fresh rows"]),
     ]
     return (name, ": ", " ".join([*map(messages.as_sentence, facts), *(f"{trouble}." for trouble in line.troubles)]))
 
