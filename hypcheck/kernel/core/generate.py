@@ -168,18 +168,18 @@ def _plane_functions() -> list[str]:
     return _first_stage("plane_function.h", "distance", constants, functions)
 
 
-def _integer_statement(step: Step, bits: dict[str, int]) -> str:
-    left, right = step.arguments
-    call = {"add": "hc_add", "sub": "hc_subtract", "mul": "hc_multiply"}[step.operation]
-    if isinstance(left, int):
-        return f"HC_INTEGER({step.name}, {bits[step.name]}); hc_scale(&{step.name}, {left}, &{right});"
-    return f"HC_INTEGER({step.name}, {bits[step.name]}); {call}(&{step.name}, &{left}, &{right});"
+_LIMBED = {
+    **{
+        operation: f"HC_INTEGER({{name}}, {{bits}}); hc_{call}(&{{name}}, &{{0}}, &{{1}});"
+        for operation, call in (("add", "add"), ("sub", "subtract"), ("mul", "multiply"))
+    },
+    "scale": "HC_INTEGER({name}, {bits}); hc_scale(&{name}, {0}, &{1});",
+}
+"""Integers that have room of their own."""
 
 
 def _integers(wanted: tuple[str, ...], known: tuple[str, ...] = ()) -> list[str]:
-    bits = integers.bits_counted(integers.INTEGERS)
-    before = needed(integers.INTEGERS, known)
-    return [_integer_statement(step, bits) for step in needed(integers.INTEGERS, wanted) if step not in before]
+    return integers.integer_statements(integers.INTEGERS, wanted, _LIMBED, known)
 
 
 _MOVED = {"p_t": "by_t", "s_t": "by_t", "q_s": "by_q", "p_q": "by_q"}
@@ -273,18 +273,17 @@ def _bits_about_a_pole(k: Mapping[str, int]) -> list[int]:
     return bits
 
 
-def _pool_statement(step: Step) -> str:
-    left, right = step.arguments
-    if isinstance(left, int):
-        return f"const hc_integer {step.name} = hc_multiple(POOL, {left}, &{right});"
-    if step.operation == "mul":
-        return f"const hc_integer {step.name} = hc_product(POOL, &{left}, &{right});"
-    sign = {"add": 1, "sub": -1}[step.operation]
-    return f"const hc_integer {step.name} = hc_sum(POOL, &{left}, &{right}, {sign});"
+_POOLED = {
+    "add": "const hc_integer {name} = hc_sum(POOL, &{0}, &{1}, 1);",
+    "sub": "const hc_integer {name} = hc_sum(POOL, &{0}, &{1}, -1);",
+    "mul": "const hc_integer {name} = hc_product(POOL, &{0}, &{1});",
+    "scale": "const hc_integer {name} = hc_multiple(POOL, {0}, &{1});",
+}
+"""Integers in a pool that all of them share."""
 
 
 def _pool_statements(program: Program, wanted: tuple[str, ...], pool: str) -> list[str]:
-    return [_pool_statement(step).replace("POOL", pool) for step in needed(program, wanted)]
+    return [line.replace("POOL", pool) for line in integers.integer_statements(program, wanted, _POOLED)]
 
 
 def _pool_size() -> list[str]:

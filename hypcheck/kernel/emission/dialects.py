@@ -73,9 +73,10 @@ class Dialect:
     and `between` separates two functions. `numbers` has the type for each format that the language computes in, as
     printing/languages.py has it; `suffixes` end literals of a format. `types` are those of pairs and of answers,
     `capitals` whether types are CalledSo. `phrases` are formats of str.format; `whole` replaces and adds those of a
-    whole scene's kernel. `axis` has what a kernel's text says besides where it takes an axis: how one is declared,
-    given on, read from a row. `exports`: its kernels have functions that a linker sees; the others' names are their
-    module's. `by_block`: they have loops over many centres that compilers make vectors of.
+    whole scene's kernel, and `integers` are those of steps in whole numbers (programs/integers.py). `axis` has what a
+    kernel's text says besides where it takes an axis: how one is declared, given on, read from a row. `exports`: its
+    kernels have functions that a linker sees; the others' names are their module's. `by_block`: they have loops over
+    many centres that compilers make vectors of.
     """
 
     name: str
@@ -92,6 +93,7 @@ class Dialect:
     phrases: Mapping[str, str]
     whole: Mapping[str, str]
     axis: Mapping[str, str]
+    integers: Mapping[str, str]
 
     def number_of(self, precision: str) -> str:
         """The type of numbers for a format; raises InputError where the language has none."""
@@ -125,10 +127,9 @@ class Dialect:
 def dialect_of(language: str) -> Dialect:
     """The language of that name, one of LANGUAGES."""
     tables = _tables_of(language)
-    phrases, whole = (
-        {name: _format_of(text) for name, text in tables.pop(section).items()} for section in ("phrases", "whole")
-    )
-    return Dialect(name=language, phrases=phrases, whole=whole, **tables)
+    for section in ("phrases", "whole", "integers"):
+        tables[section] = {name: _format_of(text) for name, text in tables[section].items()}
+    return Dialect(name=language, **tables)
 
 
 def _tables_of(language: str) -> dict[str, Any]:

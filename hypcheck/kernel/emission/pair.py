@@ -12,7 +12,7 @@ flushes subnormal numbers to zero. C and C++ refuse -ffast-math and its parts, w
 not decide. So do "dual" and "local-maximum", whose proof is another (kernel/programs/dual.py).
 
 Python and JavaScript have integers of any size. C, C++ and Rust get some forty lines of them: each number of the
-straight-line program has room for the bits that are counted for it (`bits_counted`), so nothing is allocated in C.
+straight-line program has room for the bits that are counted for it (programs/integers.py), so C allocates nothing.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from dataclasses import dataclass, field
 from sys import float_info
 from typing import Any
 
-from hypcheck.derivation.program import Program, Step, needed
+from hypcheck.derivation.program import Program, Step
 from hypcheck.derivation.routines import Routine
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import AXIS, COLUMNS, SIZES, TILTED_COLUMNS
@@ -36,7 +36,7 @@ from hypcheck.kernel.emission.dialects import (
 )
 from hypcheck.kernel.programs import dual
 from hypcheck.kernel.programs.certified import CERTIFIED, CONSTANTS
-from hypcheck.kernel.programs.integers import INTEGERS, bits_counted
+from hypcheck.kernel.programs.integers import INTEGERS, integer_statements
 from hypcheck.kernel.specialise import sweeping
 from hypcheck.kernel.specialise.scene_routines import position_routine, sweep_routine
 from hypcheck.kernel.specialise.settings import axis_of
@@ -209,8 +209,6 @@ _SIGNS = ("n2", "n1", "delta", "slope_at_B", "slope_at_A", "offset_at_B", "offse
 
 _ANSWER = ("exterior", "interior", "decided")
 
-_LIMB = 32
-
 
 def require_method(method: str) -> None:
     """Raise InputError unless there is code for a pair by this method."""
@@ -253,7 +251,9 @@ def _printed(kind: Kind, method: str, head: Sequence[str], language: str, comman
         **(_routine_text(kind, kind.routine, dialect) if kind.routine else _by_program(method, dialect)),
     }
     if method == EXACT:
-        parts["integers"] = dialect.filled("integers", {"steps": "\n".join(_whole(INTEGERS, language))})
+        parts["integers"] = dialect.filled(
+            "integers", {"steps": "\n".join(integer_statements(INTEGERS, _SIGNS, dialect.integers))}
+        )
     return dialect.filled("pair", parts)
 
 
@@ -389,28 +389,3 @@ def _described(method: str, kind: Kind, language: str, prefix: str) -> str:
         "domain": kind.domain,
     }
     return description_in_language(description, language, prefix, (kind.asked, len(kind.columns)))
-
-
-def _whole(program: Program, language: str) -> Iterator[str]:
-    """The steps in whole numbers: infix where the language has integers of any size, else a call for each."""
-    bits, operators = bits_counted(program), {"add": "+", "sub": "-", "mul": "*"}
-    calls = {"add": "add", "sub": "subtract", "mul": "multiply"}
-    for step in needed(program, _SIGNS):
-        first, second = step.arguments
-        if language == "python":
-            yield f"{step.name} = {first} {operators[step.operation]} {second}"
-        elif language == "javascript":
-            left, right = (f"{operand}n" if isinstance(operand, int) else operand for operand in (first, second))
-            yield f"const {step.name} = {left} {operators[step.operation]} {right};"
-        elif language == "rust":
-            left, right = (
-                f"&small({operand})" if isinstance(operand, int) else f"&{operand}" for operand in (first, second)
-            )
-            yield f"let {step.name} = {calls[step.operation]}({left}, {right});"
-        else:
-            left, right = (
-                f"&whole_{operand}" if isinstance(operand, int) else f"&{operand}" for operand in (first, second)
-            )
-            limbs = -(-bits[step.name] // _LIMB) + 2
-            yield f"uint32_t {step.name}_limbs[{limbs}]; whole {step.name} = {{0, 0, {step.name}_limbs}};"
-            yield f"{calls[step.operation]}(&{step.name}, {left}, {right});"

@@ -240,6 +240,25 @@ def bits_counted(program: Program, of_inputs: int = FLOAT64_BITS) -> dict[str, i
     return bits
 
 
+def integer_statements(
+    program: Program, wanted: tuple[str, ...], phrases: Mapping[str, str], known: tuple[str, ...] = ()
+) -> list[str]:
+    """A statement for each step that the wanted names need, less those for the known ones.
+
+    `phrases` are formats of str.format for the operations add, sub and mul, and scale: the product with an integer.
+    They have {name}, the arguments {0} and {1}, the {bits} that are counted, and {limbs}: limbs of 32 bits that have
+    room for these, and two more.
+    """
+    bits, before = bits_counted(program), needed(program, known)
+    return [
+        phrases["scale" if isinstance(step.arguments[0], int) else step.operation].format(
+            *step.arguments, name=step.name, bits=bits[step.name], limbs=-(-bits[step.name] // 32) + 2
+        )
+        for step in needed(program, wanted)
+        if step not in before
+    ]
+
+
 TANGENCY = Program(
     "tangency",
     (*COLUMNS, "M", "e", "about"),
