@@ -6,6 +6,8 @@
 `points`, `start` and `end` are one point (3,) or many (n, 3); each other value is a number or a column (n,). The last
 points may be named: center, start, end. So is the rest: `axis`, one (3,) or an axis for each row (n, 3); `z_min`,
 `z_max`, `solid`; and in place of any of these the columns themselves. No value is given twice.
+
+A query about a scene is a centre or a sweep, a heading and an axis: the functions at the end check these.
 """
 
 from __future__ import annotations
@@ -22,8 +24,20 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from hypcheck.errors import InputError
-from hypcheck.geometry.pair import ALL_GROUPS, AXIS, CENTER, END, HEIGHTS, SIZES, START, WITHOUT_ENDS, trouble_with_row
-from hypcheck.geometry.rows import PAIRS, Layout, Rows, as_numbers, as_rows, names_of, require_valid
+from hypcheck.geometry.pair import (
+    ALL_GROUPS,
+    AXIS,
+    CENTER,
+    END,
+    HEIGHTS,
+    NO_DIRECTION,
+    SIZES,
+    START,
+    WITHOUT_ENDS,
+    trouble_with,
+    trouble_with_row,
+)
+from hypcheck.geometry.rows import PAIRS, Floats, Layout, Rows, as_columns, as_numbers, as_rows, names_of, require_valid
 from hypcheck.messages import counted, escaped
 
 Argument: TypeAlias = Any
@@ -243,3 +257,72 @@ def points_or_columns(x: ArrayLike, y: ArrayLike | None, z: ArrayLike | None) ->
     if y is None or z is None:
         raise InputError(f"{'y' if y is None else 'z'} is not given; there must be x, y and z, or only points (n, 3)")
     return x, y, z
+
+
+POINTS = f"it must be three numbers, {', '.join(CENTER)}, or an array (n, 3) of them"
+
+
+def are_one(center: Sequence[ArrayLike], heading: ArrayLike, axis: ArrayLike | None) -> bool:
+    """Whether a query is one centre given as numbers; its answer then is a number, too."""
+    return not any(map(np.ndim, (*center, heading))) and np.ndim(() if axis is None else axis) == 1
+
+
+def sweeps_of(start: ArrayLike, end: ArrayLike, heading: ArrayLike, axes: Sequence[ArrayLike]) -> tuple[Floats, ...]:
+    """The ends of sweeps, (n, 3) each, headings (n,), and the numbers of axes. Raises InputError where they are not."""
+    points = []
+    for name, value in (("start", start), ("end", end)):
+        point = as_numbers(f"{name} is", value, POINTS)
+        if point.ndim not in (1, 2) or point.shape[-1] != len(CENTER):
+            raise InputError(f"{name} is of shape {point.shape}; {POINTS}")
+        points.append(point.reshape(-1, len(CENTER)).T)
+    names = (
+        *(f"{letter} of the start" for letter in CENTER),
+        *(f"{letter} of the end" for letter in CENTER),
+        "heading",
+    )
+    columns = finite_columns((*names, *AXIS[: len(axes)]), (*points[0], *points[1], heading, *axes))
+    return np.stack(columns[:3], axis=1), np.stack(columns[3:6], axis=1), *columns[6:]
+
+
+def finite_columns(names: Sequence[str], arguments: Sequence[ArrayLike]) -> tuple[Floats, ...]:
+    """The columns as as_columns makes them. Raises InputError about the first number that is not finite."""
+    columns = as_columns(names, arguments)
+    for name, values in zip(names, columns, strict=True):
+        finite = np.isfinite(values)
+        if not finite.all():
+            index = int(np.argmin(finite))
+            raise InputError(f"row {index}: {name} is {float(values[index])!r}; it must be finite")
+    return columns
+
+
+def directions(columns: Sequence[Floats]) -> Floats:
+    """The axes as (n, 3). Raises InputError about the first that is 0, 0, 0."""
+    axes = np.stack(columns, axis=1)
+    nowhere = np.flatnonzero(~(axes != 0).any(axis=1))
+    if len(nowhere):
+        raise InputError(f"row {int(nowhere[0])}: {NO_DIRECTION}")
+    return axes
+
+
+def finite_numbers(x: object, y: object, z: object, heading: object) -> tuple[float, float, float, float]:
+    """The four as finite float64. Raises InputError about anything else."""
+    if (
+        type(x) is type(y) is type(z) is type(heading) is float
+        and (math.isfinite(x) and math.isfinite(y) and math.isfinite(z) and math.isfinite(heading))
+    ):  # fmt: skip
+        return x, y, z, heading
+    x, y, z, heading = map(_number_of, (*CENTER, "heading"), (x, y, z, heading))
+    return x, y, z, heading
+
+
+def _number_of(name: str, value: object) -> float:
+    """The value as a finite float64; raises InputError about anything else."""
+    if not isinstance(value, (int, float)):
+        array = as_numbers(f"{name} is", value, "it must be a number")
+        if array.size != 1:
+            raise InputError(f"{name} is of shape {array.shape}; it must be a number (classify takes arrays)")
+        value = float(array.item())
+    trouble = trouble_with(name, value)
+    if trouble is not None:
+        raise InputError(trouble)
+    return float(value)

@@ -175,7 +175,7 @@ def classify(
     if call.single and out is not None:
         raise InputError("out is given, but the answer to one pair is a number; give out only with rows")
     if call.scene and not margin:
-        result = _of_scene(call.columns, out, on_invalid, question, number)
+        result = _of_scene(*_parts_of_scene(call.columns), out, (on_invalid, question, number))
         return int(result[0]) if call.single else result
     queries = call.rows()
     _require_fitting(out, len(queries))
@@ -189,10 +189,10 @@ def classify(
     return int(result[0]) if call.single else _into(out, result)
 
 
-def _of_scene(
-    columns: Mapping[str, Any], out: Positions | None, on_invalid: str, question: Question, threads: int | None
-) -> Positions:
-    """The answers about pairs of one spheroid's sizes, which need no rows."""
+def _parts_of_scene(
+    columns: Mapping[str, Any],
+) -> tuple[pair.Sizes, Sequence[ArrayLike], Sequence[Argument] | None]:
+    """Sizes, centre and axis of pairs of one spheroid's sizes. Raises InputError for another or a missing column."""
     known = (*pair.SIZES, *pair.CENTER, *pair.AXIS)
     for name in columns:
         if name not in known:
@@ -201,13 +201,7 @@ def _of_scene(
     axis = [columns[name] for name in pair.AXIS if name in columns]
     if len(axis) not in (0, len(pair.AXIS)):
         as_rows(columns, pair.ALL_GROUPS)  # which says what is missing
-    if axis and any(map(np.ndim, axis)):
-        return _answered(_sizes(sizes), center, (*axis,), out, (on_invalid, question, threads))
-    x, y, z = center
-    marked: Literal["raise", "flag"] = "flag" if on_invalid == "flag" else "raise"
-    return classify_scene(
-        _sizes(sizes), x, y, z, out, axis=axis or None, on_invalid=marked, question=question, threads=threads
-    )
+    return _sizes(sizes), center, axis or None
 
 
 @in_default_environment
@@ -248,18 +242,7 @@ def classify_scene(
         _require_fitting(out, len(answers))
         return _into(out, answers)
     axes = None if axis is None else _axes(axis)
-    if axes is not None and axes.ndim == 2:
-        return _answered(four, center, (*axes.T,), out, (on_invalid, question, number))
-    u, v, w = as_columns(pair.CENTER, center)
-    _require_fitting(out, len(u))
-    one = None if axes is None else _one_axis(axes, on_invalid)
-    in_place = out is not None and question == "position" and _lie_apart(out, (u, v, w))
-    if out is not None and in_place and kernel().fill_valid_scene(four, (u, v, w), out, number, one):
-        return out
-    result, refused = kernel().answer_scene(four, (u, v, w), question, number, one)
-    if refused and on_invalid == "raise":
-        raise _not_finite((u, v, w))
-    return _into(out, result)
+    return _of_scene(four, center, None if axes is None else (*axes.T,), out, (on_invalid, question, number))
 
 
 def _axis_of(
@@ -275,14 +258,29 @@ _Options = tuple[str, Question, "int | None"]
 """`on_invalid`, `question`, and the number of threads."""
 
 
-def _answered(
-    sizes: pair.Sizes, center: Sequence[ArrayLike], axis: Sequence[ArrayLike], out: Positions | None, options: _Options
+def _of_scene(
+    sizes: pair.Sizes,
+    center: Sequence[ArrayLike],
+    axis: Sequence[Argument] | None,
+    out: Positions | None,
+    options: _Options,
 ) -> Positions:
-    """The answers about one spheroid with an axis for each centre."""
-    columns = as_columns((*pair.CENTER, *pair.AXIS), (*center, *axis))
-    _require_fitting(out, len(columns[0]))
+    """The answers about one spheroid of valid sizes; its axis is three numbers, or a column of each."""
     on_invalid, question, threads = options
-    return _into(out, _with_axes(sizes, columns, question, threads, on_invalid))
+    if axis is not None and any(map(np.ndim, axis)):
+        columns = as_columns((*pair.CENTER, *pair.AXIS), (*center, *axis))
+        _require_fitting(out, len(columns[0]))
+        return _into(out, _with_axes(sizes, columns, question, threads, on_invalid))
+    x, y, z = as_columns(pair.CENTER, center)
+    _require_fitting(out, len(x))
+    one = None if axis is None else _one_axis(_axes([*axis]), on_invalid)
+    in_place = out is not None and question == "position" and _lie_apart(out, (x, y, z))
+    if out is not None and in_place and kernel().fill_valid_scene(sizes, (x, y, z), out, threads, one):
+        return out
+    result, refused = kernel().answer_scene(sizes, (x, y, z), question, threads, one)
+    if refused and on_invalid == "raise":
+        raise _not_finite((x, y, z))
+    return _into(out, result)
 
 
 def _with_axes(

@@ -13,7 +13,7 @@ With a margin δ, a spheroid that is not proved to be at least so far away count
 spheroid with the semi-axes √((v + δ)(b²/v + δ)) and √((v + δ)(d²/v + δ)) contains all points within δ of the given one,
 for any v > 0 (clearance_bounds.py says why): if it is clear, so is the given one, on the same side, and its distance is
 at least δ. Here v is b, for which the wider semi-axis is b + δ. If that proves nothing, the lower bound of the distance
-decides. _OUTWARD covers the twelve roundings of a semi-axis, for lengths in 2^±300.
+decides. OUTWARD covers the twelve roundings of a semi-axis, for lengths in 2^±300.
 """
 
 from __future__ import annotations
@@ -33,7 +33,8 @@ from hypcheck.geometry.forms import Argument, questions_of
 from hypcheck.geometry.pair import REFUSED, TILTED_COLUMNS, Pair, Position, trouble_with
 from hypcheck.geometry.rows import PAIRS, Floats, Indices, Mask, Positions, Rows, invalid, upright_mask, with_heights
 from hypcheck.kernel.choice import Question, answers_to, are_apart, required
-from hypcheck.kernel.clearance_bounds import Clearance, clearances_without_ends
+from hypcheck.kernel.clearance_bounds import OUTWARD, RANGE, Clearance, clearances_without_ends
+from hypcheck.kernel.clearance_points import reaching
 from hypcheck.kernel.in_use import positions_of_rows
 from hypcheck.kernel.scene_gaps import gaps, gaps_at
 
@@ -164,7 +165,7 @@ def _apart(result: Clearance) -> Mask:
     rows, longer, low, high = result.rows[some], longer[some], low[some], high[some]
     reach = np.abs(rows[:, 2:7]).max(axis=1)
     shares = rows[:, :4] / reach[:, None]
-    apart[some] = ((shares >= _RANGE[0]) & (shares <= _RANGE[1])).all(axis=1)
+    apart[some] = ((shares >= RANGE[0]) & (shares <= RANGE[1])).all(axis=1)
     if PAIRS.has_axis(rows):
         far = ~upright_mask(rows) & (np.maximum(reach, rows[:, 0]) > _FAR * longer)
         apart[some] &= ~far | (high - low > _WIDE * (low + longer))
@@ -198,10 +199,6 @@ def _roundings(rows: Rows, point: Rows) -> Floats:
     return np.asarray(_ROUNDED * lengths + _LEAST)
 
 
-_OUTWARD = 1 + 2.0**-48
-_RANGE = (2.0**-300, 2.0**300)
-
-
 def checked_margin(margin: object) -> float:
     """The margin as a float, 0 or more. Raises InputError."""
     value = margin.item() if isinstance(margin, np.generic) else margin
@@ -220,11 +217,11 @@ def enlarged(b: ArrayLike, d: ArrayLike, margin: ArrayLike, half: ArrayLike | No
     default.
     """
     b, d, margin = (np.asarray(numbers, np.float64) for numbers in (b, d, margin))
-    margin = np.maximum(margin, _RANGE[0])
+    margin = np.maximum(margin, RANGE[0])
     v = b if half is None else np.asarray(half, np.float64)
-    fits = (np.minimum(b, d) >= _RANGE[0]) & (np.maximum(b, d) <= _RANGE[1]) & (margin <= _RANGE[1]) & (v >= _RANGE[0])
+    fits = (np.minimum(b, d) >= RANGE[0]) & (np.maximum(b, d) <= RANGE[1]) & (margin <= RANGE[1]) & (v >= RANGE[0])
     with np.errstate(all="ignore"):
-        wide, tall = (np.sqrt((v + margin) * (axis * axis / v + margin)) * _OUTWARD for axis in (b, d))
+        wide, tall = (size * OUTWARD for size in reaching(b, d, v, margin))
     return np.where(fits, wide, math.inf), np.where(fits, tall, math.inf)
 
 

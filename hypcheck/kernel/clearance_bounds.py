@@ -14,7 +14,7 @@ max(b, d).
 Where a guess cannot be proved, the same decisions halve the interval. Only these bounds of rounding errors are used:
 
 Points. Each coordinate of an end of the gap takes fewer than 16 roundings of terms below |X| or |C| + max(b, d), where
-an axis is tilted times (max/min of b, d)²; _POINTS = 2⁻⁴⁶ holds that for both ends, and for |X − Y|. _OUTWARD covers
+an axis is tilted times (max/min of b, d)²; _POINTS = 2⁻⁴⁶ holds that for both ends, and for |X − Y|. OUTWARD covers
 the 12 roundings of a semi-axis. Both hold for lengths in 2^±300, which are asked for.
 """
 
@@ -44,9 +44,9 @@ WIDTH = 2.0**-30
 """How wide an interval of f, or of δ against δ + v, may be before it is halved."""
 
 _LARGEST = sys.float_info.max
-_OUTWARD = 1 + 2.0**-48
+OUTWARD = 1 + 2.0**-48
 _POINTS = 2.0**-46
-_RANGE = (2.0**-300, 2.0**300)
+RANGE = (2.0**-300, 2.0**300)
 _HALVINGS = 120
 _SUBNORMAL = 2.0**-900
 _ORDINARY = 60
@@ -54,7 +54,7 @@ _ORDINARY = 60
 CONSTANTS = {
     "guess": GUESS,
     "width": WIDTH,
-    "outward": _OUTWARD,
+    "outward": OUTWARD,
     "inward": 1 - 2.0**-48,
     "points": _POINTS,
     "least_grown": 2.0**-900,
@@ -314,7 +314,7 @@ def _halve(rows: Rows, low: Floats, high: Floats, clear: Question, meets: Questi
 def _usual(rows: Rows) -> Mask:
     """A mask of the rows with lengths within the range of the bounds; coordinates may be smaller."""
     size = np.abs(rows[:, : len(COLUMNS)])
-    return np.asarray((size <= _RANGE[1]).all(axis=1) & (size[:, :4] >= _RANGE[0]).all(axis=1))
+    return np.asarray((size <= RANGE[1]).all(axis=1) & (size[:, :4] >= RANGE[0]).all(axis=1))
 
 
 def _measured(rows: Rows, gaps: points.PointGaps) -> Floats:
@@ -337,14 +337,13 @@ def _separated(
 
     def clear(some: Indices, length: Floats) -> Mask:
         grown = rows[some]
-        for column in (2, 3):
-            size = rows[some, column]
-            grown[:, column] = np.sqrt((v[some] + length) * (size * size / v[some] + length)) * _OUTWARD
+        for column, size in zip((2, 3), points.reaching(grown[:, 2], grown[:, 3], v[some], length), strict=True):
+            grown[:, column] = size * OUTWARD
         return np.isin(_positions(grown, threads), (-1, 1))
 
     low, high = least.copy(), most.copy()
     tried = np.minimum(gaps.length, most) - GUESS * (gaps.length + v)
-    fair = usual & (v >= _RANGE[0]) & (v <= _RANGE[1]) & (tried <= _RANGE[1])
+    fair = usual & (v >= RANGE[0]) & (v <= RANGE[1]) & (tried <= RANGE[1])
     some = np.flatnonzero(fair & (tried > low))
     proved = clear(some, tried[some])
     low[some[proved]] = tried[some[proved]]

@@ -206,7 +206,7 @@ def tilted_touches(rows: Rows, at: Floats | None = None) -> Touches:
     Their error holds for any multipliers λ (n,) that are given as `at`; else they are found here.
     """
     alpha, gamma, b, d = np.ascontiguousarray(rows[:, :4].T)
-    unit, centre = _unit(rows[:, 7:]), rows[:, 4:7] / b[:, None]
+    unit, centre = unit_vectors(rows[:, 7:]), rows[:, 4:7] / b[:, None]
     stretch = (b / d) ** 2 - 1
     turns = POLISHED if at is None else 0
     if at is None:
@@ -320,11 +320,6 @@ def _has_positive_pivots(matrix: Floats) -> Mask:
 _CHUNK = 2048
 
 
-def _unit(axis: Floats) -> Floats:
-    scaled = axis / np.abs(axis).max(axis=1, keepdims=True)
-    return np.asarray(scaled / np.sqrt((scaled * scaled).sum(axis=1, keepdims=True)))
-
-
 def _adjugate(matrix: Floats) -> tuple[Floats, Floats]:
     """The adjugates of symmetric matrices (n, 3, 3), row by row, and the determinants (n,)."""
     rows = np.moveaxis(matrix, 1, 0)
@@ -340,13 +335,23 @@ def _factor(rows: Rows, unit: Floats, point: Floats) -> Floats:
     return np.asarray(np.sqrt((across * across).sum(axis=1) / rows[:, 2] ** 2 + (along / rows[:, 3]) ** 2))
 
 
+def reaching(b: Floats, d: Floats, v: Floats, length: Floats) -> tuple[Floats, Floats]:
+    """Semi-axes, (n,) each, of spheroids that contain all points within a length of those of semi-axes b and d.
+
+    They are no larger than necessary in the directions in which the given ones are `v` wide: clearance_bounds.py proves
+    it, but for roundings.
+    """
+    wide, tall = (np.sqrt((v + length) * (size * size / v + length)) for size in (b, d))
+    return wide, tall
+
+
 def tilted_gaps(rows: Rows, position: Positions, touch: Floats) -> PointGaps:
     """Hints for valid rows (n, 10) that are clear, from the places where they first touch, (n, 3).
 
     A spheroid that contains all points within some length of the given one, and no more of them in the direction of the
     gap, first touches where the gap is.
     """
-    unit, grown = _unit(rows[:, 7:]), rows.copy()
+    unit, grown = unit_vectors(rows[:, 7:]), rows.copy()
     b, d = rows[:, 2], rows[:, 3]
     for turn in range(GAP_TURNS):
         normal = touch / np.stack([rows[:, 0], rows[:, 0], rows[:, 1]], axis=1) ** 2 * (1.0, 1.0, -1.0)
@@ -357,7 +362,7 @@ def tilted_gaps(rows: Rows, position: Positions, touch: Floats) -> PointGaps:
         here = rows[:, 4:7] + half / v[:, None]
         gap = ((touch - here) * normal).sum(axis=1)
         if turn < GAP_TURNS - 1:
-            grown[:, 2], grown[:, 3] = np.sqrt((v + gap) * (b * b / v + gap)), np.sqrt((v + gap) * (d * d / v + gap))
+            grown[:, 2], grown[:, 3] = reaching(b, d, v, gap)
             touch = tilted_touches(grown).point  # its error is made in vain, for short arrays
     return PointGaps(gap, v, touch, here)
 
@@ -368,7 +373,7 @@ _TURNS, _FOOT_SETTLED = 100, 2.0**-50
 def normals(rows: Rows, nearest: Rows, position: Positions) -> Rows:
     """Unit vectors (n, 3) from nearest points to the spheroids of rows of any width; NaN in contact."""
     with np.errstate(all="ignore"):
-        axis = _directions(with_heights(rows)[:, 7:10])
+        axis = unit_vectors(with_heights(rows)[:, 7:10])
         size = rows[:, 2:4].max(axis=1)
         offset = (nearest - rows[:, 4:7]) / size[:, None]
         b2, d2 = (rows[:, 2:4] / size[:, None]).T ** 2
@@ -376,7 +381,7 @@ def normals(rows: Rows, nearest: Rows, position: Positions) -> Rows:
         across = offset - w[:, None] * axis
         u = np.sqrt((across * across).sum(axis=1))
         t = _foot(b2, d2, u, np.abs(w))
-        normal = 0.0 - _directions(across / (b2 + t)[:, None] + axis * (w / (d2 + t))[:, None])
+        normal = 0.0 - unit_vectors(across / (b2 + t)[:, None] + axis * (w / (d2 + t))[:, None])
     normal[(position == 0) | (position == REFUSED)] = np.nan
     return normal
 
@@ -394,7 +399,8 @@ def _foot(b2: Floats, d2: Floats, u: Floats, w: Floats) -> Floats:
     return np.asarray(t)
 
 
-def _directions(vectors: Rows) -> Rows:
+def unit_vectors(vectors: Rows) -> Rows:
+    """Vectors (n, 3), of any lengths, divided by their lengths."""
     scaled = vectors / np.abs(vectors).max(axis=1, keepdims=True)
     return np.asarray(scaled / np.sqrt((scaled * scaled).sum(axis=1, keepdims=True)))
 

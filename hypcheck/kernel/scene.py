@@ -18,10 +18,18 @@ from numpy.typing import ArrayLike
 
 from hypcheck.errors import InputError
 from hypcheck.float_environment import in_default_environment
-from hypcheck.geometry.forms import Answers, points_or_columns
+from hypcheck.geometry.forms import (
+    Answers,
+    are_one,
+    directions,
+    finite_columns,
+    finite_numbers,
+    points_or_columns,
+    sweeps_of,
+)
 from hypcheck.geometry.pair import AXIS, CENTER, trouble_with_axis
 from hypcheck.geometry.rows import Floats, Indices, Positions, as_numbers
-from hypcheck.kernel import scene_nearest, scene_queries
+from hypcheck.kernel import scene_nearest
 from hypcheck.kernel.choice import POSITION_OF, answers_to
 from hypcheck.kernel.clearance import checked_margin
 from hypcheck.kernel.passages import First, Passages
@@ -51,7 +59,7 @@ from hypcheck.kernel.scene_sweeps import (
     point_at_once,
 )
 from hypcheck.pictures import ScenePage, page_of, plot_of
-from hypcheck.scene.model import FREE, UPRIGHT, Point, is_tilted
+from hypcheck.scene.model import FREE, UPRIGHT, Point, is_tilted, places_of_parts
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -98,15 +106,15 @@ class Scene(PreparedScene):
         if margin:
             found = self._kept_apart(found, center, heading, axis, margin)
         answers = answers_to(self.model.question, found)
-        return int(answers[0]) if scene_queries.are_one(center, heading, axis) else answers
+        return int(answers[0]) if are_one(center, heading, axis) else answers
 
     def _positions(self, center: Sequence[ArrayLike], heading: ArrayLike, axis: ArrayLike | None) -> Positions:
         axes = self._axes(axis) if axis is not None or self._is_tilted else ()
         names = (*_ASKED, *AXIS[: len(axes)])
-        columns = scene_queries.finite_columns(names, (*center, heading, *axes))
+        columns = finite_columns(names, (*center, heading, *axes))
         centres = np.stack(columns[:3], axis=1)
         query, body = self._pairs(centres)
-        movers = scene_queries.directions(columns[4:]) if axes else None
+        movers = directions(columns[4:]) if axes else None
         replies = self._replies(query, body, centres, columns[3], movers)
         return _combined(replies, query, len(centres))
 
@@ -145,19 +153,20 @@ class Scene(PreparedScene):
         if y is None or z is None or margin:
             x, y, z = points_or_columns(x, y, z)
         ordinary = axis is None and float is type(x) is type(y) is type(z)
-        if margin or not (ordinary or scene_queries.are_one((x, y, z), heading, axis)):
+        if margin or not (ordinary or are_one((x, y, z), heading, axis)):
             return self.classify(x, y, z, heading, axis=axis, margin=margin)
-        x, y, z, heading = scene_queries.finite_numbers(x, y, z, heading)
+        x, y, z, heading = finite_numbers(x, y, z, heading)
         if axis is not None or self._is_tilted:
             return self._tilted_position((x, y, z), heading, axis)
         mover, answer = self.model.mover, EXTERIOR
+        b, d = mover.b, mover.d
         for index in self._near(x, y, z):
             body, (low, high, inner_low, inner_high) = self._numbers(index)
             if z < low or z > high:  # beyond an end
                 continue
-            reply = position_beside(body.shape, body.origin, mover.b, mover.d, x, y, z)
+            reply = position_beside(body.shape, body.origin, b, d, x, y, z)
             if reply != EXTERIOR and not inner_low <= z <= inner_high:
-                reply = position_with_ends(reply, body, (mover.b, mover.d), (x, y, z), UPRIGHT)
+                reply = position_with_ends(reply, body, (b, d), (x, y, z), UPRIGHT)
             if reply == CONTACT and mover.parts:
                 reply = self._of_parts(index, (x, y, z), heading, UPRIGHT)
             if reply == CONTACT:
@@ -256,8 +265,8 @@ class Scene(PreparedScene):
         """Straight sweeps, and which pairs of them and of hyperboloids have contact."""
         bodies, mover = self._bodies, self.model.mover
         axes = self._axes(axis) if axis is not None or is_tilted(mover.axis) else ()
-        starts, ends, headings, *columns = scene_queries.sweeps_of(start, end, heading, axes)
-        movers = scene_queries.directions(columns) if columns else None
+        starts, ends, headings, *columns = sweeps_of(start, end, heading, axes)
+        movers = directions(columns) if columns else None
         query, body = near_sweeps(bodies, mover, self.model.region.z, self._grid, self._reaches, starts, ends)
         sizes = np.broadcast_to((mover.b, mover.d), (len(body), 2))
         own = hits_beside(bodies, body, sizes, starts[query], ends[query], None if movers is None else movers[query])
@@ -306,7 +315,7 @@ class Scene(PreparedScene):
         mover, heading = self.model.mover, float(swept.headings[sweep])
         start, end = swept.starts[sweep].tolist(), swept.ends[sweep].tolist()
         axis = UPRIGHT if swept.movers is None else swept.movers[sweep].tolist()
-        places = (scene_queries.places_of_parts(mover.parts, at, heading, axis) for at in (start, end))
+        places = (places_of_parts(mover.parts, at, heading, axis) for at in (start, end))
         parts = [
             (part.b, part.d, Sweep(here, there, axis)) for part, here, there in zip(mover.parts, *places, strict=True)
         ]
@@ -332,10 +341,10 @@ class Scene(PreparedScene):
         mover = self.model.mover
         axes = self._axes(axis) if axis is not None or is_tilted(mover.axis) else ()
         center = points_or_columns(x, y, z)
-        columns = scene_queries.finite_columns((*CENTER, *AXIS[: len(axes)]), (*center, *axes))
-        movers = scene_queries.directions(columns[3:]) if axes else None
+        columns = finite_columns((*CENTER, *AXIS[: len(axes)]), (*center, *axes))
+        movers = directions(columns[3:]) if axes else None
         result = scene_nearest.nearest(self._bodies, mover, np.stack(columns[:3], axis=1), movers)
-        return scene_nearest.first_of(result) if scene_queries.are_one(center, 0, axis) else result
+        return scene_nearest.first_of(result) if are_one(center, 0, axis) else result
 
     def _tilted_position(self, centre: Point, heading: float, axis: ArrayLike | None) -> int:
         """The position where the mover or a hyperboloid is tilted."""
@@ -391,7 +400,7 @@ class Scene(PreparedScene):
     def _of_parts(self, index: int, centre: Sequence[float], heading: float, mover: Sequence[float]) -> int:
         """The position that all parts of a mover with this axis have in common beside a hyperboloid, else contact."""
         common = CONTACT
-        for number, place in enumerate(scene_queries.places_of_parts(self.model.mover.parts, centre, heading, mover)):
+        for number, place in enumerate(places_of_parts(self.model.mover.parts, centre, heading, mover)):
             part = self.model.mover.parts[number]
             reply = position_of(self._numbers(index)[0], (part.b, part.d), place, mover)
             if reply == CONTACT or (number and reply != common):

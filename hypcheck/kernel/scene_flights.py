@@ -22,10 +22,9 @@ from hypcheck.geometry.pair import CENTER
 from hypcheck.geometry.rows import Floats, Indices, Mask, Rows, as_numbers
 from hypcheck.kernel.passages import First, Passages
 from hypcheck.kernel.scene_least import Least
-from hypcheck.kernel.scene_queries import places_of_parts
 from hypcheck.messages import counted
 from hypcheck.pictures import ShownContact, ShownFlight
-from hypcheck.scene.model import FREE, SceneModel
+from hypcheck.scene.model import FREE, SceneModel, places_of_parts
 
 _PATH = "it must be points (T, 3), an array (k, T, 3), or a list of such points"
 

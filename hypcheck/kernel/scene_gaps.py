@@ -21,6 +21,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hypcheck.geometry.rows import Floats, Indices, Mask, Rows
+from hypcheck.kernel.clearance_points import unit_vectors
 
 _LOOSE = 2.0**-48
 """More than the roundings of a bound, in units of all lengths in it."""
@@ -66,7 +67,7 @@ def gaps(sizes: Rows, centres: Rows, axes: Rows | None, spans: Rows, solid: Mask
 
     `sizes` are α, γ, b, d (n, 4); `axes` (n, 3), None where all are upright; `farthest` (n,) are upper bounds.
     """
-    unit = np.tile((0.0, 0.0, 1.0), (len(sizes), 1)) if axes is None else _unit(axes)
+    unit = np.tile((0.0, 0.0, 1.0), (len(sizes), 1)) if axes is None else unit_vectors(axes)
     upright = (unit[:, :2] == 0).all(axis=1) | (sizes[:, 2] == sizes[:, 3])
     with np.errstate(all="ignore"):
         unit_of = _unit_of(sizes, centres)
@@ -91,7 +92,7 @@ def gaps_at(sizes: Rows, centres: Rows, axes: Rows, points: Rows) -> tuple[Float
         unit_of = _unit_of(sizes, centres)
         sizes, centres, points = (np.ldexp(column, unit_of[:, None]) for column in (sizes, centres, points))
         points = at_height(sizes, points, points[:, 2])
-        distance, _ = from_spheroids(sizes[:, 2], sizes[:, 3], _unit(axes), points - centres)
+        distance, _ = from_spheroids(sizes[:, 2], sizes[:, 3], unit_vectors(axes), points - centres)
         return _in_unit(distance, unit_of, np.inf), np.ldexp(points, -unit_of[:, None])
 
 
@@ -99,11 +100,6 @@ def at_height(rows: Rows, point: Rows, height: Floats) -> Rows:
     """The points of the hyperboloids at these heights, in the half planes of some points."""
     share = rows[:, 0] * np.hypot(1, height / rows[:, 1]) / np.hypot(point[:, 0], point[:, 1])
     return np.stack([point[:, 0] * share, point[:, 1] * share, height], axis=1)
-
-
-def _unit(axes: Rows) -> Rows:
-    longer = axes / np.abs(axes).max(axis=1, keepdims=True)
-    return np.asarray(longer / np.sqrt((longer * longer).sum(axis=1, keepdims=True)))
 
 
 def _unit_of(sizes: Rows, centres: Rows) -> Indices:

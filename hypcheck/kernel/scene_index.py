@@ -29,7 +29,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 from math import ceil, floor, inf
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -96,6 +96,42 @@ def bodies_of(hyperboloids: Sequence[Hyperboloid]) -> Bodies:
 def _numbers(body: Hyperboloid) -> tuple[float, ...]:
     low, high = (-inf, inf) if body.height is None else (body.height.low, body.height.high)
     return (body.alpha, body.gamma, *body.center, low, high, *body.axis, body.solid)
+
+
+TURNING = 128 * 2.0**-53
+"""Of what is turned into a hyperboloid's frame, in units of the sum of all coordinates: see frames_of."""
+
+
+def frames_of(axes: Floats) -> Floats:
+    """Frames (n, 3, 3): the rows are two unit vectors across an axis and one along it; I where that is vertical.
+
+    The numbers of the first two rows are within 6 u of those of an exact frame, so that those of their cross product
+    are within 20 u. With three products and two sums in floats, each number of a turned vector is off by 24 u of the
+    sum of the vector's numbers, and the vector by √3 times that; an axis, of which that sum is √3 lengths at most, by
+    an angle of 72 u. TURNING is more than all of these.
+    """
+    frames = np.tile(np.eye(3), (len(axes), 1, 1))
+    tilted = np.flatnonzero((axes[:, :2] != 0).any(axis=1))
+    along = axes[tilted] / np.abs(axes[tilted]).max(axis=1, keepdims=True)
+    along /= np.linalg.norm(along, axis=1, keepdims=True)
+    least = np.eye(3)[np.abs(along).argmin(axis=1)]  # the coordinate axis that is farthest from it
+    across = np.cross(least, along)
+    across /= np.linalg.norm(across, axis=1, keepdims=True)
+    frames[tilted] = np.stack([across, np.cross(along, across), along], axis=1)
+    return frames
+
+
+def turned(frames: Floats, vectors: Floats) -> Floats:
+    """Vectors (n, 3) in frames (n, 3, 3)."""
+    result: Floats = np.einsum("nij,nj->ni", frames, vectors)
+    return result
+
+
+def turned_axes(frames: Floats, axes: Floats | None) -> Floats:
+    """The axes (n, 3) of a mover, None: it is upright, in frames. They are made about 1 long: none is rounded to 0."""
+    if axes is None:
+        return turned(frames, np.broadcast_to(UPRIGHT, (len(frames), 3)))
+    return turned(frames, axes / np.abs(axes).max(axis=1, keepdims=True))
 
 
 OUTWARD = 1 + 2.0**-40
@@ -240,7 +276,7 @@ def grid_of(x: Floats, y: Floats, reaches: Floats) -> PlaneGrid:
     again = np.append(False, (np.diff(places) == 0) & (np.diff(members) == 0))[: len(places)]
     places, members = places[~again], members[~again]
     starts = np.searchsorted(places, np.arange(size + 1))
-    return PlaneGrid(side, _packed(starts), _packed(members), everywhere)
+    return PlaneGrid(side, packed(starts), packed(members), everywhere)
 
 
 def cells_of(x: Floats, y: Floats, reaches: Floats, side: float) -> tuple[Indices, Indices, list[int]]:
@@ -278,7 +314,7 @@ def hashed(column: Indices, row: Indices, size: int) -> Indices:
     return np.asarray((column * ACROSS ^ row * ALONG) & (size - 1))
 
 
-def _packed(numbers: Indices) -> array[int]:
+def packed(numbers: NDArray[np.integer[Any]]) -> array[int]:
     """The numbers as an array that Python indexes without making numpy's scalars of them."""
     return array("i", numbers.astype(np.intc).tobytes())
 

@@ -25,6 +25,7 @@ import numpy as np
 from hypcheck.geometry.pair import UPRIGHT
 from hypcheck.geometry.rows import Floats, Indices, Mask, Rows
 from hypcheck.kernel.clearance import enlarged
+from hypcheck.kernel.clearance_points import unit_vectors
 from hypcheck.kernel.scene_gaps import from_spheroids
 from hypcheck.kernel.scene_index import OUTWARD, PAD, Bodies, PlaneGrid, reaches
 from hypcheck.kernel.scene_nearest import cylinder_bounds, distances
@@ -236,8 +237,7 @@ def _ask(search: _Search, least: Least, pieces: _Pieces) -> tuple[_Places, Float
 def _half_widths(mover: Mover, axes: Rows | None, offset: Rows) -> Floats:
     """Half of how wide the mover is along its gaps to points, `offset` (n, 3) from its centre; b where unknown."""
     with np.errstate(all="ignore"):
-        unit = np.tile(UPRIGHT, (len(offset), 1)) if axes is None else axes / np.abs(axes).max(axis=1, keepdims=True)
-        unit = unit / np.sqrt((unit * unit).sum(axis=1, keepdims=True))
+        unit = np.tile(UPRIGHT, (len(offset), 1)) if axes is None else unit_vectors(axes)
         b, d = np.full(len(offset), mover.b), np.full(len(offset), mover.d)
         _, normal = from_spheroids(b, d, unit, offset)
         steep = (normal * unit).sum(axis=1)

@@ -32,9 +32,8 @@ from hypcheck.geometry.rows import PAIRS, Floats, Indices, Mask, Rows
 from hypcheck.kernel.clearance_bounds import clearances_without_ends
 from hypcheck.kernel.clearance_points import normals
 from hypcheck.kernel.scene_gaps import at_height, gaps
-from hypcheck.kernel.scene_index import OUTWARD, Bodies
+from hypcheck.kernel.scene_index import OUTWARD, Bodies, frames_of, turned, turned_axes
 from hypcheck.kernel.scene_pairs import along_and_across, positions
-from hypcheck.kernel.scene_queries import frames_of, turned, turned_axes
 from hypcheck.scene.model import Mover
 
 PAIRS_AT_A_TIME = 1 << 18

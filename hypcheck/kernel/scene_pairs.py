@@ -158,18 +158,20 @@ def _where(condition: Any, value: Any, otherwise: Any) -> Any:  # noqa: ANN401 -
 
 def along_and_across(centre: Parts, origin: Parts, axis: Parts) -> tuple[Any, Any, Any]:
     """A centre's height along an axis and its distance from it, and a bound of the error of both; nan: not known."""
-    largest, size = sum(map(abs, axis)), sum(map(abs, (*centre, *origin)))
-    u, v, w = (part / largest for part in axis)
+    (u, v, w), (x, y, z), (here_x, here_y, here_z) = axis, centre, origin
+    size = abs(x) + abs(y) + abs(z) + abs(here_x) + abs(here_y) + abs(here_z)
+    largest = abs(u) + abs(v) + abs(w)
+    u, v, w = u / largest, v / largest, w / largest
     length = (u * u + v * v + w * w) ** 0.5
     u, v, w = u / length, v / length, w / length
-    x, y, z = (there - here for there, here in zip(centre, origin, strict=True))
+    x, y, z = x - here_x, y - here_y, z - here_z
     p, q, r = v * z - w * y, w * x - u * z, u * y - v * x
     ordinary = (largest > LEAST) & (largest < GREATEST) & (size < GREATEST)
     return u * x + v * y + w * z, (p * p + q * q + r * r) ** 0.5, _where(ordinary, ERROR * size + LEAST, nan)
 
 
 def _by_ball(sizes: Parts, centre: Parts, origin: Parts, axis: Parts) -> tuple[Any, Any]:
-    """Whether the spheroid's ball is surely exterior, and interior: of numbers, or of columns (n,)."""
+    """Whether the spheroid's ball is surely exterior, and interior, if the sizes are ordinary."""
     alpha, gamma, b, d = sizes
     height, distance, error = along_and_across(centre, origin, axis)
     longest = _where(b > d, b, d) * (1 + MARGIN) + error
@@ -177,9 +179,6 @@ def _by_ball(sizes: Parts, centre: Parts, origin: Parts, axis: Parts) -> tuple[A
     below = _where(below > 0, below, 0.0)
     outside = distance - longest > alpha * (1 + above * above) ** 0.5 * (1 + MARGIN)
     inside = distance + longest < alpha * (1 + below * below) ** 0.5 * (1 - MARGIN)
-    for size in sizes:
-        ordinary = (size > LEAST) & (size < GREATEST)
-        outside, inside = outside & ordinary, inside & ordinary
     return outside, inside
 
 
@@ -190,8 +189,9 @@ def tilted_positions(sizes: Rows, centres: Rows, origins: Rows, movers: Rows, ax
     result[~tilted] = positions_beside(*(column[~tilted] for column in (sizes, centres, origins, movers)))
     with np.errstate(all="ignore"):
         outside, inside = _by_ball(*(column[tilted].T for column in (sizes, centres, origins, axes)))
+        ordinary = ((sizes > LEAST) & (sizes < GREATEST)).all(axis=1)[tilted]
     result[tilted] = np.where(outside, Position.EXTERIOR, Position.INTERIOR)
-    _exactly(np.flatnonzero(tilted)[~(outside | inside)], result, sizes, centres, origins, movers, axes)
+    _exactly(np.flatnonzero(tilted)[~((outside | inside) & ordinary)], result, sizes, centres, origins, movers, axes)
     return result
 
 
@@ -207,9 +207,10 @@ def tilted_position(
         alpha, gamma, b, d = sizes
         x, y, z = centre
         return position_beside((alpha, gamma), origin, b, d, x, y, z, mover)
-    outside, inside = _by_ball(sizes, centre, origin, axis)
-    if outside or inside:
-        return int(Position.EXTERIOR if outside else Position.INTERIOR)
+    if LEAST < min(sizes) and max(sizes) < GREATEST:
+        outside, inside = _by_ball(sizes, centre, origin, axis)
+        if outside or inside:
+            return int(Position.EXTERIOR if outside else Position.INTERIOR)
     return _from_exact_difference(sizes, centre, origin, mover, axis)
 
 
@@ -267,7 +268,9 @@ def position_of(
 ) -> int:
     """As positions, of one pair; `mover` is the axis of the mover."""
     whole = tilted_position((*body.shape, *semi_axes), centre, body.origin, mover, body.axis)
-    return whole if body.span == WITHOUT_ENDS[:2] else position_with_ends(whole, body, semi_axes, centre, mover)
+    if whole == Position.EXTERIOR or body.span == WITHOUT_ENDS[:2]:
+        return whole
+    return position_with_ends(whole, body, semi_axes, centre, mover)
 
 
 def position_with_ends(
@@ -275,20 +278,23 @@ def position_with_ends(
 ) -> int:
     """The position of a mover, with this axis, from that beside the whole hyperboloid."""
     pair = (*body.shape, *semi_axes), centre, body.origin, mover, body.axis
-    exterior, known, _, _ = _by_bounds(whole, pair, body.span, body.solid)
+    place, exterior, known, _, _ = _by_bounds(whole, pair, body.span, body.solid)
     if exterior:
         return int(Position.EXTERIOR)
-    return whole if known else _ended_exactly(whole, pair, body.span, body.solid)
+    if known or (whole == Position.CONTACT and place.crosses()):
+        return whole
+    return _ended_exactly(whole, pair, body.span, body.solid)
 
 
 Pair = tuple[Parts, Parts, Parts, Parts, Parts]
 """Sizes, both centres and both axes, those of the hyperboloid behind the mover's."""
 
 
-def _by_bounds(whole: Any, pair: Pair, span: Parts, solid: Any) -> tuple[Any, Any, Any, Any]:  # noqa: ANN401
-    """Whether bounds prove that the mover is exterior, and that its position is that beside the whole hyperboloid.
+def _by_bounds(whole: Any, pair: Pair, span: Parts, solid: Any) -> tuple[_Place, Any, Any, Any, Any]:  # noqa: ANN401
+    """The mover's place; whether it is surely exterior, and else surely as beside the whole hyperboloid.
 
-    And whether its centre surely lies between the ends, and beyond one: all are truth values, or masks (n,).
+    The second is without contact, which crosses() of the place may prove. Then whether the mover's centre surely lies
+    between the ends, and beyond one. All four are truth values, or masks (n,).
     """
     (alpha, gamma, b, d), centre, origin, mover, axis = pair
     low, high = span
@@ -306,7 +312,7 @@ def _by_bounds(whole: Any, pair: Pair, span: Parts, solid: Any) -> tuple[Any, An
     inner, outer = place.centre_between_and_beyond()
     open_inside = (whole == Position.INTERIOR) & (solid == 0)
     exterior = beyond | (whole == Position.EXTERIOR) | (open_inside & outer)
-    return exterior, between | (open_inside & inner) | (place.crosses() & (whole == Position.CONTACT)), inner, outer
+    return place, exterior, between | (open_inside & inner), inner, outer
 
 
 def _with_ends(whole: Positions, places: tuple[Rows, Rows, Rows, Rows], bodies: Bodies, body: Indices) -> Positions:
@@ -314,7 +320,10 @@ def _with_ends(whole: Positions, places: tuple[Rows, Rows, Rows, Rows], bodies: 
     spans, solid, pairs = bodies.spans[body], bodies.solid[body], (*places, bodies.axes[body])
     sizes, centres, origins, movers, axes = (column.T for column in pairs)
     with np.errstate(all="ignore"):
-        exterior, known, inner, outer = _by_bounds(whole, (sizes, centres, origins, movers, axes), spans.T, solid)
+        place, exterior, known, inner, outer = _by_bounds(
+            whole, (sizes, centres, origins, movers, axes), spans.T, solid
+        )
+        known |= place.crosses() & (whole == Position.CONTACT)
     result = np.where(exterior, Position.EXTERIOR, whole).astype(np.int8)
     rest = np.flatnonzero(~(exterior | known))
     stands = rest[~bodies.tilted[body[rest]]]

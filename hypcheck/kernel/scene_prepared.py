@@ -7,7 +7,6 @@ the scene: an added hyperboloid is the last, and after a removal the numbers of 
 from __future__ import annotations
 
 import os
-from array import array
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
@@ -16,13 +15,24 @@ from math import inf, isfinite
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from hypcheck.errors import InputError
 from hypcheck.float_environment import in_default_environment
 from hypcheck.geometry.rows import Floats, Indices
 from hypcheck.kernel.clearance import enlarged
-from hypcheck.kernel.scene_index import ROOM, Bodies, PlaneGrid, bodies_of, cells_of, grid_of, hashed, in_reach, reaches
+from hypcheck.kernel.scene_index import (
+    ROOM,
+    Bodies,
+    PlaneGrid,
+    bodies_of,
+    cells_of,
+    grid_of,
+    hashed,
+    in_reach,
+    packed,
+    reaches,
+)
 from hypcheck.kernel.scene_pairs import Numbers, limits_of
 from hypcheck.scene import arrays
 from hypcheck.scene.model import Hyperboloid, Mover, Region, SceneModel, is_tilted
@@ -271,8 +281,8 @@ def grid_with(grid: PlaneGrid, place: int, x: float, y: float, reach: float) -> 
     more[places + 1] = 1
     return replace(
         grid,
-        starts=_packed(starts + np.cumsum(more, dtype=np.intc)),
-        members=_packed(np.insert(members, starts[places + 1], place)),
+        starts=packed(starts + np.cumsum(more, dtype=np.intc)),
+        members=packed(np.insert(members, starts[places + 1], place)),
     )
 
 
@@ -286,8 +296,4 @@ def grid_without(grid: PlaneGrid, place: int, *, renumbered: bool) -> PlaneGrid:
     if renumbered:
         kept = kept - (kept > place)
         everywhere = [number - (number > place) for number in everywhere]
-    return replace(grid, starts=_packed(starts - fewer), members=_packed(kept), everywhere=list(everywhere))
-
-
-def _packed(numbers: NDArray[np.intc]) -> array[int]:
-    return array("i", numbers.astype(np.intc).tobytes())
+    return replace(grid, starts=packed(starts - fewer), members=packed(kept), everywhere=list(everywhere))

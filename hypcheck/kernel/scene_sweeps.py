@@ -4,7 +4,7 @@ The kernel's answer about sweeps (core/parts/sweeps.h) is asked twice: about a l
 what the rounding of the difference of two centres may be in radii, as for positions (scene_pairs.py). The larger one
 clear is clear, the smaller one in contact is contact. What is left is decided from the exact differences by
 truth/swept.py. No other exact decision about sweeps is known, so the kernel uses that of truth/.
-Beside a tilted hyperboloid both ends and the mover's axis are turned into its frame (scene_queries.py), and the
+Beside a tilted hyperboloid both ends and the mover's axis are turned into its frame (frames_of), and the
 roundings of that are added.
 
 Where the hyperboloid ends, what is clear of the whole one is clear of its wall. A mover that reaches beyond an end, and
@@ -29,7 +29,19 @@ from hypcheck.derivation.float_arithmetic import two_sum
 from hypcheck.geometry.pair import UPRIGHT, WITHOUT_ENDS
 from hypcheck.geometry.rows import Floats, Indices, Mask, Rows
 from hypcheck.kernel.in_use import kernel
-from hypcheck.kernel.scene_index import LEAST_OF_SWEEPS, LONGEST_SQUARE, OUTWARD, PAD, Bodies, BodyNumbers, PlaneGrid
+from hypcheck.kernel.scene_index import (
+    LEAST_OF_SWEEPS,
+    LONGEST_SQUARE,
+    OUTWARD,
+    PAD,
+    TURNING,
+    Bodies,
+    BodyNumbers,
+    PlaneGrid,
+    frames_of,
+    turned,
+    turned_axes,
+)
 from hypcheck.kernel.scene_pairs import (
     GREATEST,
     LEAST,
@@ -40,7 +52,6 @@ from hypcheck.kernel.scene_pairs import (
     larger_and_smaller,
     meets_for_sure,
 )
-from hypcheck.kernel.scene_queries import TURNING, frames_of, turned, turned_axes
 from hypcheck.scene.model import Mover, Point
 from hypcheck.truth import ended_sweeps, swept
 from hypcheck.truth.ended_sweeps import EndedSweep

@@ -6,7 +6,9 @@ Lengths are in one unit of the caller's choice (metres in the scenes that are sh
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from math import cos, radians, sin, sqrt
 from typing import Literal
 
 QUESTIONS = ("position", "exterior", "interior", "contact")
@@ -90,6 +92,31 @@ class Mover:
     d: float
     parts: tuple[MoverPart, ...] = ()
     axis: Point | Literal["free"] = UPRIGHT
+
+
+def places_of_parts(
+    parts: Sequence[MoverPart], centre: Sequence[float], heading: float, axis: Sequence[float]
+) -> list[Point]:
+    """The centres of a mover's parts, rounded.
+
+    A tilted mover is turned from upright about a horizontal line, the shortest way, to the axis u = v/|v| or −u,
+    whichever does not point down. That takes a horizontal p to p − (p·u)/(1 + u_z) (u_x, u_y, 0) − (p·u) e_z.
+    """
+    x, y, z = centre
+    turns = [(part.arm, radians(heading + part.angle)) for part in parts]
+    arms = [(arm * cos(turn), arm * sin(turn)) for arm, turn in turns]
+    if axis[0] == axis[1] == 0:
+        return [(x + across, y + along, z) for across, along in arms]
+    largest = max(map(abs, axis)) * (-1 if axis[2] < 0 else 1)
+    u, v, w = (part / largest for part in axis)
+    norm = sqrt(u * u + v * v + w * w)
+    u, v, w = u / norm, v / norm, w / norm
+    places = []
+    for across, along in arms:
+        sink = across * u + along * v
+        back = sink / (1 + w)
+        places.append((x + (across - back * u), y + (along - back * v), z - sink))
+    return places
 
 
 @dataclass(frozen=True, slots=True)

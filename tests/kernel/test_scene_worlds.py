@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 from hypcheck.geometry.pair import UPRIGHT, Position
-from hypcheck.kernel.scene_queries import places_of_parts
-from hypcheck.scene.model import FREE, Hyperboloid, Mover, MoverPart, SceneModel, Span
+from hypcheck.scene.model import FREE, Hyperboloid, Mover, MoverPart, SceneModel, Span, places_of_parts
 from tests.support.inside import Scene, passage
 from tests.support.scenes import truth_in
 
