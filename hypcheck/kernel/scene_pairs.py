@@ -189,7 +189,7 @@ def tilted_positions(sizes: Rows, centres: Rows, origins: Rows, movers: Rows, ax
     result[~tilted] = positions_beside(*(column[~tilted] for column in (sizes, centres, origins, movers)))
     with np.errstate(all="ignore"):
         outside, inside = _by_ball(*(column[tilted].T for column in (sizes, centres, origins, axes)))
-        ordinary = ((sizes > LEAST) & (sizes < GREATEST)).all(axis=1)[tilted]
+        ordinary = np.asarray(((sizes > LEAST) & (sizes < GREATEST)).all(axis=1))[tilted]
     result[tilted] = np.where(outside, Position.EXTERIOR, Position.INTERIOR)
     _exactly(np.flatnonzero(tilted)[~((outside | inside) & ordinary)], result, sizes, centres, origins, movers, axes)
     return result
