@@ -89,7 +89,9 @@ def test_the_multiplier_of_the_numpy_kernel_maximises_phi_or_is_next_to_a_pole()
 
 
 def gaps_of(rows, gaps, touches):
-    position = np.array([inside.position(Lengths.of(row if len(row) == 10 else [*row, 0, 0, 1])) for row in rows.tolist()])
+    position = np.array(
+        [inside.position(Lengths.of(row if len(row) == 10 else [*row, 0, 0, 1])) for row in rows.tolist()]
+    )
     clear = np.flatnonzero(position)
     rows, position = rows[clear], position[clear].astype(np.int8)
     return rows, position, gaps(rows, position, touches(rows).point)
