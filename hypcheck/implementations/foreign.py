@@ -73,14 +73,10 @@ class ForeignCode(Protocol):
         """Answers to rows, by that call."""
         ...
 
-    def seconds(self, rows: Rows, repeat: int, call: CallForm) -> tuple[int, int]:
-        """Nanoseconds of `repeat` calls, and the sum of the answers of the last."""
-        ...
+    def time(self, rows: Rows, repeat: int, call: CallForm, *, row_by_row: bool) -> tuple[int, int]:
+        """Nanoseconds of `repeat` times the rows, in one call or in one for each, and the sum of the last answers.
 
-    def seconds_each(self, rows: Rows, repeat: int, call: CallForm) -> tuple[int, int]:
-        """Nanoseconds of `repeat` times a call for each row, and the sum of the last answers.
-
-        For a library, no rows mean a call that does nothing.
+        For a library, no rows by row mean a call that does nothing.
         """
         ...
 
@@ -132,24 +128,18 @@ class PythonFunction:
         """Answers to rows; raises ContractError if the function returns no array of n integers, or no times beside."""
         return _given(self._function(rows), len(rows), call)
 
-    def seconds(self, rows: Rows, repeat: int, call: CallForm) -> tuple[int, int]:
-        """Nanoseconds of `repeat` calls, and the sum of the answers of the last."""
-        function, result = self._function, None
-        start = time.perf_counter_ns()
-        for _ in range(repeat):
-            result = function(rows)
-        took = time.perf_counter_ns() - start
-        return took, int(_given(result, len(rows), call).integers.sum(dtype=np.int64))
-
-    def seconds_each(self, rows: Rows, repeat: int, call: CallForm) -> tuple[int, int]:
-        """Nanoseconds of `repeat` times a call for each row, and the sum of the last answers."""
-        function, parts = self._function, [rows[place : place + 1] for place in range(len(rows))]
+    def time(self, rows: Rows, repeat: int, call: CallForm, *, row_by_row: bool) -> tuple[int, int]:
+        """Nanoseconds of `repeat` times the rows, in one call or in one for each, and the sum of the last answers."""
+        function, parts = self._function, [rows]
+        if row_by_row:
+            parts = [rows[place : place + 1] for place in range(len(rows))]
         results: list[Any] = []
         start = time.perf_counter_ns()
         for _ in range(repeat):
             results = [function(part) for part in parts]
         took = time.perf_counter_ns() - start
-        return took, sum(int(_given(result, 1, call).integers[0]) for result in results)
+        answers = (_given(result, len(part), call) for result, part in zip(results, parts, strict=True))
+        return took, sum(int(given.integers.sum(dtype=np.int64)) for given in answers)
 
 
 def error_text(error: BaseException) -> str:

@@ -53,8 +53,10 @@ class Library:
         self._entry(rows, call)(*self._words(rows, call, room))
         return room.written()
 
-    def seconds(self, rows: Rows, repeat: int, call: CallForm) -> tuple[int, int]:
-        """Nanoseconds of `repeat` calls, and the sum of the answers of the last."""
+    def time(self, rows: Rows, repeat: int, call: CallForm, *, row_by_row: bool) -> tuple[int, int]:
+        """Nanoseconds of `repeat` times the rows, in one call or in one for each, and the sum of the last answers."""
+        if row_by_row:
+            return self._time_each(rows, repeat, call)
         room = _AnswerRoom(self._memory, rows, call)
         function, words = self._entry(rows, call), self._words(rows, call, room)
         start = time.perf_counter_ns()
@@ -70,7 +72,7 @@ class Library:
         *fixed, x, y, z = self._memory.scene(rows)
         return *fixed, len(rows), x, y, z, *room.words
 
-    def seconds_each(self, rows: Rows, repeat: int, call: CallForm) -> tuple[int, int]:
+    def _time_each(self, rows: Rows, repeat: int, call: CallForm) -> tuple[int, int]:
         """Nanoseconds of `repeat` times a call for each row, and the sum of the last answers.
 
         A compiled loop makes the calls if there is one, else ctypes. No rows mean a call that does nothing: of
@@ -78,7 +80,7 @@ class Library:
         """
         room, n = _AnswerRoom(self._memory, rows, call), len(rows)
         if _calls is None or call.layout.has_end or call.columns:  # it calls functions of three arguments
-            return self._seconds_by_ctypes(rows, repeat, call, room)
+            return self._time_by_ctypes(rows, repeat, call, room)
         address = ctypes.cast(self._entry(rows, call), ctypes.c_void_p).value or 0 if n else 0
         words = (address, rows.ctypes.data, rows.shape[1], room.answers.ctypes.data, max(1, n), repeat)
         start = time.perf_counter_ns()
@@ -86,7 +88,7 @@ class Library:
         took = time.perf_counter_ns() - start
         return took, room.total()
 
-    def _seconds_by_ctypes(self, rows: Rows, repeat: int, call: CallForm, room: _AnswerRoom) -> tuple[int, int]:
+    def _time_by_ctypes(self, rows: Rows, repeat: int, call: CallForm, room: _AnswerRoom) -> tuple[int, int]:
         function, begin, n = self._entry(rows, call), rows.ctypes.data, len(rows)
         width = self._width(rows, call)
         calls = [(1, *width, begin + 8 * rows.shape[1] * place, *room.words_at(place)) for place in range(n)]

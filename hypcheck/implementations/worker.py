@@ -118,8 +118,8 @@ Reply = tuple[bytes, bytes | memoryview, int]
 def _reply(subject: ForeignCode, kind: bytes, call: CallForm, repeat: int, rows: Rows) -> Reply:
     try:
         if kind != frames.CLASSIFY:
-            seconds = subject.seconds_each if kind == frames.TIME_EACH else subject.seconds
-            return frames.TIMED, frames.TIMES.pack(*seconds(rows, repeat, call)), 8
+            times = subject.time(rows, repeat, call, row_by_row=kind == frames.TIME_EACH)
+            return frames.TIMED, frames.TIMES.pack(*times), 8
         reply = subject.classify(rows, call)
         answers = np.ascontiguousarray(reply.integers)
     except ContractError as error:

@@ -105,17 +105,17 @@ def test_a_library_answers_batches_of_every_size_and_its_description_is_read(rig
 
 
 @pytest.mark.parametrize("loop", ["in C", "by ctypes"])
-def test_seconds_each_calls_a_library_once_per_row_and_an_empty_call_for_no_rows(loop, tmp_path, monkeypatch):
+def test_timing_row_by_row_calls_a_library_once_per_row_and_an_empty_call_for_no_rows(loop, tmp_path, monkeypatch):
     if loop == "by ctypes":
         monkeypatch.setattr(libraries, "_calls", None)
     counting = libraries.Library(str(compiled("counting", tmp_path / f"{loop[-1]}.so", *SHARED)))
     calls = ctypes.c_long.in_dll(ctypes.CDLL(str(tmp_path / f"{loop[-1]}.so")), "calls_about_one_row")
     some = rows(40)
-    took, total = counting.seconds_each(some, 25, CALLS[0])
+    took, total = counting.time(some, 25, CALLS[0], row_by_row=True)
     assert took > 0
     assert total == sum(signs(some).tolist())
     assert calls.value == 40 * 25
-    assert counting.seconds_each(some[:0], 25, CALLS[0])[1] == 0
+    assert counting.time(some[:0], 25, CALLS[0], row_by_row=True)[1] == 0
     assert calls.value == 40 * 25
 
 
@@ -128,7 +128,7 @@ def test_a_library_answers_with_times_and_is_timed_in_one_call(tmp_path):
     given = library.classify(some, with_times)
     assert given.integers.tolist() == [1, 0, 0]
     assert given.times[0] == 0.75
-    took, total = library.seconds(some, 2, with_times)
+    took, total = library.time(some, 2, with_times, row_by_row=False)
     assert took > 0
     assert total == 1
 
