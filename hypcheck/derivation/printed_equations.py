@@ -15,21 +15,7 @@ from itertools import groupby
 import sympy
 
 from hypcheck.derivation import pencil
-from hypcheck.derivation.pencil import (
-    COSINE,
-    ROTOR_B,
-    ROTOR_D,
-    SINE,
-    Meanings,
-    difference,
-    mean_over_rotors,
-    plain,
-    read,
-    repair,
-    rotor_centre,
-    rotor_cubic,
-    symbol,
-)
+from hypcheck.derivation.pencil import mean_over_rotors, read, symbol
 
 
 @dataclass(frozen=True)
@@ -42,7 +28,7 @@ class PrintedClaim:
     number: str
     statement: str
     pairs: tuple[tuple[sympy.Expr, sympy.Expr], ...]
-    meanings: Meanings
+    meanings: pencil.Meanings
 
 
 @cache
@@ -132,13 +118,13 @@ def _cubic() -> Iterator[PrintedClaim]:
 @cache
 def rotor_meanings() -> dict[str, sympy.Expr]:
     """The meanings of the letters of section 3.2: B2 is the rotors' mean of (x_i² + y_i²)/b_s², C(g_i) the rest."""
-    x, y, z = rotor_centre()
-    cubic, reach = rotor_cubic(), (x**2 + y**2) / ROTOR_B**2
+    x, y, z = pencil.rotor_centre()
+    cubic, reach = pencil.rotor_cubic(), (x**2 + y**2) / pencil.ROTOR_B**2
     size_part = sympy.diff(pencil.cubic().c1, pencil.A).subs(pencil.IN_SEVEN)
-    size_part = size_part.subs({pencil.SMALL_B: ROTOR_B, pencil.SMALL_D: ROTOR_D})
+    size_part = size_part.subs({pencil.SMALL_B: pencil.ROTOR_B, pencil.SMALL_D: pencil.ROTOR_D})
     return {
-        "T1": COSINE - SINE,
-        "T2": COSINE + SINE,
+        "T1": pencil.COSINE - pencil.SINE,
+        "T2": pencil.COSINE + pencil.SINE,
         "x_i": x,
         "y_i": y,
         "z_i": z,
@@ -163,7 +149,7 @@ def _rotors() -> Iterator[PrintedClaim]:
         "z_i = z0",
     ):
         yield equality("15", statement, **means)
-    rotor = {pencil.SMALL_B: ROTOR_B, pencil.SMALL_D: ROTOR_D}
+    rotor = {pencil.SMALL_B: pencil.ROTOR_B, pencil.SMALL_D: pencil.ROTOR_D}
     at_rotor = {pencil.X0: symbol("x_i"), pencil.Y0: symbol("y_i"), pencil.Z0: symbol("z_i")}
     hyperboloid, sphere = pencil.scaled(pencil.hyperboloid()), pencil.scaled(pencil.spheroid())
     yield surface("16", "x²/(α/b_s)² + y²/(α/b_s)² − z²/(γ/d_s)² = 1", hyperboloid.subs(rotor))
@@ -243,8 +229,8 @@ def check(claims: tuple[PrintedClaim, ...]) -> EquationCheck:
     for claim in claims:
         left = claim.statement.partition("=")[0].strip()
         for printed, derived in claim.pairs:
-            if difference(printed.subs(claim.meanings), derived) != 0:
-                repaired = repair(printed, derived, claim.meanings)
+            if pencil.difference(printed.subs(claim.meanings), derived) != 0:
+                repaired = pencil.repair(printed, derived, claim.meanings)
                 repairs.append((left, repaired))
     statement = "; ".join(claim.statement for claim in claims)
     if not repairs:
@@ -255,5 +241,5 @@ def check(claims: tuple[PrintedClaim, ...]) -> EquationCheck:
         verdict="misprint" if all(repaired.one_place for _, repaired in repairs) else "false",
         statement=statement,
         finding="; ".join(repaired.finding for _, repaired in repairs),
-        correction="; ".join(f"{left} = {plain(repaired.corrected)}" for left, repaired in repairs),
+        correction="; ".join(f"{left} = {pencil.plain(repaired.corrected)}" for left, repaired in repairs),
     )

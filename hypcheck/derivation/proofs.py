@@ -21,24 +21,7 @@ from hypcheck.derivation.evaluation import OPERATORS, Arithmetic, evaluate, outp
 from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS, REPAIRED, Formula
 from hypcheck.derivation.paper_listings import ROTORS
-from hypcheck.derivation.pencil import (
-    ARM,
-    COSINE,
-    IN_SEVEN,
-    LAMBDA,
-    ROTOR_B,
-    ROTOR_D,
-    SINE,
-    A,
-    B,
-    P,
-    Q,
-    difference,
-    next_rotor,
-    plain,
-    rotor_cubic,
-    symbol,
-)
+from hypcheck.derivation.pencil import LAMBDA, A, B, P, Q, symbol
 from hypcheck.derivation.program import Program, cut
 
 SYMBOLIC = Arithmetic(
@@ -60,11 +43,11 @@ SYMBOLIC = Arithmetic(
 
 INPUTS = {
     **dict(zip(("alpha", "gamma", "b", "d", "x", "y", "z"), pencil.SEVEN, strict=True)),
-    "b_s": ROTOR_B,
-    "d_s": ROTOR_D,
-    "l": ARM,
-    "cosine": COSINE,
-    "sine": SINE,
+    "b_s": pencil.ROTOR_B,
+    "d_s": pencil.ROTOR_D,
+    "l": pencil.ARM,
+    "cosine": pencil.COSINE,
+    "sine": pencil.SINE,
     "lambda_": LAMBDA,
 }
 """The letter that each input of a program represents."""
@@ -96,7 +79,7 @@ def _coefficients() -> Iterable[Obligation]:
 
 
 def _scaled_sizes() -> Iterable[Obligation]:
-    return (Obligation(name, IN_SEVEN[of]) for name, of in (("A", A), ("B", B), ("Q", Q)))
+    return (Obligation(name, pencil.IN_SEVEN[of]) for name, of in (("A", A), ("B", B), ("Q", Q)))
 
 
 def _discriminant() -> Iterable[Obligation]:
@@ -117,7 +100,7 @@ def _slopes() -> Iterable[Obligation]:
 
 
 def _shared() -> Iterable[Obligation]:
-    yield Obligation("E", (P - A - 1).subs(IN_SEVEN))
+    yield Obligation("E", (P - A - 1).subs(pencil.IN_SEVEN))
 
 
 def _in_the_plane() -> Iterable[Obligation]:
@@ -134,12 +117,12 @@ def _local_maximum() -> Iterable[Obligation]:
 
 
 def _dual() -> Iterable[Obligation]:
-    yield from (Obligation(name, IN_SEVEN[of]) for name, of in (("A", A), ("B", B), ("P", P), ("Q", Q)))
+    yield from (Obligation(name, pencil.IN_SEVEN[of]) for name, of in (("A", A), ("B", B), ("P", P), ("Q", Q)))
     yield Obligation("phi", links.PHI, ("A", "B", "P", "Q", "lambda_"))
 
 
 def _rotor_numbers() -> Iterable[Obligation]:
-    derived = rotor_cubic()
+    derived = pencil.rotor_cubic()
     yield Obligation("c0_s", derived.c0)
     c1, c2 = derived.c1, derived.c2
     for rotor in ROTORS:
@@ -148,7 +131,7 @@ def _rotor_numbers() -> Iterable[Obligation]:
         letters = ("c0_s", f"c1_g{rotor}", f"c2_g{rotor}")
         renamed = dict(zip((pencil.C0, pencil.C1, pencil.C2), (symbol(name) for name in letters), strict=True))
         yield Obligation(f"delta_g{rotor}", pencil.discriminant_of_cubic().subs(renamed), letters)
-        c1, c2 = next_rotor(c1), next_rotor(c2)
+        c1, c2 = pencil.next_rotor(c1), pencil.next_rotor(c2)
 
 
 def _trigonometric() -> Iterable[Obligation]:
@@ -408,13 +391,13 @@ def _prove_number(formula: Formula, obligation: Obligation) -> Proof:
     part = cut(formula.program, letters, (step,))
     (value,) = outputs(part, SYMBOLIC, {name: letter(name) for name in part.inputs}, (step,))
     of = f" of {', '.join(letters)}" if letters else ""
-    statement = f"{step}{of} is {plain(obligation.expected)}"
+    statement = f"{step}{of} is {pencil.plain(obligation.expected)}"
     return Proof(formula.name, step, _equal(value, obligation.expected), statement)
 
 
 def _equal(value: sympy.Expr, expected: sympy.Expr) -> bool:
     """Whether the two are one function; a value that is nowhere defined equals nothing."""
-    return not value.has(sympy.zoo, sympy.nan) and bool(difference(value, expected) == 0)
+    return not value.has(sympy.zoo, sympy.nan) and bool(pencil.difference(value, expected) == 0)
 
 
 def _prove_decision(formula: Formula, decision: DecisionRule) -> Proof:

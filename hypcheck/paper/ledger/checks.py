@@ -340,6 +340,4 @@ def _ending(row: Sequence[float], height: float) -> Pair:
 
 def _with_end(pair: Pair) -> str:
     """The pair in words: "α = 3, γ = 1, b = 3, d = 2, C = (1, 0, 1), z_max = 0:"."""
-    alpha, gamma, b, d, *center = (f"{number:g}" for number in pair.row[:7])
-    text = f"α = {alpha}, γ = {gamma}, b = {b}, d = {d}, C = ({', '.join(center)}), z_max = {pair.z_max:g}:"
-    return text.replace("-", "−")
+    return f"{points.sizes_and_centre(pair)}, z_max = {pair.z_max:g}:".replace("-", "−")

@@ -351,13 +351,18 @@ class TiltedWitness:
     @property
     def text(self) -> str:
         """The pair and its positions: "α = 2, γ = 1, b = 2, d = 1, C = (1, 0, 2): interior; with the axis …"."""
-        alpha, gamma, b, d, *center = (f"{number:g}" for number in self.pair.row[:7])
         axis = ", ".join(f"{number:g}" for number in self.pair.axis)
         words = (
-            f"α = {alpha}, γ = {gamma}, b = {b}, d = {d}, C = ({', '.join(center)}): {self.vertical.position.label} "
-            f"upright, {self.certificate.position.label} with the axis ({axis})"
+            f"{sizes_and_centre(self.pair)}: {self.vertical.position.label} upright, "
+            f"{self.certificate.position.label} with the axis ({axis})"
         )
         return words.replace("-", "−")
+
+
+def sizes_and_centre(pair: Pair) -> str:
+    """The first seven numbers of a pair in words: "α = 3, γ = 1, b = 3, d = 2, C = (1, 0, 1)"."""
+    alpha, gamma, b, d, *center = (f"{number:g}" for number in pair.row[:7])
+    return f"α = {alpha}, γ = {gamma}, b = {b}, d = {d}, C = ({', '.join(center)})".replace("-", "−")
 
 
 def first_change(before: Position, after: Position, shows: str, largest: int = LARGEST) -> Search[TiltedWitness]:
