@@ -72,6 +72,8 @@ def _text(words: document.Text, indent: int, first: str = "") -> Iterator[str]:
     """A text in lines; `first` replaces the indent of the first line."""
     if isinstance(words, document.Formula):
         yield from _formula(words, indent, first)
+    elif isinstance(words, document.Code):
+        yield padded(first, indent) + inline(words)  # whole, so that a command can be copied
     else:
         yield from paragraph(inline(words), indent, first)
 
