@@ -210,15 +210,10 @@ _SIGNS = ("n2", "n1", "delta", "slope_at_B", "slope_at_A", "offset_at_B", "offse
 _ANSWER = ("exterior", "interior", "decided")
 
 
-def require_method(method: str) -> None:
-    """Raise InputError unless there is code for a pair by this method."""
-    if method not in METHODS:
-        raise InputError(f"--method is {method!r}; it must be {', '.join(METHODS[:-1])} or {METHODS[-1]}")
-
-
 def emitted_pair(method: str, language: str, command: Sequence[str], prefix: str = PREFIX) -> str:
     """The text of the file. Raises InputError for another method, or a prefix that the language has no use for."""
-    require_method(method)
+    if method not in METHODS:
+        raise InputError(f"--method is {method!r}; it must be {', '.join(METHODS[:-1])} or {METHODS[-1]}")
     kind = KINDS.get(method, POSITION)
     return _printed(kind, method, kind.head or tuple(_head(method)), language, command, prefix)
 

@@ -92,15 +92,9 @@ def statements(program: Program, wanted: tuple[str, ...], spelling: Spelling) ->
             raise ValueError(f"program {program.name}: step {step.name}: {reserved[0]} is not a name in the language")
         if step.operation not in spelling.operations:
             raise ValueError(f"program {program.name}: step {step.name}: the language has no {step.operation}")
-        lines.append(declared(step.name, kinds[step.name], value_of(step, spelling), spelling))
+        kind = spelling.number if kinds[step.name] == NUMBER else spelling.boolean
+        lines.append(spelling.declaration.format(type=kind, name=step.name, value=value_of(step, spelling)))
     return tuple(lines)
-
-
-def declared(name: str, kind: str, value: str, spelling: Spelling) -> str:
-    """The statement that makes a name of this kind this value, written in the language."""
-    return spelling.declaration.format(
-        type=spelling.number if kind == NUMBER else spelling.boolean, name=name, value=value
-    )
 
 
 def value_of(step: Step, spelling: Spelling) -> str:
