@@ -30,7 +30,8 @@ if TYPE_CHECKING:
     from hypcheck.kernel.passages import Passages
     from hypcheck.kernel.scalar import position
     from hypcheck.kernel.scene import Scene
-    from hypcheck.kernel.scene_flights import FirstContact, LeastDistance
+    from hypcheck.kernel.scene_flights import FirstContact
+    from hypcheck.kernel.scene_least import LeastDistance
     from hypcheck.kernel.scene_nearest import Nearest
     from hypcheck.scene.model import Hyperboloid, Mover, MoverPart, Region, SceneModel, Span
     from hypcheck.truth.swept import Passage
@@ -66,7 +67,7 @@ _HOMES = {
     "FirstContact": ("hypcheck.kernel.scene_flights", "FirstContact"),
     "Hyperboloid": ("hypcheck.scene.model", "Hyperboloid"),
     "InputError": ("hypcheck.errors", "InputError"),
-    "LeastDistance": ("hypcheck.kernel.scene_flights", "LeastDistance"),
+    "LeastDistance": ("hypcheck.kernel.scene_least", "LeastDistance"),
     "Mover": ("hypcheck.scene.model", "Mover"),
     "MoverPart": ("hypcheck.scene.model", "MoverPart"),
     "Nearest": ("hypcheck.kernel.scene_nearest", "Nearest"),

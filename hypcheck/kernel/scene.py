@@ -44,7 +44,7 @@ from hypcheck.kernel.scene_flights import (
     shown_flight,
 )
 from hypcheck.kernel.scene_index import near_sweeps
-from hypcheck.kernel.scene_least import Flights, Least, least_distances
+from hypcheck.kernel.scene_least import Flights, LeastDistance, least_distances
 from hypcheck.kernel.scene_nearest import Nearest
 from hypcheck.kernel.scene_pairs import position_beside, position_of, position_with_ends, positions
 from hypcheck.kernel.scene_prepared import PreparedScene
@@ -247,7 +247,7 @@ class Scene(PreparedScene):
         """
         return plot_of(self.model, None if path is None else shown_flight(self, path, heading, axis, count_of_pieces=1))
 
-    def _least(self, paths: Paths, swept: Swept) -> Least:
+    def _least(self, paths: Paths, swept: Swept) -> LeastDistance:
         """The least distance of each path; segments are counted over all paths."""
         hit, segments = first_segments(paths, np.unique(swept.query[swept.own]))
         own = measured(self._measure(swept, parts=False), segments)
@@ -257,8 +257,8 @@ class Scene(PreparedScene):
         least = least_distances(self._bodies, self.model.mover, self._grid, self._reaches, flights, len(hit))
         known = least.segment >= 0
         least.segment[known] = clear[least.segment[known]]
-        least.lower[hit], least.upper[hit], least.segment[hit] = 0.0, 0.0, segments
-        least.time[hit], least.body[hit] = own.first_upper, own.index
+        least.distance_lower[hit], least.distance_upper[hit], least.segment[hit] = 0.0, 0.0, segments
+        least.time[hit], least.index[hit] = own.first_upper, own.index
         return least
 
     def _swept(self, start: ArrayLike, end: ArrayLike, heading: ArrayLike, axis: ArrayLike | None) -> Swept:

@@ -21,7 +21,7 @@ from hypcheck.float_environment import in_default_environment
 from hypcheck.geometry.pair import CENTER
 from hypcheck.geometry.rows import Floats, Indices, Mask, Rows, as_numbers
 from hypcheck.kernel.passages import First, Passages
-from hypcheck.kernel.scene_least import Least
+from hypcheck.kernel.scene_least import LeastDistance
 from hypcheck.messages import counted
 from hypcheck.pictures import ShownContact, ShownFlight
 from hypcheck.scene.model import FREE, SceneModel, places_of_parts
@@ -118,24 +118,6 @@ def _points(name: str, path: ArrayLike) -> Rows:
 
 
 @dataclass(frozen=True, eq=False)
-class LeastDistance:
-    """The least distance of the mover along each of k flights; every array is (k,). One flight has numbers.
-
-    `distance_lower` ≤ distance ≤ `distance_upper`, in the scene's unit; both are 0 if the mover itself, without its
-    parts, has contact. The upper bound is reached at `segment` and `time`, from hyperboloid `index`; the mover's centre
-    is then at `center`, (k, 3). The bounds are 2⁻²⁶ of the distance and the mover's size apart, where no rounding of
-    large coordinates is in the way.
-    """
-
-    distance_lower: Floats
-    distance_upper: Floats
-    segment: Indices
-    time: Floats
-    index: Indices
-    center: Floats
-
-
-@dataclass(frozen=True, eq=False)
 class FirstContact:
     """The first contact on each of k flights; every array is (k,). One flight has numbers.
 
@@ -148,7 +130,7 @@ class FirstContact:
     passages: Passages = field(repr=False)
     """What happens on the first segments with contact, one for each flight that has it."""
     paths: Paths = field(repr=False)
-    find_least: Callable[[], Least] = field(repr=False)
+    find_least: Callable[[], LeastDistance] = field(repr=False)
 
     @cached_property
     def time_lower(self) -> Floats:
@@ -182,7 +164,7 @@ class FirstContact:
         result = self.find_least()
         segment = np.where(result.segment >= 0, result.segment - self.paths.first[:-1], -1)
         center = _centers(self.paths, segment, result.time)
-        values: list[Any] = [result.lower, result.upper, segment, result.time, result.body]
+        values: list[Any] = [result.distance_lower, result.distance_upper, segment, result.time, result.index]
         if self.paths.single:
             values, center = [value[0].item() for value in values], center[0]
         lower, upper, segment, time, index = values

@@ -64,19 +64,22 @@ class Flights:
     axes: Rows | None
 
 
-@dataclass(frozen=True)
-class Least:
-    """The least distance of each flight (k,): its bounds, and in which segment, when, and from which it is reached.
+@dataclass(frozen=True, eq=False)
+class LeastDistance:
+    """The least distance of the mover along each of k flights; every array is (k,). One flight has numbers.
 
-    `width`: how far apart the bounds of the distance are at the place where it is reached.
+    `distance_lower` ≤ distance ≤ `distance_upper`, in the scene's unit; both are 0 if the mover itself, without its
+    parts, has contact. The upper bound is reached at `segment` and `time`, from hyperboloid `index`; the mover's centre
+    is then at `center`, (k, 3). The bounds are 2⁻²⁶ of the distance and the mover's size apart, where no rounding of
+    large coordinates is in the way.
     """
 
-    lower: Floats
-    upper: Floats
-    width: Floats
+    distance_lower: Floats
+    distance_upper: Floats
     segment: Indices
     time: Floats
-    body: Indices
+    index: Indices
+    center: Floats
 
 
 @dataclass(frozen=True)
@@ -109,7 +112,10 @@ class _Places:
 
 @dataclass(frozen=True)
 class _Search:
-    """The query: flights in a scene; `length` (n + 1,) is the length before each segment, with an error of `loose`."""
+    """The query: flights in a scene; `length` (n + 1,) is the length before each segment, with an error of `loose`.
+
+    `width` (k,): how far apart the bounds of the distance are at the place where each flight's least is reached so far.
+    """
 
     bodies: Bodies
     mover: Mover
@@ -118,6 +124,7 @@ class _Search:
     flights: Flights
     length: Floats
     loose: float
+    width: Floats
 
     def flight_of(self, pieces: _Pieces) -> Indices:
         return self.flights.flight[pieces.first]
@@ -143,32 +150,33 @@ class _Search:
 
 def least_distances(
     bodies: Bodies, mover: Mover, grid: PlaneGrid, reach: Floats, flights: Flights, count: int
-) -> Least:
+) -> LeastDistance:
     """The least distances of `count` flights, of which those that have segments here are clear of all hyperboloids.
 
     Of others, and where numbers overflow, nothing is known: the bounds are 0 and inf. `grid` and `reach` are those of
-    the scene.
+    the scene. Segments are counted over all flights, −1 for none, and `center` is not known yet.
     """
-    least = Least(
-        np.zeros(count), np.full(count, np.inf), np.zeros(count),
-        np.full(count, -1), np.full(count, np.nan), np.full(count, -1),
+    nowhere = np.full(count, -1)
+    least = LeastDistance(
+        np.zeros(count), np.full(count, np.inf), nowhere, np.full(count, np.nan), nowhere.copy(),
+        np.full((count, 3), np.nan),
     )  # fmt: skip
     if not len(flights.starts):
         return least
     lengths = np.sqrt(((flights.ends - flights.starts) ** 2).sum(axis=1))
     length = np.append(0.0, np.cumsum(lengths))
     loose = (len(lengths) + 4) * 2.0**-52 * float(length[-1])
-    search = _Search(bodies, mover, grid, reach, flights, length, loose)
+    search = _Search(bodies, mover, grid, reach, flights, length, loose, np.zeros(count))
     _reach_some(search, least)
     flown = np.unique(flights.flight)
-    flown = flown[np.isfinite(least.upper[flown])]
-    scale = np.frexp(least.upper[flown])[1]
+    flown = flown[np.isfinite(least.distance_upper[flown])]
+    scale = np.frexp(least.distance_upper[flown])[1]
     for exponent in np.unique(scale).tolist():
         _narrow(search, least, flown[scale == exponent])
     return least
 
 
-def _reach_some(search: _Search, least: Least) -> None:
+def _reach_some(search: _Search, least: LeastDistance) -> None:
     """An upper bound for each flight: from a place near a hyperboloid, looked for farther and farther away."""
     flights, within = search.flights.flight, 0.0
     left, begin, counts = np.unique(flights, return_index=True, return_counts=True)
@@ -176,7 +184,7 @@ def _reach_some(search: _Search, least: Least) -> None:
     some = np.flatnonzero(number % np.repeat(1 + counts // _LOOKED_AT, counts) == 0)
     while len(left):
         segments = some[np.isin(flights[some], left)]
-        pieces = _near_pieces(search, segments, within, np.full(len(least.upper), within + search.grid.side))
+        pieces = _near_pieces(search, segments, within, np.full(len(least.distance_upper), within + search.grid.side))
         place = search.places(pieces)
         bound = _cylinder_bounds(search, pieces.body, place, np.full(len(pieces.body), np.inf))
         flight = search.flight_of(pieces)
@@ -188,15 +196,15 @@ def _reach_some(search: _Search, least: Least) -> None:
         within = max(2 * within, search.grid.side)
 
 
-def _narrow(search: _Search, least: Least, wanted: Indices) -> None:
+def _narrow(search: _Search, least: LeastDistance, wanted: Indices) -> None:
     """Both bounds of these flights, whose upper bounds are alike."""
     segments = np.flatnonzero(np.isin(search.flights.flight, wanted))
-    pieces = _near_pieces(search, segments, float(least.upper[wanted].max()), least.upper)
-    floor, size = least.upper.copy(), max(search.mover.b, search.mover.d)
+    pieces = _near_pieces(search, segments, float(least.distance_upper[wanted].max()), least.distance_upper)
+    floor, size = least.distance_upper.copy(), max(search.mover.b, search.mover.d)
     for turn in range(_ROUNDS):
         flight = search.flight_of(pieces)
         place, bound, half = _ask(search, least, pieces)
-        upper, width = least.upper[flight], least.width[flight]
+        upper, width = least.distance_upper[flight], search.width[flight]
         bound = np.fmax(np.minimum(bound - place.radius, upper), 0)
         target = upper - width - _TOLERANCE * (upper + size) - 8 * place.error
         alone = np.flatnonzero((bound < target) & (pieces.first == pieces.last))
@@ -210,26 +218,26 @@ def _narrow(search: _Search, least: Least, wanted: Indices) -> None:
         if not left.any():
             break
         pieces = _halved(pieces.some(left))
-    least.lower[wanted] = floor[wanted]
+    least.distance_lower[wanted] = floor[wanted]
 
 
-def _ask(search: _Search, least: Least, pieces: _Pieces) -> tuple[_Places, Floats, Floats]:
+def _ask(search: _Search, least: LeastDistance, pieces: _Pieces) -> tuple[_Places, Floats, Floats]:
     """Take the places of pieces into account; these, lower bounds of their distances, and half widths along those."""
     place, flight = search.places(pieces), search.flight_of(pieces)
-    bound = _cylinder_bounds(search, pieces.body, place, least.upper[flight])
+    bound = _cylinder_bounds(search, pieces.body, place, least.distance_upper[flight])
     half = np.full(len(bound), search.mover.b)
-    some = np.flatnonzero(bound - place.radius <= least.upper[flight])
+    some = np.flatnonzero(bound - place.radius <= least.distance_upper[flight])
     centre, axes, pairs = place.centre[some], search.axes_of(place.segment[some]), (flight[some], pieces.body[some])
-    low, high, point = distances(search.bodies, search.mover, centre, axes, pairs, least.upper)
+    low, high, point = distances(search.bodies, search.mover, centre, axes, pairs, least.distance_upper)
     low, high = low - place.error[some], high + place.error[some]
     bound[some] = np.maximum(bound[some], low)
     half[some] = _half_widths(search.mover, axes, point - centre)
     order = np.lexsort((high, pairs[0]))
     reached, first = np.unique(pairs[0][order], return_index=True)
     best = order[first]
-    better = high[best] < least.upper[reached]
+    better = high[best] < least.distance_upper[reached]
     to, chosen = reached[better], best[better]
-    least.upper[to], least.width[to], least.body[to] = high[chosen], (high - low)[chosen], pairs[1][chosen]
+    least.distance_upper[to], search.width[to], least.index[to] = high[chosen], (high - low)[chosen], pairs[1][chosen]
     least.segment[to], least.time[to] = place.segment[some][chosen], place.time[some][chosen]
     return place, bound, half
 
