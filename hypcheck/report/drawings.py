@@ -6,8 +6,9 @@ plots of a large record in advance.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from concurrent.futures import BrokenExecutor
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from types import ModuleType
 from typing import NamedTuple
@@ -87,11 +88,18 @@ def render_picture(name: str, record: Record, drawings: Drawings) -> bytes:
 
 def pictures() -> ModuleType:
     """The module that draws. Raises UnavailableError if matplotlib, which is an extra, is missing."""
-    try:
+    with extra("matplotlib"):
         import matplotlib  # noqa: F401, PLC0415
 
         from hypcheck.report import plots  # noqa: PLC0415
-    except ImportError as error:
-        reason = f"matplotlib cannot be imported ({escaped(error)}); pip install 'hypcheck[report]' brings it"
-        raise UnavailableError(reason) from None
     return plots
+
+
+@contextmanager
+def extra(library: str) -> Iterator[None]:
+    """Within the block, a library of the extra [report] is imported. Raises UnavailableError if it is missing."""
+    try:
+        yield
+    except ImportError as error:
+        reason = f"{library} cannot be imported ({escaped(error)}); pip install 'hypcheck[report]' brings it"
+        raise UnavailableError(reason) from None

@@ -15,6 +15,7 @@ from msgspec import UNSET
 
 from hypcheck.record import Record
 from hypcheck.record.lines import (
+    EquationLine,
     FindingLine,
     GroupLine,
     NotStartedLine,
@@ -197,6 +198,14 @@ def _oracle_total(name: str, lines: list[OracleLine]) -> OracleTotal:
     agreed = cases - undecided - disagreements
     seconds = sum(line.seconds for line in lines)
     return OracleTotal(name, cases, agreed, undecided, disagreements, dict(sorted(stages.items())), seconds)
+
+
+def equations(record: Record) -> dict[str, list[str]]:
+    """The numbers of the paper's displayed formulas, by the verdict of the derivation."""
+    numbers: dict[str, list[str]] = {"holds": [], "misprint": [], "false": []}
+    for line in record.of(EquationLine):
+        numbers[line.verdict].append(line.number)
+    return numbers
 
 
 def unlisted(finding: FindingLine) -> bool:

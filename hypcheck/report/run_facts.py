@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 
 from hypcheck.messages import counted
 from hypcheck.record import Record
-from hypcheck.record.lines import EquationLine, FindingLine, ProofLine
+from hypcheck.record.lines import FindingLine, ProofLine
 from hypcheck.record.measurements import BoundingLine, SpeedLine, UnmeasuredLine
 from hypcheck.report import model
 from hypcheck.report.advice import IN_FLOATS
@@ -39,14 +39,11 @@ def paper_facts(record: Record, *, held: bool = False) -> Iterator[str]:
 
     `held`: the verdict says already that all proofs hold.
     """
-    equations = record.of(EquationLine)
-    if equations:
-        numbers: dict[str, list[str]] = {}
-        for line in equations:
-            numbers.setdefault(line.verdict, []).append(f"({line.number})")
-        holding = len(numbers.pop("holds", []))
-        wrong = "".join(f"; {name}: {listed(those)}" for name, those in numbers.items())
-        yield f"equations of the paper: {holding} of {len(equations)} hold{wrong}"
+    equations = {name: [f"({number})" for number in numbers] for name, numbers in model.equations(record).items()}
+    total, holding = sum(map(len, equations.values())), len(equations.pop("holds"))
+    if total:
+        wrong = "".join(f"; {name}: {listed(numbers)}" for name, numbers in equations.items() if numbers)
+        yield f"equations of the paper: {holding} of {total} hold{wrong}"
     proofs = record.of(ProofLine)
     if proofs and not held:
         yield f"proofs: {sum(line.holds for line in proofs)} of {len(proofs)} hold"

@@ -13,7 +13,6 @@ from hypcheck.record.lines import (
     CauseLine,
     DomainPart,
     DriftLine,
-    EquationLine,
     FindingLine,
     GroupLine,
     ProofLine,
@@ -265,7 +264,7 @@ def summary(record: Record) -> Summary:
         seconds=None if footer is None else footer.seconds,
         settings=None if record.header.settings is UNSET else record.header.settings,
         oracles={total.name: _oracle(total) for total in model.oracle_totals(record)},
-        equations=_equations(record.of(EquationLine)),
+        equations=Equations(**model.equations(record)),
         proofs=_proofs(record.of(ProofLine)),
         findings=_findings(record),
         implementations=[
@@ -288,13 +287,6 @@ def _oracle(total: model.OracleTotal) -> OracleSummary:
         stages=total.stages,
         unavailable=UNSET if total.unavailable is None else total.unavailable,
     )
-
-
-def _equations(lines: list[EquationLine]) -> Equations:
-    numbers: dict[str, list[str]] = {"holds": [], "misprint": [], "false": []}
-    for line in lines:
-        numbers[line.verdict].append(line.number)
-    return Equations(**numbers)
 
 
 def _proofs(lines: list[ProofLine]) -> Proofs:

@@ -16,12 +16,11 @@ from typing import Any
 
 from hypcheck.errors import InputError, UnavailableError, system_reason
 from hypcheck.kernel.in_use import kernel
-from hypcheck.messages import escaped
 from hypcheck.record import Record
 from hypcheck.record.reader import FILE, GROWING
 from hypcheck.report import REPORTS, ReportFormat, WrittenReport, csv, junit, kept_formats, markdown, summary, terminal
 from hypcheck.report.code_hosts import render_badge, render_gitlab, render_sarif
-from hypcheck.report.drawings import ALONE, ReportContext, draw_ahead, drawn_plots, pictures, render_picture
+from hypcheck.report.drawings import ALONE, ReportContext, draw_ahead, drawn_plots, extra, pictures, render_picture
 from hypcheck.report.model import drawn_sweep, implementations
 from hypcheck.tables.streams import made_folder, remove_file, write_files
 
@@ -45,13 +44,10 @@ AS_TEXT: Mapping[str, Callable[[Record, ReportContext], bytes]] = {
 
 def _html() -> ModuleType:
     """The module that makes the page. Raises UnavailableError if jinja2, which is an extra, is missing."""
-    try:
+    with extra("jinja2"):
         import jinja2  # noqa: F401, PLC0415
 
         from hypcheck.report import html  # noqa: PLC0415
-    except ImportError as error:
-        reason = f"jinja2 cannot be imported ({escaped(error)}); pip install 'hypcheck[report]' brings it"
-        raise UnavailableError(reason) from None
     return html
 
 

@@ -68,11 +68,10 @@ def _heat_plots(prefix: str, width: float, maps: Mapping[str, Cells]) -> Iterato
     if not places:
         return
     limits = [(min(place[k] for place in places), max(place[k] for place in places) + 1) for k in (0, 1)]
-    first = None
-    for number, (title, bins) in enumerate(maps.items()):
-        plot = _heat_plot(f"{prefix}-{number}", title, width, bins, limits)
-        first = style.share_layout(plot.figure, first)
-        yield plot
+    named = enumerate(maps.items())
+    yield from style.with_one_layout(
+        _heat_plot(f"{prefix}-{number}", title, width, bins, limits) for number, (title, bins) in named
+    )
 
 
 def _heat_plot(name: str, title: str, width: float, bins: Cells, limits: Sequence[tuple[int, int]]) -> style.Plot:
@@ -182,13 +181,13 @@ CELLS, PER_UNIT = 64, 8
 
 def field_plots(record: Record) -> Iterator[style.Plot]:
     """A small plot for each method that erred."""
-    first = None
-    for number, implementation in enumerate(implementations(record)):
-        bins = cells(row for group in implementation.groups for row in group.place_bins)
-        if any(wrong for _, wrong in bins.values()):
-            plot = _field_plot(f"fields-{number}", implementation, bins)
-            first = style.share_layout(plot.figure, first)
-            yield plot
+    fields = [
+        (f"fields-{number}", implementation, cells(row for group in implementation.groups for row in group.place_bins))
+        for number, implementation in enumerate(implementations(record))
+    ]
+    return style.with_one_layout(
+        _field_plot(*field) for field in fields if any(wrong for _, wrong in field[-1].values())
+    )
 
 
 def _field_plot(name: str, implementation: ImplementationTotal, bins: Cells) -> style.Plot:

@@ -18,6 +18,7 @@ from hypcheck.record.fields import numbers_of
 from hypcheck.record.lines import IsolationPart
 from hypcheck.record.measurements import AbsentLine, CompilerLine, MethodLine, WorkloadLine
 from hypcheck.report import advice, changes, document
+from hypcheck.report.benchmark_facts import sentences_of
 from hypcheck.report.facts import CauseFacts, Failure, cause_facts
 from hypcheck.report.measured import MeasuredMethod, measured_methods
 from hypcheck.report.messages import as_sentence, error_text, figure, from_hex, settings_facts
@@ -219,7 +220,7 @@ def compared_sections(record: Record) -> Iterator[document.Section]:
         (document.Strong(line.title), f" ({line.rows:,} rows, seed {line.seed}): {line.text}")
         for line in record.of(WorkloadLine)
     ]
-    missing = [f"Not there: {line.what}: {line.reason}." for line in record.of(AbsentLine)]
+    missing = map(as_sentence, sentences_of(record, AbsentLine))
     compiled = [
         f"Compiled with {line.program} {line.version}: {' '.join(line.flags)}." for line in record.of(CompilerLine)
     ]
