@@ -39,6 +39,7 @@ from hypcheck.truth.ended_error import EndedFlip
 from hypcheck.truth.exact import Decision
 
 AnyFlip = Flip | EndedFlip
+"""The flip of a pair of any kind."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -248,7 +248,8 @@ def double_root(F: Quartic) -> Fraction:
 
 def ended_position(lengths: Lengths, whole: Position) -> Position:
     """The exact position; `whole` is that without ends."""
-    return Position.CONTACT if _meet(lengths, whole) else _side(lengths)
+    sections = Sections.of(lengths)
+    return Position.CONTACT if _meet(sections, lengths, whole) else _side(sections, lengths)
 
 
 def ended_limit(lengths: Lengths, whole: Position, whole_limit: Position | None) -> Position | None:
@@ -267,14 +268,13 @@ def ended_limit(lengths: Lengths, whole: Position, whole_limit: Position | None)
         high = highest if lengths.high is None else lengths.high
         if sections.wall_crosses(low, high):
             return None
-    return _side(lengths)
+    return _side(sections, lengths)
 
 
-def _meet(lengths: Lengths, whole: Position) -> bool:
+def _meet(sections: Sections, lengths: Lengths, whole: Position) -> bool:
     """Whether E meets W or, if the body is solid, one of the discs."""
     if whole is Position.EXTERIOR or (whole is Position.INTERIOR and not lengths.solid):
         return False
-    sections = Sections.of(lengths)
     if whole is Position.CONTACT:
         if _between(sections, lengths):
             return True
@@ -304,9 +304,8 @@ def _beyond_ends(sections: Sections, lengths: Lengths) -> bool:
     )
 
 
-def _side(lengths: Lengths) -> Position:
+def _side(sections: Sections, lengths: Lengths) -> Position:
     """Interior if the centre lies in the body, else exterior."""
-    sections = Sections.of(lengths)
     inside = side_of_center(lengths) <= 0 and all(
         sections.sign(sections.above, end) * outward >= 0 for end, outward in _ends(lengths)
     )
