@@ -146,9 +146,7 @@ COLUMNS = {
 
 @pytest.mark.parametrize("level", LEVELS)
 @pytest.mark.parametrize("change", COLUMNS.values(), ids=COLUMNS)
-def test_columns_of_other_layouts_and_types_are_answered_in_c_as_the_same_numbers_side_by_side(
-    columns, change, level, alone
-):
+def test_the_c_entry_answers_strided_and_converted_columns_as_contiguous_float64_columns(columns, change, level, alone):
     used = core.level()
     if not core.use_level(level):
         pytest.skip(f"this machine has no {level}")
@@ -175,7 +173,7 @@ def test_columns_of_other_layouts_and_types_are_answered_in_c_as_the_same_number
 
 @pytest.mark.parametrize("count", [1, 5, 64, 100, 5000])
 @pytest.mark.parametrize("level", LEVELS)
-def test_points_with_an_axis_each_get_the_answers_of_rows_in_c(columns, count, level, alone):
+def test_the_c_entry_answers_points_that_each_have_an_axis_as_rows_of_ten_numbers(columns, count, level, alone):
     used = core.level()
     if not core.use_level(level):
         pytest.skip(f"this machine has no {level}")
@@ -214,7 +212,7 @@ def test_sizes_may_be_columns_in_c(columns, alone):
     assert alone.classify(alpha, 17.8, 0.25, d, x, y, z, axis=axis).tolist() == tilted
 
 
-def test_one_row_is_answered_by_one_number(alone):
+def test_the_c_entry_answers_a_single_row_with_an_int_and_not_an_array(alone):
     row = [1, 2, 1, 1, 2.5, 0, 0]
     sizes, center = row[:4], row[4:]
     for call in ((row,), (np.array(row),), (*row,), (sizes, center), (*sizes, tuple(center)), (sizes, *center)):
@@ -228,12 +226,12 @@ def test_one_row_is_answered_by_one_number(alone):
 @pytest.mark.parametrize(
     "sizes", [SIZES[:3], (True, 17.8, 0.25, 0.15), (2.0, 17.8, 0.0, 0.15), None, b"", (2**60, 1, 1, 1)]
 )
-def test_the_c_entry_leaves_unusual_sizes_to_python(sizes, alone):
+def test_the_c_entry_does_not_answer_sizes_of_unusual_types_and_leaves_them_to_python(sizes, alone):
     assert alone.classify_scene(sizes, 1.0, 2.0, 3.0, None, threads=None) == LEFT
 
 
 @pytest.mark.parametrize("sizes", [(2, 17.8, 0.25, 0.15), np.array(SIZES), [np.float32(2), 17.8, 0.25, 0.15]])
-def test_the_c_entry_takes_sizes_of_any_numbers(sizes, alone):
+def test_the_c_entry_takes_sizes_of_every_type_of_number(sizes, alone):
     assert alone.classify_scene(sizes, [1.0, 2.0], 0, 3, None, threads=None).tolist() == [-1, 0]
 
 
@@ -245,7 +243,7 @@ def test_classify_scene_refuses_a_read_only_out():
 
 
 @pytest.mark.parametrize("level", LEVELS)
-def test_answers_that_c_collects_as_bits_are_those_that_it_writes(level, columns):
+def test_the_c_loop_that_collects_answers_as_bits_gives_the_answers_of_the_other_loop(level, columns):
     used = core.level()
     if not core.use_level(level):
         pytest.skip(f"this machine has no {level}")
@@ -301,11 +299,11 @@ def test_classify_scene_with_prepared_sizes_answers_as_with_the_sizes(axis, know
         assert step_by_step.classify_scene(prepared, x, y, z).tolist() == expected
 
 
-def test_prepared_data_depend_on_the_sample_centres(columns):
+def test_prepared_data_differ_if_sample_centres_are_given(columns):
     assert hypcheck.Prepared(SIZES, like=columns).kept != hypcheck.Prepared(SIZES).kept
 
 
-def test_prepared_sizes_sent_to_another_process_are_prepared_there_again():
+def test_pickled_prepared_sizes_omit_their_data_which_are_computed_again_on_loading():
     """What is kept means something to the build that made it alone: another, given it, would answer wrongly."""
     prepared = hypcheck.Prepared(SIZES, (0.3, 0.1, 0.9))
     sent = pickle.dumps(prepared)

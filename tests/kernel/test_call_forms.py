@@ -68,7 +68,7 @@ def test_prepared_sizes_take_points_and_columns_as_sizes_do(ask):
 
 @pytest.mark.parametrize("sizes", [SIZES, hypcheck.Prepared(SIZES), hypcheck.Prepared(SIZES, (0.3, 0.1, 0.9))])
 @pytest.mark.parametrize("more", [{}, {"margin": 0.4}])
-def test_one_spheroid_beside_hyperboloids_that_end_has_the_answers_of_its_rows(sizes, more):
+def test_classify_of_one_spheroid_and_several_heights_answers_as_rows_with_these_heights(sizes, more):
     axis = getattr(sizes, "axis", None) or (0.0, 0.0, 1.0)
     ended = [(*row, *axis, -1.0, top, 1.0) for row, top in zip(ROWS, (4.0, 5.0, 9.0, 2.0), strict=True)]
     expected = hypcheck.classify(ended, **more).tolist() if more else by_truth(ended)
@@ -83,7 +83,7 @@ def test_one_spheroid_beside_hyperboloids_that_end_has_the_answers_of_its_rows(s
     assert hypcheck.classify_scene(sizes, POINTS[0], z_min=-1, z_max=4, solid=1, **more).tolist() == expected[:1]
 
 
-def test_beside_prepared_sizes_no_argument_goes_unread():
+def test_an_argument_that_prepared_sizes_exclude_is_refused_and_not_ignored():
     prepared = hypcheck.Prepared(SIZES)
     for axis in ({"axis": (1, 0, 0)}, {"axis_x": 1, "axis_y": 0, "axis_z": 0}):
         with pytest.raises(InputError, match=r"axis is given, and the scene was prepared with its own"):
@@ -141,7 +141,7 @@ SWEEPS = {
 
 
 @pytest.mark.parametrize("sweeps", SWEEPS.values(), ids=SWEEPS)
-def test_an_axis_and_heights_are_read_beside_rows_of_sweeps(sweeps):
+def test_passage_of_rows_of_sweeps_uses_an_axis_and_heights_given_by_name(sweeps):
     axis, ends = (1, 0, 0), {"z_min": -1, "z_max": [9, 6, 4, 9]}
     expected = [
         hypcheck.passage(SIZES, point, (0, 0, 5), axis, z_min=-1, z_max=top).hit
@@ -173,7 +173,7 @@ ONE = {"alpha": 2, "gamma": 17.8, "b": 0.25, "d": 0.15, "x": 3, "y": 0, "z": 5, 
         (lambda: hypcheck.clearance(ROWS, b=1), "b"),
     ],
 )
-def test_no_value_is_given_twice(call, name):
+def test_a_value_that_is_given_twice_is_refused_by_its_name(call, name):
     with pytest.raises(InputError, match=rf"^{name} is given twice; it must be given once"):
         call()
 
@@ -188,14 +188,14 @@ def test_no_value_is_given_twice(call, name):
         lambda: hypcheck.passage({**TABLE, "x": 3, "y": 0, "z": 5, "x1": 0, "y1": 0, "z1": 5}),
     ],
 )
-def test_one_sweep_is_answered_by_numbers(form):
+def test_one_sweep_in_any_form_is_answered_with_numbers_and_not_arrays(form):
     found = form()
     assert (found.hit, found.index) == (True, 0)
     assert type(found.first_lower) is float or np.ndim(found.first_lower) == 0
     assert 0.22 < found.first_lower <= found.first_upper < 0.23
 
 
-def test_one_sweep_beside_several_ends_is_tested_once_for_each():
+def test_one_sweep_with_several_values_of_z_max_has_one_answer_for_each_value():
     tops = [4, 5, 6]
     for z_max in (tops, np.array(tops)):
         assert hypcheck.passage(SIZES, (3, 0, 5), (1.5, 0, 5), z_max=z_max).hit.tolist() == [False, True, True]
@@ -220,7 +220,7 @@ def test_an_argument_that_no_call_takes_is_refused_by_its_name(call, sentence):
         call()
 
 
-def test_an_empty_list_is_no_points_and_no_axis():
+def test_an_empty_list_of_points_has_no_answers_and_an_empty_list_is_refused_as_an_axis():
     assert hypcheck.classify(SIZES, []).tolist() == []
     assert hypcheck.passage(SIZES, [], (0, 0, 5)).hit.tolist() == []
     with pytest.raises(InputError, match=r"axis is of shape \(0,\); it must be three numbers"):
@@ -228,27 +228,27 @@ def test_an_empty_list_is_no_points_and_no_axis():
 
 
 @pytest.mark.parametrize("form", [list, tuple, np.array])
-def test_four_sizes_are_a_list_a_tuple_or_an_array(form):
+def test_four_sizes_may_be_a_list_a_tuple_or_an_array(form):
     assert hypcheck.classify(form(SIZES), [(3.0, 0.0, 0.0)]).tolist() == [1]
 
 
 @pytest.mark.parametrize("form", [list, tuple, np.array])
-def test_three_sizes_are_refused_by_their_number(form):
+def test_three_sizes_are_refused_and_the_message_states_their_number(form):
     with pytest.raises(InputError, match="the sizes are 3; they must be four"):
         hypcheck.classify(form(SIZES[:3]), POINTS)
 
 
-def test_a_list_of_one_number_is_no_point():
+def test_a_list_of_one_number_is_refused_as_a_point():
     with pytest.raises(InputError, match=r"is of shape \(1,\); it must be three numbers, x, y, z, or an array"):
         hypcheck.classify(SIZES, [1.0])
 
 
-def test_invalid_rows_of_a_table_are_marked_where_that_is_wanted():
+def test_invalid_rows_of_a_table_are_answered_127_if_on_invalid_is_flag():
     table = {"alpha": 2, "gamma": 17.8, "b": [0.25, 0.0], "d": 0.15, "x": 3, "y": 0, "z": 5}
     assert hypcheck.classify(table, on_invalid="flag").tolist() == [1, 127]
 
 
-def test_the_axis_of_the_hyperboloid_is_the_second_of_two():
+def test_the_second_of_two_axes_given_to_passage_is_that_of_the_hyperboloid():
     """A ball on the x axis is outside of an upright hyperboloid, and inside of one that lies along that axis."""
     way = (2.0, 17.8, 0.25, 0.25), (5.0, 0.0, 0.0), (4.0, 0.0, 0.0)
     assert [hypcheck.passage(*way, (0, 0, 1), axis).start for axis in ((0, 0, 1), (1, 0, 0))] == [1, -1]
@@ -288,7 +288,7 @@ def test_heights_may_be_columns():
         ((SIZES, POINTS), {"margin": "wide"}, "margin is 'wide'; it must be a number"),
     ],
 )
-def test_calls_that_mean_nothing_are_refused_with_what_would_be_right(arguments, named, sentence):
+def test_a_call_with_wrong_arguments_is_refused_by_a_sentence_that_states_the_right_ones(arguments, named, sentence):
     with pytest.raises(InputError, match=sentence):
         hypcheck.classify(*arguments, **named)
 
@@ -302,7 +302,7 @@ def distance_of_a_sphere(alpha, gamma, centre, radius):
 
 
 @pytest.mark.parametrize("centre", [(3.0, 0.0, 5.0), (0.5, 0.4, -3.0), (5.0, 1.0, 0.0)])
-def test_a_margin_makes_contact_of_what_is_not_so_far_away(centre):
+def test_a_spheroid_nearer_than_the_margin_is_in_contact_and_a_farther_one_keeps_its_position(centre):
     far = distance_of_a_sphere(2.0, 17.8, centre, 0.25)
     sizes = (2.0, 17.8, 0.25, 0.25)
     without = hypcheck.position(*sizes, *centre)
@@ -330,19 +330,19 @@ def test_margins_hold_for_tilted_spheroids_and_beside_ends_and_leave_invalid_row
     assert marked.tolist() == [1, 127]
 
 
-def test_a_number_that_is_a_fraction_is_no_float64():
+def test_a_fraction_that_float64_does_not_hold_is_refused_as_a_number():
     with pytest.raises(InputError):
         hypcheck.classify(SIZES, Fraction(1, 3), 0, 0)
 
 
-def test_numbers_for_sizes_and_heights_are_those_of_every_row():
+def test_sizes_and_heights_given_as_single_numbers_hold_for_every_row():
     heights = {"z_min": -1.0, "z_max": 2.0, "solid": True}
     for points in (POINTS, [[1.9, 0.0, 2.1], [0.0, 0.0, 2.2]]):
         rows = [(*SIZES, *point, 0.0, 0.0, 1.0, -1.0, 2.0, 1.0) for point in np.asarray(points).tolist()]
         assert hypcheck.classify(SIZES, points, **heights).tolist() == by_truth(rows)
 
 
-def test_sizes_and_a_centre_without_each_other_are_refused():
+def test_sizes_without_a_centre_and_a_centre_without_sizes_are_refused():
     with pytest.raises(InputError, match="the columns alpha, gamma, b, d are missing"):
         hypcheck.classify(x=1.0, y=2.0, z=3.0)
     with pytest.raises(InputError, match="the columns x, y, z are missing"):

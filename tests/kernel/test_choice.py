@@ -27,7 +27,7 @@ def fresh(monkeypatch):
 WITHOUT = "it was not built at install, which takes a C compiler and Python's headers"
 
 
-def test_kernel_choice_without_a_compiled_kernel_is_numpy_with_the_reason(fresh):
+def test_without_a_compiled_kernel_the_numpy_kernel_is_chosen_and_the_reason_is_stated(fresh):
     fresh.setitem(sys.modules, EXTENSION, None)
     assert choice() == KernelChoice("numpy", None, f"there is no compiled kernel: {WITHOUT}")
 
@@ -82,7 +82,7 @@ def test_the_chosen_instruction_set_is_the_best_that_the_processor_has(fresh):
     compiled.use_level(choice().level)
 
 
-def test_most_threads_is_the_number_of_processors_unless_set(fresh):
+def test_most_threads_is_the_number_set_in_the_environment_and_else_at_least_1(fresh):
     assert most_threads() >= 1
     for number in (7, 1):
         fresh.setenv("HYPCHECK_THREADS", str(number))

@@ -40,7 +40,9 @@ def test_clearance_intervals_contain_the_exact_clearance_on_each_family(rows, fo
     assert (found.upper[found.position == 0] <= 0).all()
 
 
-def test_clearance_intervals_stay_right_if_the_guess_of_the_touch_is_wrong(rows, found, monkeypatch):
+def test_clearance_intervals_contain_the_clearance_even_if_the_guessed_factor_of_the_touch_is_wrong(
+    rows, found, monkeypatch
+):
     honest = clearance_points.upright_touches
 
     def touches(some):
@@ -166,7 +168,7 @@ def test_clearance_refuses_invalid_rows_or_marks_them_with_127():
 
 
 @pytest.mark.parametrize("more", [{"z_max": 1.0}, {"z_max": 1.0, "solid": True}, {"z_max": 1.0, "axis": (1, 1, 0)}])
-def test_a_clearance_beside_a_wall_that_ends_may_leave_float64(more):
+def test_a_clearance_beyond_float64_beside_a_wall_that_ends_has_the_upper_bound_inf(more):
     near = hypcheck.clearance((1, 1, 1e-200, 1e-200), (1e150, 0, 0), **more)
     assert near.position == 1
     assert (near.lower, near.upper) == (sys.float_info.max, np.inf)

@@ -23,7 +23,7 @@ def spheroids(tilted, count):
 
 
 @pytest.mark.parametrize("tilted", [False, True])
-def test_distances_are_as_close_as_promised_and_are_those_of_the_nearest_point(tilted):
+def test_distance_bounds_are_as_narrow_as_promised_and_agree_with_the_nearest_point(tilted):
     rows = spheroids(tilted, 1000)
     rows = rows[hypcheck.classify(rows) != 0]
     found = hypcheck.clearance(rows)
@@ -40,7 +40,7 @@ def test_distances_are_as_close_as_promised_and_are_those_of_the_nearest_point(t
     assert (np.abs(off) <= 1e-6 * longer).all()
 
 
-def test_no_sampled_points_of_wall_and_spheroid_in_a_groove_are_nearer_than_the_distance_and_some_are_as_near():
+def test_the_distance_of_a_spheroid_in_a_groove_is_the_least_between_sampled_points_of_both_surfaces():
     alpha, gamma, b, d, x, *_ = IN_GROOVE
     near = hypcheck.clearance([IN_GROOVE])
     height, angle = np.meshgrid(np.linspace(-2, 2, 2001), np.linspace(0, 2 * np.pi, 2001))
@@ -60,7 +60,7 @@ def test_classify_prints_the_distance_of_a_spheroid_in_a_groove_in_ten_digits(ca
     assert near.distance_lower <= said["distance_upper"] <= said["distance_lower"] + 1e-9
 
 
-def test_a_huge_wall_and_unlike_units_give_bounds_in_a_moment_and_raise_nothing():
+def test_distance_bounds_of_a_huge_wall_or_in_extreme_units_are_ordered_and_raise_no_float_error():
     rows = np.array([[*IN_GROOVE, 0.3, 0.2, 1.0]] * 5)
     rows[1, :7] *= 1e150
     rows[2, :7] *= 1e-150

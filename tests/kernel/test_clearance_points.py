@@ -120,7 +120,7 @@ def test_a_gap_ends_on_both_bodies_and_is_normal_to_both(rows, gaps, touches):
     assert found.support == pytest.approx(half_width, rel=1e-12)
 
 
-def test_a_touch_of_lengths_beyond_the_proved_range_has_no_known_error():
+def test_the_error_of_an_upright_touch_is_infinite_for_lengths_beyond_the_proved_range():
     row = [2.0, 3.0, 0.5, 0.7, 4.0, 1.0, 2.0]
     rows = np.array([row] * 9)
     rows[1, 2] = 0.7 * 2.0**-21
@@ -154,7 +154,7 @@ def moved_poles(wrong):
 
 
 @pytest.mark.parametrize("wrong", [0.4, -0.4, 1e-3, -1e-3, 1e-6, -1e-9])
-def test_the_error_of_an_upright_touch_holds_for_a_multiplier_that_is_wrong(wrong):
+def test_the_error_bound_of_an_upright_touch_holds_for_a_wrong_multiplier(wrong):
     rows = np.concatenate([UPRIGHT, stretched(UPRIGHT)])
     found = clearance_points.upright_touches(rows, poles_of=moved_poles(wrong))
     off = np.array([nearest_off(row, point) for row, point in zip(rows.tolist(), found.point, strict=True)])
@@ -174,7 +174,7 @@ def nearest_off(row, point):
 
 
 @pytest.mark.parametrize("wrong", [1e-9, 1e-6, -1e-3, 0.2, 40.0, -2.0])
-def test_the_error_of_a_tilted_touch_holds_for_a_multiplier_that_is_wrong(wrong):
+def test_the_error_bound_of_a_tilted_touch_holds_for_a_wrong_multiplier(wrong):
     rows = np.concatenate([TILTED, stretched(TILTED)])
     near = clearance_points.tilted_touches(rows)
     found = clearance_points.tilted_touches(rows, numpy_kernel.multipliers(rows) * (1 + wrong))
@@ -188,7 +188,7 @@ def test_the_error_of_a_tilted_touch_holds_for_a_multiplier_that_is_wrong(wrong)
 
 @pytest.mark.parametrize("wrong", [-0.4, -1e-3, 0.0])
 @pytest.mark.parametrize("rounded", [2.0**-8, 2.0**-46])
-def test_the_error_bound_of_an_upright_touch_is_that_of_its_written_formulas(wrong, rounded):
+def test_the_error_bound_of_an_upright_touch_equals_the_formulas_of_its_derivation(wrong, rounded):
     """√(Γ A/τ) and √(Γ B/σ), and what the hyperboloid makes of them; each coordinate rounds by a share of itself."""
     rows, moved = np.concatenate([UPRIGHT, stretched(UPRIGHT)]), moved_poles(wrong)
     found = clearance_points.upright_touches(rows, poles_of=moved, rounding=rounded)
@@ -224,7 +224,7 @@ def written_error(row, rounded, poles, point):
 
 
 @pytest.mark.parametrize("wrong", [0.0, 1e-9, 1e-3, -0.3, 0.5, 2.0, 40.0, -2.0, -5.0])
-def test_the_error_bound_of_a_tilted_touch_is_not_below_its_written_formulas(wrong):
+def test_the_error_bound_of_a_tilted_touch_is_not_below_the_formulas_of_its_derivation(wrong):
     """In units of b: |r|/μ + √(tr G/μ) (|h|/|n| + |r|/μ), with the least eigenvalue μ of G; else nothing is known."""
     rows = np.concatenate([TILTED, stretched(TILTED), stretched(TILTED, seed=6)])
     at = numpy_kernel.multipliers(rows) * (1 + wrong)
@@ -252,7 +252,7 @@ def test_the_error_bound_of_a_tilted_touch_is_not_below_its_written_formulas(wro
     assert (found.error[known] >= (b * written)[known] * (1 - 1e-6)).all()
 
 
-def test_a_tilted_touch_of_a_disc_so_thin_that_elimination_shows_nothing_has_no_known_error():
+def test_the_error_of_a_tilted_touch_is_infinite_for_a_disc_too_thin_for_elimination():
     """Eight roundings of the terms of G, 3 (b/d)² at least, are then more than half of an eigenvalue of 1."""
     rows = np.array([[2.0, 3.0, 0.5, 0.5 * 2.0**-k, 4.0, 1.0, 2.0, 1.0, 0.5, 0.25] for k in (12, 20)])
     assert np.isfinite(clearance_points.tilted_touches(rows).error).tolist() == [True, False]
@@ -279,7 +279,7 @@ def test_a_tilted_touch_at_a_pole_of_the_multiplier_is_the_point_worked_out_by_h
 
 
 @pytest.mark.parametrize("length", [2.0**700, 2.0**-700])
-def test_a_tilted_touch_is_that_of_the_axis_direction_alone(length):
+def test_a_tilted_touch_does_not_depend_on_the_length_of_the_axis(length):
     rows = TILTED[:4].copy()
     rows[:, 7:] *= length
     one, other = (clearance_points.tilted_touches(some) for some in (TILTED[:4], rows))

@@ -100,7 +100,7 @@ def test_distances_of_subnormal_numbers_from_a_wall_that_ends_are_rounded_outwar
         assert high - low <= 4 * unit
 
 
-def test_the_clearance_of_a_tilted_spheroid_inside_is_proved_between_near_bounds():
+def test_the_bounds_of_the_clearance_of_an_interior_tilted_spheroid_are_narrow():
     near = hypcheck.clearance(2.0, 3.0, 0.25, 0.5, (0.5, 0.25, 1.0), axis=(0.5, 0.25, 1.0))
     assert near.position == -1
     assert 0 < near.lower <= near.upper < near.lower * (1 + 1e-8)

@@ -93,7 +93,7 @@ def test_classify_refuses_an_unknown_question():
         hypcheck.classify_scene(SIZES, 1, 2, 3, question="inside")
 
 
-def test_the_c_function_answers_the_position_to_an_unknown_question(scene, scene_truth):
+def test_the_c_function_answers_with_the_position_if_the_question_is_unknown(scene, scene_truth):
     library = ctypes.CDLL(compiled.__file__)
     answers = np.full(len(scene.x), 99, np.int8)
     sizes, columns = np.array(scene.sizes), (scene.x, scene.y, scene.z)
@@ -105,7 +105,7 @@ def test_the_c_function_answers_the_position_to_an_unknown_question(scene, scene
 
 
 @pytest.mark.parametrize("bad", [0, 320])
-def test_an_error_in_a_part_is_raised_in_the_caller_after_the_other_parts(bad):
+def test_an_error_in_one_part_of_the_rows_is_raised_in_the_caller_after_the_other_parts_are_done(bad):
     done = []
 
     def part(start, _):
@@ -157,7 +157,7 @@ def test_the_compiled_extension_refuses_wrong_buffers_in_one_sentence():
         compiled.ask(0, rows, frozen)
 
 
-def test_few_rows_are_one_part_and_parts_are_whole_blocks_of_about_equal_size_on_threads(monkeypatch):
+def test_few_rows_are_not_divided_and_many_are_divided_into_whole_blocks_for_the_threads(monkeypatch):
     parts, threads = [], set()
 
     def part(start, stop):

@@ -44,7 +44,7 @@ def test_products_are_within_8_and_quotients_within_15_squared_units(one, other)
 
 
 @given(value=PAIRS)
-def test_a_root_squares_to_its_number_and_a_size_has_no_sign(value):
+def test_the_square_root_squared_is_its_number_and_the_magnitude_is_never_negative(value):
     """The root r of n is off by a relative e where r² is off by 2e + e²."""
     number = abs(exact(value))
     assert computed(SIZE, value=value) == number
@@ -55,5 +55,5 @@ def test_a_root_squares_to_its_number_and_a_size_has_no_sign(value):
 
 
 @pytest.mark.parametrize("value", [(0.0, 0.0), (-1.0, 0.0)])
-def test_the_root_of_what_is_not_above_0_is_0(value):
+def test_the_square_root_of_a_number_not_above_0_is_0(value):
     assert computed(ROOT, value=value) == 0

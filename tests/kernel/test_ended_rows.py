@@ -29,7 +29,7 @@ def answered(rows, mode=TO_NEAREST):
 
 
 @pytest.mark.parametrize("mode", [TO_NEAREST, *DIRECTED])
-def test_the_kernel_answers_no_frozen_row_with_ends_wrongly_and_leaves_few_open(mode):
+def test_the_compiled_kernel_answers_no_frozen_row_with_ends_wrongly_and_leaves_at_most_two_undecided(mode):
     left_open = 0
     for name in ENDED_NAMES:
         cases = load(name)
@@ -40,7 +40,7 @@ def test_the_kernel_answers_no_frozen_row_with_ends_wrongly_and_leaves_few_open(
     assert left_open <= 2
 
 
-def test_rows_that_numpy_leaves_open_are_answered_as_their_frozen_labels(monkeypatch):
+def test_classify_answers_rows_that_the_numpy_kernel_leaves_undecided_by_their_frozen_labels(monkeypatch):
     cases = load("ended-rim")
     monkeypatch.setenv("HYPCHECK_KERNEL", "numpy")
     choice.cache_clear()
@@ -57,7 +57,7 @@ def test_touches_of_a_rim_and_rows_an_ulp_off_are_decided_by_the_kernel():
 
 
 @pytest.mark.parametrize("tilted", [False, True])
-def test_rows_a_hair_from_contact_are_right_in_every_mode_and_none_in_a_hundred_is_left_open(tilted):
+def test_rows_very_near_contact_are_right_in_every_rounding_mode_and_at_most_1_percent_is_undecided(tilted):
     """Half of the hairs are shorter than the rounding of a centre; they part it from a rim, a flat end or the wall."""
     random = np.random.default_rng(1)
     rows = ended_agreement.hairs(random, 200 if tilted else 600, tilted=tilted, nearest=-75)
@@ -82,7 +82,7 @@ def test_exact_touches_in_other_units_are_left_open_or_answered_rightly(unit, ax
     assert (positions == expected).any()
 
 
-def test_a_row_does_not_change_the_answers_to_others():
+def test_the_answer_to_a_row_does_not_depend_on_the_other_rows():
     rows = np.concatenate([load(name).rows for name in ENDED_NAMES])
     together = answered(rows)
     order = np.random.default_rng(1).permutation(len(rows))
@@ -90,7 +90,7 @@ def test_a_row_does_not_change_the_answers_to_others():
     assert [answered(row[None])[0] for row in rows[:300]] == together[:300].tolist()
 
 
-def test_the_tool_of_agreement_names_a_wrong_answer_of_the_kernel(monkeypatch):
+def test_the_agreement_check_reports_a_wrong_answer_of_the_kernel_with_its_row(monkeypatch):
     """The row stands in a sentence, and rows and meshes asked are counted."""
     rows = ended_agreement.random_rows(np.random.default_rng(1), 6, tilted=True)
     right = answered(rows)
@@ -121,7 +121,7 @@ def test_an_interrupted_agreement_check_continues_from_its_log(tmp_path, monkeyp
 
 
 @pytest.mark.parametrize("tilted", [False, True])
-def test_bounds_of_a_clearance_a_hair_from_contact_do_not_cross_and_the_upper_one_is_0_in_contact_alone(tilted):
+def test_distance_bounds_very_near_contact_do_not_cross_and_the_upper_one_is_0_only_in_contact(tilted):
     """The spheroid grown by the upper bound in its shorter radius has contact, by the exact decision."""
     rows = ended_agreement.hairs(np.random.default_rng(4), 3 if tilted else 8, tilted=tilted, nearest=-75)
     found = clearance(rows)
@@ -135,7 +135,7 @@ def test_bounds_of_a_clearance_a_hair_from_contact_do_not_cross_and_the_upper_on
         assert position(Lengths.of((*sizes, *row[4:]))) == 0
 
 
-def test_bounds_of_a_clearance_beside_ends_are_neighbours_of_the_exact_one_and_those_of_a_distance_hold_it():
+def test_clearance_bounds_beside_ends_are_tight_and_distance_bounds_agree_with_them():
     rows = np.concatenate([load(name).rows[:3] for name in ("ended-uniform", "ended-rim", "ended-small-integers")])
     found = clearance(rows)
     for place, row in enumerate(rows.tolist()):
@@ -167,7 +167,7 @@ def test_distances_beside_ends_are_those_worked_out_by_hand(row, distance, neare
     assert nearest is None or found.nearest[0] == pytest.approx(nearest, abs=1e-3)
 
 
-def test_bounds_of_a_clearance_from_an_end_next_to_0_leave_room_for_the_gap():
+def test_distance_bounds_from_an_end_at_the_least_number_below_0_contain_the_tiny_distance():
     """The spheroid lies on the plane z = 0, and the solid body ends a least number below it."""
     row = (1.0, 1.0, 0.5, 1.25, -0.75, 0.0, 0.5, 0.0, 1.0, 0.0, -9.0, -5e-324, 1.0)
     found = clearance(np.array([row]))

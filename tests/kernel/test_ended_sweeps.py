@@ -102,7 +102,7 @@ def test_the_kernel_answers_no_sweep_beside_an_end_wrongly_and_gives_no_late_tim
 
 
 @pytest.mark.parametrize("name", list(ENDED_SWEEP_FAMILIES))
-def test_of_each_family_no_sweep_is_answered_wrongly_in_any_mode_and_at_most_one_is_left_open(name):
+def test_no_sweep_of_a_family_is_answered_wrongly_in_any_rounding_mode_and_at_most_one_is_undecided(name):
     """Exact touches are among them, hairs down to 2⁻⁵⁰ radii, and sweeps that end or begin in a touch."""
     rows = np.ascontiguousarray(ENDED_SWEEP_FAMILIES[name].rows(3, 6 if name.startswith("tilted") else 10))
     truth = np.array([exact_passage(row).hit for row in rows.tolist()])
@@ -127,7 +127,7 @@ def touching_rows():
                     yield (*RIM, 1, 1, *start, *(start + across)), (-1, 3), solid, place, across
 
 
-def test_a_sphere_that_touches_in_passing_has_contact_and_one_a_hair_away_has_none():
+def test_a_sphere_that_touches_during_its_sweep_has_contact_and_one_2_to_the_minus_45_away_has_none():
     """The hair of 2⁻⁴⁵ radii is shorter than what roundings may move a centre on its sweep."""
     for sweep, ends, solid, place, across in touching_rows():
         row = row_of(sweep, ends, solid)
@@ -231,7 +231,7 @@ def test_a_centre_in_the_plane_of_the_waist_or_on_the_axis_does_not_hide_the_tim
     assert not wrong_times(rows, times)
 
 
-def test_a_time_that_is_a_part_in_a_trillion_early_or_late_is_called_wrong():
+def test_the_check_of_times_detects_a_relative_error_of_1e_minus_12_in_either_direction():
     rows = past_a_tower(11, 20)
     hits, times = compiled_answer_sweeps(rows)
     moved = (hits == 1) & (times > 0.01)
@@ -244,7 +244,7 @@ BESIDE_A_RIM = (0.482, 0.174, 0.396, 0.3125, 0.28125, 0.40625, 0.4375, 0.28125, 
 """Down beside a flat end whose plane, at 1/32, is touched half way, outside the rim of 0.49."""
 
 
-def test_a_plane_that_is_touched_half_way_outside_its_rim_does_not_hide_the_time():
+def test_touching_the_plane_of_an_end_outside_its_rim_does_not_hide_the_time_of_the_later_contact():
     rows = np.array([row_of(BESIDE_A_RIM, (-INF, 0.03125), 1)])
     hits, times = compiled_answer_sweeps(rows)
     assert hits.tolist() == [1]
@@ -295,7 +295,7 @@ def test_ends_that_are_infinite_or_far_away_change_no_answer_about_sweeps(name):
         (9, INF, False),
     ],
 )
-def test_a_sweep_whose_heights_are_none_is_refused_and_changes_no_other_answer(answer_sweeps, column, value, valid):
+def test_a_sweep_with_invalid_heights_is_refused_and_changes_no_other_answer(answer_sweeps, column, value, valid):
     sweep, ends, *_ = BY_HAND[0]
     rows = np.array([row_of(sweep, ends, 0)] * 3)
     rows[1, column] = value

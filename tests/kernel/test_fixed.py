@@ -24,7 +24,7 @@ from tests.support.inside import INTEGERS, header
 HALF, WHOLE = 2**64, 2**128
 
 
-def test_middle_of_the_fixed_point_program_is_the_cubic_at_its_inflection():
+def test_the_value_middle_of_the_fixed_point_program_is_the_scaled_cubic_at_its_inflection():
     N, n2, n1, ps = sympy.symbols("N n2 n1 ps")
     names = dict(zip(("N", "n2", "n1", "ps"), (N, n2, n1, ps), strict=True))
     delta, middle = outputs(fixed.DISCRIMINANT, SYMBOLIC, names, ("delta", "middle"))

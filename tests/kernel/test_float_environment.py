@@ -31,9 +31,7 @@ EVERY = range(10)
         pytest.param("numpy", UPWARD_FLUSHED, EVERY, marks=pytest.mark.thorough),
     ],
 )
-def test_public_functions_are_right_under_every_rounding_mode_and_without_subnormals_and_leave_both(
-    kernel, first, others
-):
+def test_public_functions_are_right_in_every_float_environment_and_do_not_change_it(kernel, first, others):
     """`first` is the setting under which hypcheck is loaded, so that its constants are computed under it."""
     if kernel == "compiled" and choice().kernel != "compiled":
         pytest.skip(choice().reason)

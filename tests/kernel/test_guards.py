@@ -35,7 +35,7 @@ def test_the_certified_stage_decides_by_the_exact_rule_for_all_combinations_of_s
     assert program_rules.wrong_signs(CERTIFIED) == []
 
 
-def test_the_stage_of_tilted_rows_decides_by_its_rule_for_all_combinations_of_signs():
+def test_the_stage_for_tilted_rows_decides_by_the_exact_rule_for_all_combinations_of_signs():
     assert program_rules.wrong_signs_of_tilted_rows(TILTED) == []
 
 
@@ -149,7 +149,7 @@ def position_at(sizes: tuple[float, ...], R: Fraction, z: Fraction, *, above: bo
 
 @pytest.mark.thorough
 @needs_compiler
-def test_lines_of_a_compiled_scene_are_right_at_both_ends_of_their_reach(tmp_path):
+def test_lines_of_a_compiled_scene_prove_right_positions_at_height_0_and_at_their_greatest_height(tmp_path):
     """At T = 0 and at the greatest T the exact position just beside each line is the one that the line claims."""
     binary = program(tmp_path, SCENE, *STRICT, "-Wno-unused-function", "-O1")
     asked = [(*sizes, size * 1.37) for sizes in SIZES for size in (sizes[1], sizes[3])]

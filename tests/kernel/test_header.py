@@ -85,7 +85,7 @@ def test_the_header_undoes_options_that_clang_does_not_report(option, tmp_path):
 
 
 @needs_compiler
-def test_the_header_works_under_another_file_name(tmp_path):
+def test_the_header_compiles_under_another_file_name_with_its_macro(tmp_path):
     text = HEADER.read_text(encoding="utf-8")
     (tmp_path / "renamed.h").write_text(text, encoding="utf-8")
     source = '#define HYPCHECK_IMPLEMENTATION\n#define HYPCHECK_SELF "renamed.h"\n#include "renamed.h"\n'

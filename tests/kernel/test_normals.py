@@ -92,20 +92,20 @@ def test_the_distance_from_the_axis_is_bounded_for_sizes_far_apart(exponent):
     assert (near.distance_upper[clear] >= 1.0).all()
 
 
-def test_the_nearest_of_two_mirrored_points_is_the_one_towards_x_or_else_z():
+def test_of_two_mirrored_nearest_points_clearance_reports_the_one_with_positive_x_or_else_positive_z():
     found = hypcheck.clearance((1, 2, 0.1, 0.2), (0, 0, 0), axis=[(3, 4, 0), (-3, 4, 0), (4, -3, 0), (0, 1, 0)])
     assert np.allclose(found.touch, [(0.6, 0.8, 0), (0.6, -0.8, 0), (0.8, -0.6, 0), (0, 1, 0)], atol=1e-6)
     assert np.allclose(found.nearest, found.touch, atol=1e-6)
     assert found.tie.all()
 
 
-def test_the_nearest_point_beside_a_wall_that_ends_is_at_the_distance_where_clearance_says_it_too():
+def test_the_nearest_point_of_a_wall_that_ends_is_as_far_away_as_the_reported_distance():
     near = hypcheck.clearance((0.75, 0.4, 0.56, 0.4), (0, 0, 0), z_min=-2.5, z_max=5.4)
     assert abs(near.nearest[2]) < 1e-6
     assert abs(np.linalg.norm(near.nearest) - 0.56 - near.distance_upper) < 1e-12
 
 
-def test_in_contact_the_distance_is_0_the_normal_nan_and_a_flag_says_so():
+def test_in_contact_the_distance_is_0_the_normal_is_nan_and_contact_is_true():
     near = hypcheck.clearance(SIZES, [[2.0, 0.0, 0.0], [3.0, 0.0, 0.0], [2.25, 0.0, 0.0]])
     assert near.contact.tolist() == [True, False, True]
     assert near.distance_lower.tolist()[::2] == near.distance_upper.tolist()[::2] == [0.0, 0.0]
@@ -132,7 +132,7 @@ TIES = [
 
 
 @pytest.mark.parametrize(("centre", "more", "expected"), TIES)
-def test_a_tie_is_flagged_where_a_symmetry_moves_the_nearest_point(centre, more, expected):
+def test_tie_is_true_if_a_symmetry_gives_a_second_nearest_point(centre, more, expected):
     near = hypcheck.clearance(2, 3, 0.25, 0.5, centre, **more)
     assert near.tie == expected
     assert abs(np.linalg.norm(near.normal) - 1) < 1e-12
@@ -146,7 +146,7 @@ def test_a_spheroid_far_out_at_the_waist_has_two_nearest_points_above_and_below(
     assert abs(near.nearest[2]) == pytest.approx(abs(nearest_on_the_wall(1.0, 0.5, (9.0, 0.0, 0.0))[2]), abs=1e-3)
 
 
-def test_on_the_axis_a_tilted_spheroid_has_one_of_its_nearest_points():
+def test_clearance_of_a_tilted_spheroid_on_the_axis_reports_one_of_several_nearest_points_and_a_tie():
     near = hypcheck.clearance(2, 3, 0.25, 0.5, [[0.0, 0.0, 1.0], [0.0, 0.0, 0.0]], axis=[[1, 0, 0], [1, 0, 2]])
     x, _, z = near.nearest.T
     assert np.abs(x**2 / 4 + near.nearest[:, 1] ** 2 / 4 - z**2 / 9 - 1).max() < 1e-9
@@ -157,7 +157,7 @@ def test_on_the_axis_a_tilted_spheroid_has_one_of_its_nearest_points():
     assert near.tie.all()
 
 
-def test_one_pair_has_numbers_and_many_have_arrays():
+def test_clearance_of_one_pair_gives_numbers_and_of_many_pairs_arrays():
     one = hypcheck.clearance(*SIZES, 3, 4, 0)
     many = hypcheck.clearance(SIZES, [[3, 4, 0]])
     assert isinstance(one.distance_lower, float)
@@ -170,19 +170,19 @@ def test_one_pair_has_numbers_and_many_have_arrays():
     assert many.nearest.shape == many.touch.shape == (1, 3)
 
 
-def test_the_distance_is_the_first_line():
+def test_the_text_of_a_clearance_shows_the_distance_first():
     said = repr(hypcheck.clearance(*SIZES, 3, 4, 0))
     assert said.index("distance_lower") < said.index("nearest") < said.index(" lower=")
 
 
-def test_a_tilted_spheroid_whose_squares_overflow_is_in_contact_as_any():
+def test_a_tilted_spheroid_whose_squares_overflow_is_reported_in_contact_with_distance_0():
     near = hypcheck.clearance((1, 2, 1e100, 1e180), (0, 0, 0.5), axis=(1, 2, 3))
     assert near.contact
     assert near.distance_upper == 0
 
 
 @pytest.mark.parametrize("turn", [0, 1])
-def test_a_bar_that_lies_across_a_plane_of_symmetry_is_as_near_on_both_sides(turn):
+def test_tie_is_true_for_a_bar_across_a_plane_of_symmetry_with_its_centre_beside_the_axis(turn):
     """Its centre is beside the hyperboloid's axis, on a coordinate axis."""
     centre, axis = ((0.125, 0.0, 0.0), (0.0, 1.0, 0.0)) if turn == 0 else ((0.0, 0.125, 0.0), (1.0, 0.0, 0.0))
     near = hypcheck.clearance(1.0, 2.0, 0.0625, 0.75, centre, axis=axis)
@@ -201,7 +201,7 @@ def test_the_normal_of_a_very_thin_disc_or_needle_far_away_points_to_its_centre(
 
 
 @pytest.mark.parametrize("length", [2.0**700, 2.0**-700])
-def test_an_axis_of_any_length_gives_the_same_touch_and_gap(length):
+def test_clearance_does_not_depend_on_the_length_of_the_axis(length):
     one = hypcheck.clearance(2.0, 3.0, 0.25, 0.75, (3.5, 0.25, 1.0), axis=(0.5, 0.25, 0.75))
     other = hypcheck.clearance(
         2.0, 3.0, 0.25, 0.75, (3.5, 0.25, 1.0), axis=(0.5 * length, 0.25 * length, 0.75 * length)
@@ -210,13 +210,13 @@ def test_an_axis_of_any_length_gives_the_same_touch_and_gap(length):
         assert np.array_equal(getattr(one, name), getattr(other, name)), name
 
 
-def test_the_distance_of_a_speck_on_the_axis_is_that_of_its_centre_but_for_a_share_of_the_waist():
+def test_the_distance_of_a_tiny_spheroid_on_the_axis_is_that_of_its_centre_within_2_to_the_minus_30():
     """Of the wall's points the nearest to (0, 0, 1/2) are at z = 2/5: their squared distance is 1 + 1/25 + 1/100."""
     near = hypcheck.clearance((1.0, 2.0, 1e-80, 1e-85), (0.0, 0.0, 0.5), axis=(0.0, 1.0, 0.0))
     assert 1.05**0.5 - 2.0**-30 < near.distance_lower <= 1.05**0.5 <= near.distance_upper < 1.05**0.5 + 2.0**-34
 
 
-def test_an_axis_that_is_given_and_upright_gives_the_answer_of_none():
+def test_clearance_with_a_vertical_axis_given_agrees_with_clearance_without_an_axis():
     for centre in ((3.0, 4.0, 1.0), (1.9, 0.0, 0.0)):
         one, other = hypcheck.clearance(*SIZES, *centre), hypcheck.clearance(*SIZES, *centre, axis=(0.0, 0.0, 1.0))
         assert other.position == one.position

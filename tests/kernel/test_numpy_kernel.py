@@ -67,7 +67,7 @@ def test_lines_of_is_none_for_extreme_sizes_and_gives_lines_for_heights_of_zero(
 
 
 @pytest.mark.parametrize("up", [False, True])
-def test_a_shortened_height_has_a_square_without_rounding(up):
+def test_the_square_of_a_shortened_height_is_exact_in_float64(up):
     """A step of the proof that heights up to the top are within the reach of the lines."""
     for value in (1.0, 0.1, 17.8 * 1.0625, 2.0**-60 / 3, 2.0**90 / 7):
         short = scene_lines.shortened(value, up=up)
@@ -106,7 +106,7 @@ def test_a_last_chunk_that_is_not_full_is_answered_as_the_others(axis):
     assert (positions_of_scene(sizes, *columns, axis) == expected).all()
 
 
-def test_a_tilted_spheroid_whose_radius_is_its_place_is_decided_as_a_tilted_one():
+def test_a_tilted_spheroid_with_b_equal_to_x_is_not_taken_for_a_sphere():
     """b = x: a sphere has b = d, and nothing else makes an axis count for nothing."""
     row = (0.125, 2.0, 1.5, 0.25, 1.5, 0.0, 0.0, 1.0, 0.0, 0.0)
     assert inside.position(Pair.from_row(row).lengths) == 1
@@ -125,14 +125,14 @@ def test_a_tilted_spheroid_whose_radius_is_its_place_is_decided_as_a_tilted_one(
         ((9.0, 0.0, 0.25), 2),
     ],
 )
-def test_the_numpy_kernel_says_beside_which_end_only_whole_spheroids_lie(centre, expected):
+def test_the_numpy_kernel_leaves_a_spheroid_that_reaches_over_an_end_undecided(centre, expected):
     """Between -3 and 1, with a reach of 1."""
     row = (3.0, 2.0, 0.5, 1.0, *centre, 0.0, 0.0, 1.0, -3.0, 1.0, 0.0)
     assert numpy_kernel.answer_ended(np.array([row])).tolist() == [expected]
 
 
 @pytest.mark.parametrize("heights", [(), (-3.0, 1.0, 0.0), (-3.0, 1.0, 1.0)])
-def test_the_numpy_kernel_takes_another_side_at_the_end_for_contact_unless_there_is_an_opening(heights):
+def test_a_sweep_whose_ends_are_on_different_sides_is_contact_in_the_numpy_kernel_unless_there_is_an_opening(heights):
     sizes, axis = (3.0, 2.0, 0.5, 1.0), (0.0, 0.0, 1.0) if heights else ()
     out = (0.0, 0.0, -1.0, 0.0, 0.0, 9.0) if heights else (0.0, 0.0, -1.0, 9.0, 0.0, 0.0)
     stays = (0.0, 0.0, -1.0, 0.0, 0.0, -1.5)
@@ -140,7 +140,7 @@ def test_the_numpy_kernel_takes_another_side_at_the_end_for_contact_unless_there
     assert hits.tolist() == [2 if heights and not heights[2] else 1, 2]
 
 
-def test_buffers_of_a_chunk_are_as_long_as_the_chunk():
+def test_buffers_for_a_chunk_have_the_length_of_the_chunk():
     buffers = Buffers((2, 1), 8, np.float64)
     for rows in (3, 8):
         numbers, truths = buffers.of(rows)

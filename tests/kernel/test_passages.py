@@ -36,7 +36,7 @@ def test_many_sweeps_are_answered_as_the_exact_decision_about_each(more):
     assert found.index.tolist() == [0 if sweep.hit else -1 for sweep in each]
 
 
-def test_sweeps_are_written_in_every_form_with_the_same_answers():
+def test_passage_gives_the_same_answers_for_every_form_of_the_same_sweeps():
     expected = [alone(SIZES, *sweep).hit for sweep in zip(STARTS.tolist(), ENDS.tolist(), strict=True)]
     names = dict(zip(("alpha", "gamma", "b", "d"), SIZES, strict=True))
     table = names | dict(zip(("x", "y", "z", "x1", "y1", "z1"), np.hstack([STARTS, ENDS]).T, strict=True))
@@ -52,7 +52,7 @@ def test_sweeps_are_written_in_every_form_with_the_same_answers():
     assert hypcheck.passage(SIZES, STARTS, ENDS, axis=[[0, 0, 1]] * 5).hit.tolist() == expected
 
 
-def test_one_sweep_has_numbers():
+def test_the_result_for_one_sweep_has_numbers_and_an_exact_time_instead_of_arrays():
     for sweep in ((SIZES, (3, 0, 0), (0, 0, 0)), (*SIZES, (3, 0, 0), (0, 0, 0))):
         found = hypcheck.passage(*sweep)
         assert found.hit is True
@@ -76,13 +76,13 @@ def test_one_sweep_has_numbers():
         ((SIZES, STARTS[:, :2], ENDS), r"start is of shape \(5, 2\); it must be three numbers, x, y, z"),
     ],
 )
-def test_sweeps_that_mean_nothing_are_refused(arguments, sentence):
+def test_passage_refuses_arguments_that_do_not_describe_a_sweep(arguments, sentence):
     with pytest.raises(InputError, match=sentence):
         hypcheck.passage(*arguments)
 
 
 @pytest.mark.parametrize("sweep", [((3, 0, 0), (0, 0, 0)), (STARTS, ENDS)], ids=["one", "many"])
-def test_sweeps_beside_heights_that_leave_nothing_are_refused(sweep):
+def test_passage_refuses_z_min_that_is_not_less_than_z_max(sweep):
     with pytest.raises(InputError, match="z_min must be less than z_max"):
         hypcheck.passage(SIZES, *sweep, z_min=2.0, z_max=1.0)
 
@@ -135,7 +135,7 @@ def test_a_scene_with_parts_says_when_a_part_is_hit_first():
     assert found.first_upper - found.first_lower < 1e-12
 
 
-def test_one_sweep_in_arrays_or_by_name_is_answered_exactly_as_in_numbers():
+def test_one_sweep_given_as_arrays_or_by_name_has_the_same_result_as_one_given_as_numbers():
     expected = passage(SIZES, (3.0, 0.0, 0.0), (0.0, 0.0, 0.0))
     named = dict(zip(("alpha", "gamma", "b", "d"), SIZES, strict=True))
     start, end = np.array([3.0, 0.0, 0.0]), np.zeros(3)

@@ -48,12 +48,12 @@ WITHIN = (4.0, 4.0, 1.0, 1.0, 0.0, 0.0, 0.0)
         (WITHIN, {"z_min": 2.0, "solid": True}, 1),
     ],
 )
-def test_position_of_one_pair_is_that_beside_what_is_left_between_two_heights(function, row, heights, expected):
+def test_position_of_one_pair_counts_only_the_wall_between_z_min_and_z_max(function, row, heights, expected):
     assert function(*row, **heights) == expected
 
 
 @FUNCTIONS
-def test_position_of_one_pair_refuses_heights_that_leave_nothing(function):
+def test_position_of_one_pair_refuses_z_min_that_is_not_less_than_z_max(function):
     with pytest.raises(InputError, match="z_min must be less than z_max"):
         function(*TOUCHING, z_min=1.0, z_max=1.0)
 

@@ -92,7 +92,7 @@ def test_a_scene_that_grows_to_many_times_its_size_answers_as_a_new_one():
     same_answers(scene, hypcheck.Scene(scene.model), side)
 
 
-def test_a_scene_is_not_changed_by_what_is_made_of_it():
+def test_a_scene_does_not_change_when_other_scenes_are_derived_from_it():
     scene, (_, _, _, side) = scene_of(50), arrays(50)
     points = centres(1000, side)
     before = scene.classify(points).tolist()
@@ -161,7 +161,7 @@ def test_a_value_that_is_not_a_hyperboloid_is_refused_by_its_name(change, senten
 
 
 @pytest.mark.parametrize("margin", [0.01, 0.4, 3.0])
-def test_a_margin_in_a_scene_makes_contact_of_what_is_nearer(margin):
+def test_a_mover_nearer_to_a_hyperboloid_of_a_scene_than_the_margin_is_in_contact(margin):
     scene, (_, _, _, side) = scene_of(30), arrays(30)
     points = centres(120, side)
     found, near = scene.classify(points, margin=margin), scene.nearest(points)
@@ -183,7 +183,7 @@ def test_a_margin_holds_for_the_parts_of_a_mover():
     assert scene.position(1.5, 0.0, 0.0, 0.0, margin=5e-324) == 1
 
 
-def test_a_margin_is_proved_where_a_larger_part_reaches_beyond_the_larger_mover():
+def test_a_margin_is_right_where_a_part_grown_by_it_extends_beyond_the_grown_mover():
     scene = hypcheck.Scene.from_arrays(
         2, 17.8, [0, 0, 0], mover=hypcheck.Mover(3, 1, (hypcheck.MoverPart(0.1, 0.7, 0),))
     )
@@ -215,14 +215,14 @@ def test_a_mover_from_python_is_refused_with_a_part_that_is_not_valid_or_reaches
         ((1, 1), "a hyperboloid is of type tuple; it must be a Hyperboloid"),
     ],
 )
-def test_a_scene_model_is_refused_where_a_hyperboloid_of_it_is_not_valid(hyperboloid, trouble):
+def test_a_scene_model_with_an_invalid_hyperboloid_is_refused(hyperboloid, trouble):
     model = hypcheck.SceneModel("s", "position", (hypcheck.Hyperboloid("good", 1, 1), hyperboloid), MOVER)
     with pytest.raises(InputError, match=trouble):
         hypcheck.Scene(model).classify((3, 0, 0))
 
 
 @pytest.mark.parametrize("which", [0.5, None, True, -1])
-def test_a_hyperboloid_is_named_by_a_text_or_by_a_whole_number_alone(which):
+def test_a_hyperboloid_is_not_found_by_a_value_other_than_a_text_or_a_whole_number(which):
     with pytest.raises(InputError, match="there is no hyperboloid"):
         scene_of(2).moved(which, (0, 0, 0))
 

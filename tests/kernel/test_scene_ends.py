@@ -141,7 +141,7 @@ def test_position_nearest_and_passage_never_contradict_each_other_or_the_exact_p
 
 
 @pytest.mark.parametrize("semi_axes", [(0.5, 0.25), (0.25, 0.5), (0.5, 0.5)])
-def test_a_tilted_mover_above_or_below_a_flat_end_is_as_far_as_its_lowest_or_highest_point(semi_axes):
+def test_the_distance_of_a_tilted_mover_from_a_flat_end_is_that_of_its_lowest_or_highest_point(semi_axes):
     """With Σ = b² + (d² − b²) v vᵀ that point is Σ e_z / √(e_zᵀ Σ e_z) from the centre."""
     b, d = semi_axes
     axis = np.array([3.0, 0.0, 4.0]) / 5
@@ -188,7 +188,7 @@ def test_nearest_distance_is_the_least_over_points_of_the_remaining_surface(seed
 
 
 @pytest.mark.parametrize("seed", [0, 2, *(pytest.param(seed, marks=pytest.mark.thorough) for seed in (4, 6))])
-def test_passage_beside_ends_hits_where_one_of_its_times_does_and_nowhere_before_the_first(seed):
+def test_passage_beside_ends_hits_if_a_sampled_position_has_contact_and_none_before_its_time_has(seed):
     """Exact positions at 17 times of each sweep; the first contact is enclosed within 2^-58 of the whole."""
     draw, hits = np.random.default_rng(seed), set()
     for number in range(7):
@@ -248,13 +248,13 @@ def test_parts_of_a_mover_pass_through_an_opening_that_the_mover_does_not_fit():
         assert touching.passage((0.0, 0.0, z), (0.0, 0.0, z)).hit == int(position == 0)
 
 
-def test_ends_of_a_hyperboloid_whose_axis_points_down_are_counted_downwards():
+def test_heights_of_a_hyperboloid_whose_axis_points_down_are_measured_downwards():
     for axis, span in ((UPRIGHT, Span(-1.0, 2.0)), ((0.0, 0.0, -5.0), Span(-2.0, 1.0))):
         tree = scene(replace(STUMP, axis=axis, height=span, solid=True))
         assert tree.classify(0.0, 0.0, [-1.25, -1.15, 0.0, 2.15, 2.25]).tolist() == [1, 0, 0, 0, 1]
 
 
-def test_answers_outside_of_the_region_know_the_ends_too():
+def test_answers_outside_the_region_of_a_scene_respect_the_ends_of_its_hyperboloids():
     tree = scene(STUMP, region=Region(z=Span(0.0, 1.0)))
     assert [tree.position(0.3, 0.0, z) for z in (-9.0, 0.0, 2.1, 9.0)] == [1, 0, 0, 1]
     assert tree.classify(0.3, 0.0, [-9.0, 0.0, 2.1, 9.0]).tolist() == [1, 0, 0, 1]
@@ -272,7 +272,7 @@ def test_an_axis_tilted_in_one_coordinate_is_not_taken_for_upright_beside_an_end
     assert [asked.position(*place) for place in places] == [1, 0, 0, -1]
 
 
-def test_a_mover_between_ends_that_meets_the_wall_beyond_one_alone_is_clear():
+def test_a_mover_that_would_meet_the_wall_only_beyond_an_end_is_clear():
     """The wall's radius is 2.7 to 3 between the ends, and 4.5 at a height of 2, which the mover reaches."""
     ring = Hyperboloid("ring", 2.0, 1.0, (0.0, 0.0, 0.0), Span(0.9, 1.1))
     tall = scene(ring, mover=Mover(0.6, 5.0))
@@ -339,7 +339,7 @@ def test_a_drone_that_meets_only_the_missing_part_above_an_end_is_clear():
         assert ended.classify([reach], [0.0], [height]).tolist() == [Position.EXTERIOR], reach
 
 
-def test_a_ball_just_above_a_flat_end_is_clear_though_a_rounding_hides_it():
+def test_a_ball_just_above_a_flat_end_is_clear_even_where_the_difference_of_centres_is_rounded():
     """The difference of the centres loses 2**-60, and the ball is 2**-50 above the end."""
     wide = Hyperboloid("wide", 5.0, 4.0, (2.0**-60, 0.0, 0.0), Span(-3.0, 1.0), solid=True)
     tower = scene(wide, mover=Mover(1.0, 1.0))
@@ -355,7 +355,7 @@ def test_a_tilted_disc_reaches_an_end_by_its_longer_semi_axis():
     assert [tower.position(0.0, 0.0, height) for height in heights] == [0, 0, 1]
 
 
-def test_bounds_show_that_a_mover_touches_a_wall_at_its_own_height_where_it_does():
+def test_meets_for_sure_is_true_exactly_where_a_mover_touches_the_wall_at_the_height_of_its_centre():
     """At the height 4 the wall is 2 √(1 + (4/3)²) = 10/3 from its axis; three other formulas give 4, 11/3 and more."""
     across = np.array([10 / 3 - 0.2, 10 / 3, 10 / 3 + 0.2, 10 / 3 - 0.3, 10 / 3 + 0.3, 50 / 9, 20.1])
     count = len(across)
@@ -365,7 +365,7 @@ def test_bounds_show_that_a_mover_touches_a_wall_at_its_own_height_where_it_does
     assert found.tolist() == [True, True, True, False, False, False, False]
 
 
-def test_bounds_show_no_contact_with_a_flat_wall_that_a_mover_misses_by_a_hair():
+def test_meets_for_sure_is_false_for_a_ball_that_barely_misses_a_flat_wall():
     """A ball at the waist, 2⁻³⁶ from a wall that rises so little that an error of the height moves it far aside."""
     count = 8
     away = 2.0 ** -np.arange(33.0, 33 + count)
@@ -375,7 +375,9 @@ def test_bounds_show_no_contact_with_a_flat_wall_that_a_mover_misses_by_a_hair()
 
 
 @pytest.mark.parametrize(("axis", "reach"), [(UPRIGHT, 0.5), ((1.0, 0.0, 0.0), 2.0), ((0.0, 1.0, 3.0), 2.0)])
-def test_a_disc_lies_beyond_an_end_by_its_own_height_if_it_is_upright_and_by_its_longer_semi_axis_if_not(axis, reach):
+def test_height_limits_are_widened_by_the_half_height_of_an_upright_disc_or_the_longer_semi_axis_of_a_tilted_one(
+    axis, reach
+):
     trunk = Hyperboloid("trunk", 5.0, 4.0, (0.0, 0.0, 10.0), Span(-3.0, 1.0))
     disc = Mover(2.0, 0.5, axis=axis)
     (limits,) = limits_of(scene_index.bodies_of([trunk]), disc)
@@ -384,7 +386,7 @@ def test_a_disc_lies_beyond_an_end_by_its_own_height_if_it_is_upright_and_by_its
 
 
 @pytest.mark.parametrize("start", [4.0, 3.0, 0.0])
-def test_bounds_show_that_a_sweep_meets_a_wall_that_ends_where_its_end_does(start, by_numpy):
+def test_a_sweep_whose_end_meets_a_wall_that_ends_is_proved_by_bounds_to_hit(start, by_numpy):
     """The numpy kernel leaves contact beside ends to bounds at five times of the sweep."""
     bodies = scene_index.bodies_of([Hyperboloid("tower", 2.0, 4.0, height=Span(0.0, 3.0))])
     by_numpy()

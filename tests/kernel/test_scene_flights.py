@@ -63,7 +63,7 @@ def single_passages(world, points, axis=None):
 
 @pytest.mark.parametrize("tilted", [False, True])
 @pytest.mark.parametrize("seed", [0, 1, *(pytest.param(seed, marks=pytest.mark.thorough) for seed in (2, 3))])
-def test_a_flights_first_contact_is_that_of_the_exact_passages_of_single_pairs(seed, tilted):
+def test_the_first_contact_of_a_flight_is_the_first_of_the_exact_passages_of_its_pairs(seed, tilted):
     axis = (0.2, -0.1, 1.0) if tilted else None
     mover = Mover(0.3, 0.15, axis=axis or UPRIGHT)
     world, points = wood(seed, count=24, mover=mover, tilted=tilted), flight(seed + 10, 9)
@@ -105,7 +105,7 @@ def test_the_least_distance_of_a_ball_from_a_waist_is_where_it_was_worked_out():
 
 @pytest.mark.parametrize("far", [0.0, 2.0**30, 2.0**36, 2.0**40])
 @pytest.mark.parametrize("share", [0.125, 0.40625, 0.75])
-def test_the_least_distance_is_enclosed_as_well_where_coordinates_are_long(far, share):
+def test_the_bounds_of_the_least_distance_hold_far_from_the_origin_too(far, share):
     """Past a waist at a distance of 3.5 − 2 − 1, which the flight is nearest to at a share of its segment."""
     world = scene(Hyperboloid("tower", 2.0, 2.0**20, (far, 0.0, 0.0)))
     found = world.first_contact([[far - 16 * share, 3.5, 0], [far + 16 * (1 - share), 3.5, 0]])
@@ -166,7 +166,7 @@ def test_no_place_on_a_clear_flight_is_nearer_than_its_least_distance(seed):
         assert here.tied or here.index == found.least.index[number]
 
 
-def test_many_flights_answer_as_each_alone():
+def test_several_flights_in_one_call_have_the_same_answers_as_each_in_its_own_call():
     world = wood(3)
     paths = [flight(seed, corners) for seed, corners in zip(range(12), [1, 2, 3, 6] * 3, strict=True)]
     together = world.first_contact(paths)
@@ -189,7 +189,7 @@ def time_along(found, lengths):
 
 @given(st.integers(0, 10**6), st.integers(1, 7))
 @settings(max_examples=4, deadline=None)
-def test_a_flight_with_a_corner_more_on_a_segment_answers_the_same(seed, eighths):
+def test_a_flight_with_an_additional_corner_on_a_segment_has_the_same_answers(seed, eighths):
     """Numbers of few digits, so that the corner lies on the segment exactly."""
     world = wood(seed % 5)
     points = np.round(flight(seed, 4) * 64) / 64
@@ -221,20 +221,20 @@ def test_a_flight_that_begins_in_contact_has_its_first_contact_at_once():
     assert tuple(found.center) == (2, 0, 0)
 
 
-def test_a_flight_that_touches_at_a_corner_alone_has_contact_at_the_end_of_the_first_of_both_segments():
+def test_a_flight_that_touches_only_at_a_corner_has_its_contact_at_the_end_of_the_segment_before_it():
     found = scene(TOWER).first_contact([[6, 1, 0], [3, 0, 0], [6, -1, 0]])
     assert (found.hit, found.segment) == (True, 0)
     assert found.time_lower <= 1 <= found.time_upper
 
 
-def test_a_path_of_one_point_stays_there():
+def test_a_path_of_one_point_is_answered_as_a_mover_at_rest():
     assert scene(TOWER).first_contact([[3, 0, 0]]).hit
     found = scene(TOWER).first_contact([[4, 0, 0]])
     assert not found.hit
     assert found.least.distance_lower <= 1 <= found.least.distance_upper
 
 
-def test_parts_decide_contact_and_the_least_distance_is_that_of_the_mover():
+def test_the_parts_decide_contact_but_the_least_distance_is_that_of_the_whole_mover():
     """Between two rotors the ball itself meets the wall's rim region, and its parts do not."""
     parts = tuple(MoverPart(0.1, 0.1, 0.85, angle) for angle in (90.0, -90.0))
     thin = Hyperboloid("pole", 0.05, 30.0, (1.5, 0.0, 0.0))
@@ -245,7 +245,7 @@ def test_parts_decide_contact_and_the_least_distance_is_that_of_the_mover():
     assert found.least.time == pytest.approx((3 + 0.45) / 3.6)
 
 
-def test_the_least_distance_of_a_flight_that_comes_nearer_to_its_end_is_at_the_last_point_itself():
+def test_the_least_distance_of_a_flight_nearest_at_its_end_is_at_exactly_its_last_point():
     """Rounded, start + (end − start) is another point."""
     start, end = (8.7, -3.7, 1.7), (3.4, -0.4, -0.9)
     assert all(a + (b - a) != b for a, b in zip(start, end, strict=True))
@@ -266,7 +266,7 @@ def test_the_least_distance_of_a_tilted_mover_is_that_along_its_own_axis_on_each
         assert least.segment == segment
 
 
-def test_headings_and_axes_are_given_for_all_segments_or_for_each():
+def test_an_axis_may_be_given_once_for_all_segments_or_once_for_each():
     world = scene(Hyperboloid("tower", 2.0, 30.0), mover=Mover(2.0, 0.5, axis=FREE))
     path = [[3.0, -9, 0], [3.0, 0, 0], [9, 0, 0]]
     flat, upright = (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)
@@ -291,7 +291,7 @@ def test_headings_and_axes_are_given_for_all_segments_or_for_each():
         (3.0, "the path is of shape"),
     ],
 )
-def test_a_value_that_is_not_a_path_is_refused_by_a_sentence(path, says):
+def test_first_contact_refuses_a_value_that_is_not_a_path_in_one_sentence(path, says):
     with pytest.raises(InputError, match=says):
         scene(TOWER).first_contact(path)
 
@@ -322,7 +322,7 @@ def test_a_least_distance_is_not_above_the_true_one_where_coordinates_are_large(
         assert least.distance_lower <= 0.5 <= least.distance_upper
 
 
-def test_a_contact_is_shown_where_the_first_contact_on_its_segment_is():
+def test_a_shown_flight_marks_the_contact_at_the_first_contact_of_its_segment():
     scene = Scene(SceneModel("s", "position", (TOWER,), Mover(0.25, 0.25)))
     path = [(9.0, 0.0, 0.0), (5.0, 0.0, 0.0), (-1.0, 0.5, 0.0)]
     found, (shown,) = scene.first_contact(path), shown_flight(scene, path).contacts
@@ -330,7 +330,7 @@ def test_a_contact_is_shown_where_the_first_contact_on_its_segment_is():
     assert shown.center == pytest.approx(found.center)
 
 
-def test_a_least_distance_at_the_end_of_a_step_that_is_lost_in_the_length_of_the_flight_is_not_above_the_true_one():
+def test_least_distance_is_right_where_the_last_step_is_shorter_than_the_rounding_of_the_flight_length():
     """The steps before the last are 2³⁶ long: sums of lengths are rounded by more than the last step is long."""
     world = scene(Hyperboloid("tower", 1.0, 2.0**30), mover=Mover(0.25, 0.25))
     step = 2.0**-18
@@ -340,7 +340,7 @@ def test_a_least_distance_at_the_end_of_a_step_that_is_lost_in_the_length_of_the
 
 
 @pytest.mark.parametrize("turn", [48, 49])
-def test_a_least_distance_beside_a_queried_place_includes_the_rounding_of_long_coordinates(turn):
+def test_the_lower_bound_of_the_least_distance_includes_the_rounding_of_large_coordinates(turn):
     """A ball passes a waist at the distance 1/2, 2²⁰ from the origin; the middle of its segment is a little beside."""
     far, beside = 2.0**20, turn * 2.0**-14
     world = scene(Hyperboloid("tower", 1.0, 2.0**30, (far, far, 0.0)), mover=Mover(0.25, 0.25))

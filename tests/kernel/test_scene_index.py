@@ -184,7 +184,7 @@ def test_a_difference_whose_rounding_exceeds_the_spheroid_is_decided_exactly(x, 
     assert positions_beside(np.array([sizes]), np.array([centre]), np.array([origin])).tolist() == [expected]
 
 
-def test_scene_position_takes_any_number_as_its_float():
+def test_scene_position_converts_every_type_of_number_to_float_and_refuses_other_values():
     scene = Scene(model.SceneModel("s", "position", (Hyperboloid("h", 2.0, 4.0),), Mover(0.5, 0.5)))
     assert [scene.position(x, np.float32(0), [0]) for x in (9, 2, 0)] == [1, 0, -1]
     assert scene.position(2**53 + 1, 2**53 + 1, 0.0) == 1
@@ -210,7 +210,7 @@ def test_scene_position_tests_the_parts_only_where_the_mover_has_contact():
         assert scene.classify([x], 0.0, 0.0).tolist() == [expected], x
 
 
-def test_parts_are_not_tested_if_the_mover_is_clear_though_a_rounding_moves_one_out_of_it():
+def test_a_clear_mover_is_exterior_even_if_the_rounded_place_of_a_part_reaches_beyond_it():
     """At 2**20 the place of the part is rounded: it reaches 2**-34 beyond the mover, which is clear by 2**-35."""
     far, more = 2.0**20, 3 * 2.0**-34
     trees = (
@@ -223,7 +223,7 @@ def test_parts_are_not_tested_if_the_mover_is_clear_though_a_rounding_moves_one_
     assert scene.position(far + 2, 0.0, 0.0, 180.0) == Position.EXTERIOR
 
 
-def test_positions_beside_a_tilted_hyperboloid_know_that_it_is_narrower_next_to_the_mover():
+def test_positions_beside_a_tilted_hyperboloid_count_contact_with_its_narrower_wall_below_the_mover():
     """At the height 1 the wall is √5 from its axis, and 1 at its waist: a ball of 0.8 there touches it lower down."""
     along, centre = (0.6, 0.0, 0.8), (1.4, 0.0, 0.2)
     upright, origin = (0.0, 0.0, 1.0), (0.0, 0.0, 0.0)
@@ -234,6 +234,6 @@ def test_positions_beside_a_tilted_hyperboloid_know_that_it_is_narrower_next_to_
         assert tilted_position(sizes, centre, origin, upright, along) == expected
 
 
-def test_two_floats_and_a_column_of_heights_are_answered_as_by_classify():
+def test_scene_position_of_two_floats_and_a_column_of_heights_answers_as_classify():
     scene, heights = Scene(forest(3, seed=1)), [0.0, 0.5]
     assert scene.position(1.0, 2.0, heights).tolist() == scene.classify(1.0, 2.0, heights).tolist()

@@ -124,7 +124,7 @@ def test_scene_position_of_many_centres_or_axes_is_that_of_classify():
         scene.position(10**400, 10**400, 0.0)
 
 
-def test_a_hyperboloid_beyond_the_numbered_cells_is_still_tested():
+def test_a_hyperboloid_outside_the_numbered_cells_of_the_grid_is_still_tested():
     far = 2.0**45
     bodies = [Hyperboloid("here", 1.0, 9.0), *(Hyperboloid(f"far {k}", 1.0, 9.0, (far, 8.0 * k, 0.0)) for k in (1, 2))]
     scene = Scene(model.SceneModel("s", "position", tuple(bodies), Mover(0.25, 0.25), model.Region(z=Span(-1.0, 1.0))))

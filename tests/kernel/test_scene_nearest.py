@@ -58,7 +58,7 @@ def test_scene_nearest_marks_hyperboloids_at_equal_distance_as_tied():
 
 
 @pytest.mark.parametrize("gamma", [1e3, 1e8])
-def test_bounds_of_the_distance_from_a_steep_wall_are_as_near_as_from_any(gamma):
+def test_distance_bounds_are_narrow_beside_a_steep_wall_too(gamma):
     found = scene(Hyperboloid("tower", 2.0, gamma), mover=Mover(0.5, 0.5)).nearest(4.0, 0, 0)
     assert found.distance_upper * (1 - 1e-9) <= found.distance_lower <= 1.5 <= found.distance_upper
 
@@ -297,7 +297,7 @@ def test_the_normal_is_the_gradient_of_the_distance_wherever_bodies_are_tilted_a
     assert one.normal == pytest.approx(found.normal[np.argmax(clear)], abs=1e-12)
 
 
-def test_the_upper_distance_from_a_far_rim_holds_the_roundings_of_the_rim():
+def test_the_upper_distance_bound_from_a_far_rim_covers_the_roundings_of_the_rim():
     rng = np.random.default_rng(4)
     for _ in range(40):
         alpha, gamma, b, end = rng.uniform(0.01, 2), 10 ** rng.uniform(-11, -1), 10 ** rng.uniform(-6, 0), -100.0
@@ -323,7 +323,7 @@ def test_the_gap_to_a_wall_between_two_heights_is_the_least_of_a_dense_sample(pl
         assert found.upper[0] - 1e-11 <= found.lower[0] <= found.upper[0]
 
 
-def test_a_gap_beside_a_wide_wall_is_measured_where_its_bounds_are_apart_by_more_than_the_distance_and_mover_allow():
+def test_the_distance_bounds_beside_a_very_wide_wall_are_narrow_relative_to_distance_and_mover():
     """The coordinates of a mover beside the wall are long, as the wall is wide, and its distance is not."""
     b = 0.61071
     found = scene(Hyperboloid("wide", 147.62, 0.108084), mover=Mover(b, 0.0035413)).nearest(140.696, 0.0, 0.99996)
@@ -345,7 +345,7 @@ def test_the_gap_from_a_tilted_spheroid_to_a_flat_end_is_that_of_its_lowest_poin
     assert found.point == pytest.approx(np.column_stack([centres[:, :2] + aside, np.full(3, 3.0)]), rel=1e-12)
 
 
-def test_the_lower_bound_of_a_gap_holds_the_roundings_of_a_rim_that_is_far_wider_than_all_other_lengths():
+def test_the_bounds_of_the_distance_to_a_rim_far_wider_than_all_other_lengths_cover_its_roundings():
     """A ball about the origin: the rim at the lower end is the nearest, α√(1 + w²) from the axis, w above the ball."""
     rng = np.random.default_rng(1)
     alpha, low = 2.0**20 * rng.uniform(1, 2, (2, 16))

@@ -83,14 +83,14 @@ def test_a_plan_for_one_constant_height_has_only_thresholds():
     assert (stages.lines, stages.discriminant) == ((), None)
 
 
-def test_a_plan_for_a_one_sided_question_has_lines_of_that_side_only_and_names_the_other():
+def test_a_plan_for_exterior_or_interior_has_only_lines_of_that_side_and_lists_the_others_as_omitted():
     for question, side, other in (("exterior", 1, "interior"), ("interior", -1, "exterior")):
         (stages,) = plan_of(scene(question=question)).settings
         assert {int(line.side) for line in stages.lines} == {side}
         assert f"whatever tells {other} from contact" in {omission.what for omission in stages.omitted}
 
 
-def test_a_plan_uses_a_positive_discriminant_only_where_it_means_clear():
+def test_a_plan_does_not_use_a_positive_discriminant_for_sizes_where_it_does_not_prove_a_clear_pair():
     (stages,) = plan_of(scene((3.0, 1.0, 1.0, 1.0))).settings
     assert stages.discriminant is not None
     assert not stages.discriminant.clear_where_positive
@@ -105,7 +105,7 @@ def test_the_plan_of_the_tower_needs_less_than_half_the_operations_of_table_2():
     assert (printed_operations().additions, printed_operations().multiplications) == (9, 17)
 
 
-def test_a_plan_lists_all_settings_and_gives_shared_reasons_once():
+def test_the_text_of_a_plan_lists_every_setting_and_states_shared_reasons_once():
     plan = plan_of(read_scene("forest"))
     lines = list(plan_lines(plan))
     for number, stages in enumerate(plan.settings, start=1):
@@ -130,7 +130,7 @@ def sample(setting):
     return np.stack([*np.broadcast_arrays(*setting.sizes, *centres(setting))], axis=1)
 
 
-def test_lines_of_a_plan_leave_contact_and_the_centre_s_side_answers_a_one_sided_question():
+def test_lines_never_decide_contact_and_the_side_of_the_centre_answers_a_one_sided_question():
     for question in ("position", "exterior", "interior"):
         (stages,) = plan_of(scene(question=question)).settings
         rows = sample(stages.setting)
@@ -162,14 +162,14 @@ def test_a_discriminant_whose_bound_is_infinite_decides_no_centre():
     assert not decided_by(replace(delta, bound=np.inf), form, R, zz).any()
 
 
-def test_the_corner_of_an_open_box_is_the_requested_number_of_waists_and_heights_away():
+def test_the_far_corner_of_an_unbounded_region_is_the_requested_multiple_of_alpha_and_gamma_away():
     (setting,) = settings_of(scene((3.0, 1.0, 0.5, 0.25)))
     assert far_corner(setting, 8) == (28, 10)
     (setting,) = settings_of(scene((3.0, 1.0, 0.5, 0.25), x=Span(-40, 1), z=Span(-2, 1)))
     assert far_corner(setting, 8) == (40, 2)
 
 
-def test_sample_centres_are_a_lattice_of_the_powers_of_the_root_of_x4_is_x_plus_1():
+def test_sample_centres_advance_by_powers_of_the_inverse_root_of_x_to_the_4_equals_x_plus_1():
     (setting,) = settings_of(scene(x=Span(0, 1), y=Span(0, 1), z=Span(0, 1)))
     root = max(each.real for each in np.roots([1, 0, 0, -1, -1]) if each.imag == 0)
     for power, column in enumerate(centres(setting), start=1):

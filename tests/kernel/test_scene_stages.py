@@ -136,7 +136,7 @@ def test_thresholds_of_a_stage_separate_the_exact_positions(sizes, height):
         assert position(found.inner * (1 + 1e-14)) is Position.CONTACT
 
 
-def test_position_of_box_gives_a_position_only_if_the_whole_region_has_it():
+def test_position_of_box_is_a_position_if_the_whole_region_has_it_and_else_none():
     sizes = (2.0, 17.8, 0.25, 0.15)
 
     def found(x, z):
@@ -172,7 +172,7 @@ def test_the_bound_of_the_search_is_at_most_the_promised_8_u():
     assert backward_bound() == 8
 
 
-def test_position_of_an_open_box_is_that_beside_the_axis():
+def test_position_of_box_is_none_for_a_region_around_the_axis_that_is_wider_than_the_waist():
     for span in (None, Span(-3.0, 3.0)):
         assert position_of_box(Setting((0.1, 1.0, 0.1, 0.1), Region(span, span, Span(-0.1, 0.1)), None, ())) is None
 
@@ -187,7 +187,7 @@ def test_a_line_whose_constants_are_below_the_root_of_the_least_number_is_left_o
         assert (line_at(Fraction(1), steep, form, 1) is not None) == there
 
 
-def test_the_discriminant_promises_its_bound_up_to_the_corner_alone():
+def test_the_error_bound_of_the_discriminant_stage_holds_exactly_up_to_the_given_corner():
     form = FLOAT_FORMATS["float64"]
     scale = scaled((3.0, 1.0, 1.0, 1.0), form)
     for x, z in ((3, 5), (Fraction(1, 2), Fraction(1, 4))):
@@ -195,7 +195,7 @@ def test_the_discriminant_promises_its_bound_up_to_the_corner_alone():
         assert (found.widest, found.highest) == (2 * x**2, z**2)
 
 
-def test_a_search_takes_corners_up_to_its_ends_and_refuses_those_beyond():
+def test_a_search_stage_accepts_a_region_up_to_its_limits_and_refuses_a_larger_one():
     form = FLOAT_FORMATS["float64"]
     scale = scaled((2.0, 17.8, 0.25, 0.15), form)
     ends = search(scale, form, (Fraction(1), Fraction(1)))
@@ -207,7 +207,7 @@ def test_a_search_takes_corners_up_to_its_ends_and_refuses_those_beyond():
             search(scale, form, corner)
 
 
-def test_a_search_begins_where_the_distance_to_the_pole_changes_nothing():
+def test_a_search_begins_so_near_the_pole_that_the_distance_to_it_is_below_the_rounding():
     """Ten bits beyond the format's of the pole, and no farther than the steepest side allows."""
     form = FLOAT_FORMATS["float64"]
     for pole in (Fraction(1), Fraction(2) ** 70):

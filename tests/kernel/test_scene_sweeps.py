@@ -72,7 +72,7 @@ FAR = Hyperboloid("far", 1.0, 2.0, (1e80, 1e80, 1e80), Span(-1.0, 1.0))
         (FAR, (1.45e80, 1e80), (1.5e60, 1.5e60, 1.5e60), (1e60, 1.5e60, -1.5e60), False),
     ],
 )
-def test_a_sweep_beyond_the_sizes_that_bounds_decide_is_decided_exactly(body, semi_axes, start, end, hit):
+def test_a_sweep_whose_sizes_are_beyond_the_range_of_the_bounds_is_decided_exactly(body, semi_axes, start, end, hit):
     """A mover of no size, or a centre so far away that the difference of coordinates loses the mover's place."""
     scene = SceneModel("one", "position", (body,), Mover(*semi_axes), Region())
     assert brute_force(scene, start, end) == hit
@@ -118,7 +118,7 @@ def test_scene_passage_answers_as_the_exact_decision_about_every_hyperboloid(sce
     assert len({*found.hit.tolist()}) > 1
 
 
-def test_scene_passage_answers_long_and_short_sweeps_in_one_call_as_each_alone():
+def test_scene_passage_answers_long_and_short_sweeps_in_one_call_as_in_separate_calls():
     scene, (starts, ends) = Scene(forest(60, 6)), sweeps(40, 7)
     ends = starts + (ends - starts) * np.repeat([1e-9, 1.0, 3.0, 1e3], 10)[:, None] * (1, 1, 0)
     found = scene.passage(starts, ends)
@@ -306,7 +306,7 @@ def test_scene_passage_of_no_sweeps_is_an_empty_array():
     assert scene.passage(np.empty((0, 3)), np.empty((0, 3))).hit.tolist() == []
 
 
-def test_a_sweep_farther_from_an_axis_than_the_reach_does_not_pass_it():
+def test_passed_is_true_exactly_for_sweeps_within_the_reach_of_an_axis():
     """To ask about more is slow, and shows in no answer."""
     starts, ends = np.array([[-9.0, 0.0, 0.0], [-1.0, 1.0, 0.0]]), np.array([[9.0, 0.0, 0.0], [1.0, -1.0, 0.0]])
     origins = np.array([[0.0, 1.5, 0.0], [0.0, 1.0, 0.0], [3.0, 3.0, 0.0], [2.0, -2.0, 0.0]])
@@ -314,7 +314,7 @@ def test_a_sweep_farther_from_an_axis_than_the_reach_does_not_pass_it():
     assert scene_index.passed(starts, ends, query, origins, reach).tolist() == [False, True, False, True]
 
 
-def test_sweeps_so_far_out_that_a_cell_is_below_their_rounding_are_looked_up_alone():
+def test_sweeps_so_far_out_that_coordinates_round_by_more_than_a_grid_cell_are_answered_rightly():
     """Padded for their rounding they would overlap billions of cells."""
     far = 1.7976931348623157e308
     bodies = (Hyperboloid("near", 1.0, 1.0), Hyperboloid("far", 1.0, 1.0, (far, 0.0, 0.0)))
@@ -339,7 +339,7 @@ def test_sweeps_beside_a_hyperboloid_whose_axis_points_down_are_those_beside_the
 
 
 @pytest.mark.parametrize("scale", [5e-324, 1e-300, 5.9e307])
-def test_length_of_an_axis_of_any_exponent_means_nothing_beside_a_tilted_hyperboloid(scale):
+def test_answers_beside_a_tilted_hyperboloid_do_not_depend_on_the_length_of_the_axis(scale):
     draw = np.random.default_rng(1)
     starts, ends = draw.uniform(-3, 3, (2, 300, 3))
     axes = draw.integers(-3, 4, (300, 3)).astype(float)
@@ -373,7 +373,7 @@ def test_a_ball_that_leaves_from_just_beside_an_edge_touches_nothing():
     assert ball_over(wall).passage(start, away).hit.tolist() == [False]
 
 
-def test_the_first_hyperboloid_that_is_touched_is_found_beside_the_sweep_too():
+def test_the_first_hyperboloid_touched_is_found_even_if_the_sweep_passes_beside_its_axis():
     """The way passes 1 beside the axis of one, which is touched first, and through that of the other."""
     one = Hyperboloid("beside", 1.0, 10.0, (0.0, 1.0, 0.0), Span(-1.0, 1.0))
     other = Hyperboloid("ahead", 1.0, 10.0, (0.75, 0.0, 0.0), Span(-1.0, 1.0))
@@ -383,7 +383,7 @@ def test_the_first_hyperboloid_that_is_touched_is_found_beside_the_sweep_too():
     assert found.first_lower[0] == pytest.approx((10 - 0.75) / 20, abs=1e-3)
 
 
-def test_a_sweep_that_is_nowhere_is_refused_also_where_nothing_is_near():
+def test_scene_passage_refuses_centres_that_are_not_finite_even_far_from_every_hyperboloid():
     end = Hyperboloid("end", 5.0, 4.0, (0.0, 0.0, 0.0), Span(-3.0, 1.0))
     for place in ((0.0, 0.0, float("nan")), (99.0, 0.0, float("nan")), (0.0, 0.0, float("inf"))):
         with pytest.raises(InputError, match="must be finite"):

@@ -118,7 +118,9 @@ def test_a_tilted_scene_is_exact_if_the_difference_of_centres_is_rounded():
 
 @pytest.mark.parametrize("unit", [1.0, 2.0**-300, 2.0**300])
 @pytest.mark.parametrize(("shift", "expected"), [(-(2.0**-60), EXTERIOR), (0.0, CONTACT), (2.0**-60, CONTACT)])
-def test_a_tilted_scene_sees_a_clearance_that_rounding_of_the_difference_loses(shift, expected, unit):
+def test_a_tilted_scene_is_right_about_a_clearance_that_rounding_the_difference_of_centres_would_lose(
+    shift, expected, unit
+):
     """A spheroid along y touches the waist of α = 1 at x = 2 from outside; 2 + 2^-60 is 2 once it is rounded."""
     body = Hyperboloid("waist", unit, 4 * unit, (shift * unit, 0.0, 0.0))
     scene = Scene(SceneModel("s", "position", (body,), Mover(unit, 0.5 * unit, axis=(0.0, 1.0, 0.0))))
@@ -304,7 +306,7 @@ def test_a_tilted_ring_of_parts_lets_a_tree_through_where_the_upright_one_does_n
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_sweep_of_a_tilted_mover_with_parts_hits_where_one_of_its_times_does(seed):
+def test_sweep_of_a_tilted_mover_with_parts_hits_if_a_sampled_position_has_contact(seed):
     draw = random.Random(seed)  # noqa: S311 - nothing is secret
     bodies = [body for body in tilted_forest(8, seed).hyperboloids if body.axis[0] == body.axis[1] == 0]
     model = SceneModel("s", "position", tuple(bodies), Mover(1.0, 0.5, ROTORS, (1.0, 2.0, 3.0)))

@@ -111,7 +111,7 @@ def test_positions_in_a_scene_are_the_exact_ones(kind, seed):
 
 
 @pytest.mark.parametrize(("kind", "seed"), SEEDED)
-def test_passages_in_a_scene_one_or_many_hit_where_an_exact_passage_does(kind, seed):
+def test_scene_passage_of_one_or_many_sweeps_hits_exactly_if_an_exact_passage_does(kind, seed):
     scene, centres, axes, free = world(seed + 100, 4, **kind)
     draw = np.random.default_rng(seed)
     size = np.array([1, 1, 1]) * (scene.model.mover.b + scene.model.mover.d)
@@ -154,7 +154,7 @@ def test_a_mover_that_slides_over_a_high_flat_end_touches_it():
         assert scene.passage((-9.0, 0.0, level), (9.0, 0.0, level)).hit == hit
 
 
-def test_parts_of_a_tilted_mover_stand_where_the_axis_of_any_length_puts_them():
+def test_places_of_the_parts_of_a_tilted_mover_do_not_depend_on_the_length_of_the_axis():
     parts = tuple(MoverPart(0.1, 0.1, 2.0, angle) for angle in (0.0, 90.0, 180.0))
     for heading in (0.0, 30.0):
         unit, *others = (places_of_parts(parts, (0.0, 0.0, 0.0), heading, (k, k, k)) for k in (1.0, 2.0, -1.0))

@@ -34,7 +34,7 @@ def structured(rows, names):
 
 @pytest.mark.parametrize("names", [NAMES, NAMES + AXIS])
 @pytest.mark.parametrize("ask", [hypcheck.classify, lambda rows: hypcheck.clearance(rows).distance_upper])
-def test_tables_of_every_kind_are_answered_as_their_rows(ask, names):
+def test_dicts_frames_and_structured_arrays_are_answered_as_the_rows_that_they_hold(ask, names):
     rows = ROWS[:, : len(names)]
     columns = dict(zip(names, rows.T, strict=True))
     backwards = dict(reversed(columns.items()))
@@ -44,7 +44,7 @@ def test_tables_of_every_kind_are_answered_as_their_rows(ask, names):
         assert ask(table).tolist() == expected
 
 
-def test_numbers_stand_for_whole_columns_and_one_row_of_numbers_is_one_row():
+def test_single_numbers_in_a_table_hold_for_all_rows_and_a_table_of_numbers_only_is_one_pair():
     table = {"alpha": 2, "gamma": 17.8, "b": 0.25, "d": 0.15, "x": [0.0, 1.9, 9.0], "y": 0, "z": np.float32(0)}
     assert hypcheck.classify(table).tolist() == [-1, 0, 1]
     assert hypcheck.classify(table | {"x": 9.0}) == 1
@@ -68,7 +68,7 @@ def test_numbers_stand_for_whole_columns_and_one_row_of_numbers_is_one_row():
         ({"alpha": [1.0, -1.0]}, "row 1: alpha is -1.0; a semi-axis must be greater than 0"),
     ],
 )
-def test_wrong_tables_are_refused_with_what_would_be_right(change, sentence):
+def test_a_wrong_table_is_refused_by_a_sentence_that_states_what_is_needed(change, sentence):
     with pytest.raises(hypcheck.InputError, match=sentence):
         hypcheck.classify(dict.fromkeys(NAMES, 1.0) | change)
 

@@ -40,7 +40,7 @@ def questions():
     }
 
 
-def test_eight_threads_that_share_all_objects_get_the_answers_of_one():
+def test_eight_threads_that_share_all_objects_get_the_answers_of_a_single_thread():
     alone = {name: [ask(seed).tolist() for seed in range(THREADS)] for name, ask in questions().items()}
     shared, start = questions(), threading.Barrier(THREADS)
 

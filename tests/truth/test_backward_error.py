@@ -51,7 +51,7 @@ def test_changing_lengths_by_the_backward_error_makes_the_answer_right(pair, ans
 
 
 @given(grid_pairs, POSITIONS)
-def test_exponent_of_the_backward_error_is_the_floor_of_its_logarithm(pair, answer):
+def test_exponent_of_the_backward_error_is_the_floor_of_its_logarithm_to_base_2(pair, answer):
     truth = decide(pair.lengths)
     octave = exponent(pair, truth, answer)
     found = quick_bracket(pair, truth, answer).upper
@@ -62,7 +62,7 @@ def test_exponent_of_the_backward_error_is_the_floor_of_its_logarithm(pair, answ
 
 
 @given(ordinary_pairs, st.fractions(0, Fraction(9, 10)), st.fractions(0, Fraction(9, 10)), st.sampled_from([-1, 1]))
-def test_larger_change_towards_a_clear_position_never_loses_it(pair, first, second, side):
+def test_if_a_change_reaches_a_clear_position_every_larger_change_reaches_it(pair, first, second, side):
     """A larger change towards a clear position never loses it: the corner is the best of the box."""
     toward = Position(side)
     less, more = sorted((first, second))
@@ -72,7 +72,7 @@ def test_larger_change_towards_a_clear_position_never_loses_it(pair, first, seco
 
 @pytest.mark.slow
 @given(ordinary_pairs, st.lists(st.fractions(-1, 1), min_size=7, max_size=7), st.sampled_from([-1, 1]))
-def test_change_within_the_box_reaches_a_position_only_if_its_corner_does(pair, shares, side):
+def test_some_change_within_a_bound_reaches_a_position_only_if_the_corner_of_the_bound_reaches_it(pair, shares, side):
     toward, box = Position(side), Fraction(1, 4)
     changed = [Fraction(value) * (1 + box * share) for value, share in zip(pair.row, shares, strict=True)]
     denominators = math.lcm(*(value.denominator for value in changed))
@@ -82,7 +82,7 @@ def test_change_within_the_box_reaches_a_position_only_if_its_corner_does(pair, 
         assert position(corner(pair.lengths, box, toward)) is toward
 
 
-def test_a_lower_bound_in_floats_is_searched_for_a_tilted_pair_without_ends_alone():
+def test_lower_ends_are_computed_in_floats_only_for_tilted_pairs_without_ends_and_are_0_for_others():
     row, clear = (1.0, 2.0, 0.5, 0.25, 2.0, 0.0, 0.0), Decision(Position.EXTERIOR)
     pairs_ = [Pair(*row, *more) for more in ((), (1.0, 0.0, 1.0), (1.0, 0.0, 1.0, -1.0, 1.0, 0.0))]
     upright, tilted, ended = lower_ends(pairs_, [clear] * 3, [[Position.CONTACT]] * 3)

@@ -68,7 +68,7 @@ def test_change_between_the_ends_of_a_bracket_is_neither_tolerated_nor_refused(r
 
 
 @pytest.mark.parametrize(("name", "number", "answer"), [("symmetric", 8, INTERIOR), ("twins", 4, CONTACT)])
-def test_bracket_of_which_no_lower_end_is_proved_begins_at_0(name, number, answer):
+def test_bracket_of_a_backward_error_begins_at_0_if_no_lower_end_is_proved(name, number, answer):
     """Neither float64 nor one certificate excludes a change: nearest points are two by symmetry, or all around."""
     row = frozen.load(f"tilted-{name}").cases[number].row
     found = quick_bracket(Pair.from_row(row), decided(row), answer)
@@ -113,7 +113,7 @@ def test_no_sampled_change_within_the_lower_end_makes_the_answer_right():
                 assert not goal(exact_position(Lengths.of(changed)))
 
 
-def test_right_answers_and_limits_of_right_answers_have_no_backward_error():
+def test_right_answers_and_limits_of_right_answers_have_the_backward_error_0():
     for row, position, limit_of in SYMMETRIC:
         truth = decided(row)
         for answer in (position, limit_of or position):
@@ -152,7 +152,7 @@ def attains(row, change, answer):
     return False
 
 
-def test_some_change_of_the_upper_end_makes_the_answer_right():
+def test_a_change_as_large_as_the_upper_end_of_a_bracket_makes_the_answer_right():
     asked = 0
     for _, row in rows(["uniform", "near", "stiff", "slight"], 5, seed=8):
         truth = decided(row)
@@ -164,7 +164,7 @@ def test_some_change_of_the_upper_end_makes_the_answer_right():
     assert asked >= 3
 
 
-def test_derivatives_by_the_axis_are_those_of_another_algebra():
+def test_derivatives_by_the_axis_equal_those_of_sympy():
     """A step of the proof that a box holds: n and q held fixed, Σ = b² + (d² − b²) v vᵀ/v·v."""
     b, d, *v = sympy.symbols("b d v1 v2 v3", positive=True)
     n, q = sympy.Matrix([3, -1, 2]), sympy.Matrix([1, 4, -2])
@@ -190,7 +190,7 @@ def test_a_bracket_is_the_same_in_another_unit_of_length(x, answer):
     assert bracket(Pair.from_row(small), decided(small), answer) == bracket(Pair.from_row(row), decided(row), answer)
 
 
-def test_the_estimate_where_the_centre_is_on_the_other_side_is_by_the_hyperboloid_alone():
+def test_estimate_for_a_centre_on_the_other_side_uses_only_the_equation_of_the_hyperboloid():
     """The margin is -1 there; (x² + y²)/α² and z²/γ² count four times, for the centre and for the sizes."""
     row = [1, 1, 0.75, 0.25, 0.5, 0.5, 0.5, 1, 2, 3]
     assert decided(row).position is CONTACT

@@ -129,7 +129,7 @@ CUTS_THE_WALL = Pair(1, 1, 1, 1, 2.5, 0, 2, z_min=1, z_max=3)
         ),
     ],
 )
-def test_certificates_beside_ends_prove_what_is_true_and_nothing_else(pair, certificate, holds):
+def test_certificates_beside_ends_are_accepted_if_they_prove_their_position_and_else_refused(pair, certificate, holds):
     assert check_certificate(pair, certificate) is holds
 
 
@@ -205,7 +205,7 @@ TALL = [
 @pytest.mark.parametrize(
     "row", [*NEARLY_TANGENT, *TALL, (1.0, 8.0, 1.0, 1.0, 4.0, 0.0, 0.0), (3.0, 3.0, 1.0, 1.0, 1.0, 0.0, 0.0)]
 )
-def test_pairs_a_hair_from_tangency_of_tall_spheroids_and_far_from_it_have_short_proofs_that_hold(row):
+def test_certificates_of_pairs_near_tangency_and_far_from_it_hold_and_have_short_multipliers(row):
     pair = Pair(*row)
     certificate = prove(pair)
     assert certificate.position is exact_position(pair.lengths)
@@ -223,7 +223,7 @@ HAIR = 2.0**-30
     [(1.0, 0.0), (1.0, 1e-200), (1e150, 1e-200)],
     ids=["on the axis", "beside it", "beside it by no float"],
 )
-def test_a_ball_that_reaches_the_wall_around_it_by_a_hair_has_a_certificate(unit, x):
+def test_a_ball_that_barely_reaches_the_wall_around_it_has_a_certificate_of_two_points(unit, x):
     """From the height 1 on the axis the wall of α = 1 and γ = 2 is √1.2 away, all around, at the height 0.8."""
     radius = (math.sqrt(1.2) + HAIR) * unit
     pair = Pair(unit, 2 * unit, radius, radius, x, 0.0, unit)

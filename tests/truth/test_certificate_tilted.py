@@ -54,13 +54,13 @@ def test_double_root_proves_every_tangency_from_rational_rotations():
 
 
 @pytest.mark.parametrize("row", [row for row, position, _ in SYMMETRIC if position is not CONTACT])
-def test_double_root_at_a_pole_does_not_prove_the_ring_tangent(row):
+def test_certificate_with_a_double_root_at_a_pole_is_refused_on_the_ring(row):
     F = quartic(Lengths.of(row))
     certificate = Certificate(CONTACT, double_root=exact.double_root(F) * F.side)
     assert not check_certificate(Pair.from_row(row), certificate)
 
 
-def test_double_root_at_a_double_pole_does_not_prove_a_crossing_tangent():
+def test_certificate_with_a_double_root_at_a_double_pole_is_refused_for_a_crossing_pair():
     # Upright and on the axis det(S + λH) has a double root at −A = −1/4 whatever the height.
     crossing = Pair(1, 1, 2, 2, 0, 0, 0.5, 0, 0, 1)
     assert not decide(crossing.lengths).tangent
@@ -111,7 +111,7 @@ def test_a_crossing_on_a_plane_of_symmetry_is_proved_by_points_beyond_a_pole_in_
     assert proved > 10
 
 
-def test_a_centre_on_the_surface_is_proof_enough_of_contact():
+def test_contact_of_a_spheroid_with_its_centre_on_the_surface_is_proved_by_the_centre():
     pair = Pair.from_row((1.0, 2.0, 0.5, 0.25, 0.0, 1.0, 0.0, 1.0, 2.0, 3.0))
     certificate = prove(pair)
     assert certificate.points == ((0, 1, 0),)

@@ -63,7 +63,9 @@ BY_HAND = [
 
 
 @pytest.mark.parametrize(("row", "ends", "solid", "answer", "size", "share"), BY_HAND)
-def test_the_least_change_that_gives_an_answer_is_enclosed(row, ends, solid, answer, size, share):
+def test_least_change_beside_ends_that_makes_an_answer_right_is_between_its_proved_bounds(
+    row, ends, solid, answer, size, share
+):
     pair = Pair.from_row(map(float, (*row[:7], *(row[7:] or (0, 0, 1)), *ends, solid)))
     truth = exact_position(pair.lengths)
     assert truth is not answer
@@ -87,7 +89,7 @@ AXES = [(0, 0, 2), (1, 1, 0), (3, 0, 0), (0, 3, 4), (1, 1, 1), (0.01, 0.01, 1), 
 
 @pytest.mark.parametrize("axis", AXES)
 @pytest.mark.parametrize("semi_axes", [(1, 1), (1, 8), (8, 1), (500, 1), (1, 500)])
-def test_a_changed_spheroid_lies_in_the_one_that_is_grown_by_the_bound(axis, semi_axes):
+def test_a_spheroid_with_changed_numbers_lies_within_the_original_one_grown_by_the_bound(axis, semi_axes):
     """The step of the proof that no row of the corpus reaches, which is about an inner number for that reason.
 
     With T A' u + T C' the points of the changed spheroid, |u| ≤ 1, it says that |A⁻¹ (T A' u + T C' − C)| ≤ 1 + η. Each
@@ -117,7 +119,7 @@ def test_a_changed_spheroid_lies_in_the_one_that_is_grown_by_the_bound(axis, sem
         assert 1 - 1e-9 < bound / proved < 1.0011, "η of the module's docstring, rounded up"
 
 
-def test_clearance_of_a_spheroid_too_small_for_float64_to_count_its_radii_is_infinite():
+def test_clearance_of_a_tiny_spheroid_is_infinite_if_its_distance_in_radii_exceeds_float64():
     """1e20 away, it is 1e320 radii away; without its heights it is as far."""
     pair = Pair.from_row((1.0, 1.0, 1e-300, 1e-300, 1e20, 0.0, 0.0, 0.0, 0.0, 1.0, -1.0, 1.0, 0.0))
     decision = decide(pair.lengths)

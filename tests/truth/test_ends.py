@@ -102,13 +102,13 @@ NEEDLE = {
 """It pierces the wall between heights 10⁻⁵⁵ apart: in halves of its length they are apart after 500 steps."""
 
 
-def test_a_needle_that_pierces_the_wall_at_heights_close_together_is_decided_in_seconds():
+def test_passage_of_a_needle_that_pierces_the_wall_at_nearly_equal_heights_takes_less_than_5_seconds():
     before = time.process_time()
     assert hypcheck.passage(**NEEDLE).hit
     assert time.process_time() - before < 5  # 23 s where all roots were counted at each halving, 1.8 s now
 
 
-def test_bounds_of_a_disc_that_tell_nothing_of_a_nearer_wall_decide_nothing_wrongly():
+def test_bounds_by_heights_and_by_least_value_are_right_or_undecided_beside_a_steep_wall():
     pair = Pair.from_row(STEEP)
     position = exact_position(pair.lengths)
     assert heights_position(pair) is position
@@ -131,7 +131,7 @@ def test_a_certificate_beside_ends_proves_its_claim_and_no_other(row):
 
 
 @pytest.mark.parametrize("unit", [1, 8, 1 / 8])
-def test_pieces_with_a_gap_a_negative_mu_or_none_prove_nothing(unit):
+def test_certificate_without_pieces_with_a_gap_or_with_a_negative_number_is_refused(unit):
     pair = pair_of([unit * size for size in (1, 1, 1, 1, 2.5, 0, -0.9)], (0, 3 * unit), 0)
     certificate = prove(pair, decide(pair.lengths))
     assert check_certificate(pair, certificate)
@@ -148,7 +148,7 @@ def test_pieces_with_a_gap_a_negative_mu_or_none_prove_nothing(unit):
 @settings(max_examples=4)
 @example(HAIR)
 @given(rows_of("axis heights"))
-def test_a_spheroid_scaled_by_its_clearance_is_about_to_touch(row):
+def test_a_spheroid_scaled_by_slightly_less_than_its_clearance_is_clear_and_by_slightly_more_in_contact(row):
     pair = Pair.from_row(row)
     if not pair.has_ends:
         return
@@ -168,7 +168,7 @@ def test_the_clearance_of_a_centre_on_wall_or_disc_is_minus_one():
         assert ended_clearance(pair, decide(pair.lengths)) == -1
 
 
-def test_backward_error_beside_a_rim_is_bracketed_by_what_was_moved():
+def test_backward_error_of_a_touch_of_a_rim_moved_by_2_to_the_minus_30_is_bracketed_near_that_number():
     """A touch moved outward by a relative 2⁻³⁰ of x is about so far from contact, and contact from exterior."""
     for change, answer in ((2.0**-30, CONTACT), (-(2.0**-30), EXTERIOR)):
         pair = pair_of((*RIM, 1.25, 1.25, 4.5 * (1 + change), 0, 4), (-1, 3), 0)
@@ -200,7 +200,7 @@ def test_roots_between_two_numbers_are_found_or_excluded(roots, pairs, low, widt
 
 
 @pytest.mark.parametrize(("axis", "square"), [((0, 0, 1), 4), ((3, 0, 4), 2.92), ((0, 1, 0), 1), ((0, 0, 2.0**-60), 4)])
-def test_one_multiplier_proves_a_spheroid_inside_a_solid_body_until_it_reaches_an_end(axis, square):
+def test_a_multiplier_proves_a_spheroid_inside_a_solid_body_only_if_it_reaches_no_end(axis, square):
     """Its highest point is √(b² + (d² − b²) v_z²) above its centre."""
     row = (9, 40, 1, 2, 0, 0, 0, *axis)
     whole = pair_of(row, (-INF, INF), 0)

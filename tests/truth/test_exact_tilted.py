@@ -117,7 +117,7 @@ def test_pair_refuses_an_axis_without_direction():
         Pair(1, 1, 1, 1, 0, 0, 0, 0.0, -0.0, 0.0)
 
 
-def test_lengths_and_axis_each_come_in_the_largest_unit_of_which_they_are_multiples():
+def test_lengths_and_axis_are_integers_in_the_largest_unit_that_divides_them():
     row = [1.0, 2.0, 3.0, 5.0, 7.0, -8.0, 9.0, 3.0, 5.0, -7.0]
     found = Lengths.of(row)
     assert (found.alpha, found.y, found.axis) == (1, -8, (3, 5, -7))
@@ -136,7 +136,7 @@ def test_the_sign_of_a_number_with_a_root_is_exact(w):
             assert sign_with_root(u, r, w) == (value > 0) - (value < 0), (u, r)
 
 
-def test_the_signs_of_derivatives_at_the_end_of_the_interval_are_those_of_many_digits():
+def test_signs_of_derivatives_at_the_end_of_the_interval_equal_those_computed_to_400_bits():
     with mpmath.workprec(400):
         for row in random_rows(60, seed=4):
             F = quartic(Lengths.of(row))

@@ -25,7 +25,7 @@ def one_by_one(rows):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", FAMILIES)
-def test_distance_exponents_equal_those_of_exact_changes(name):
+def test_distance_exponents_of_a_block_equal_those_computed_exactly_row_by_row(name):
     rows = FAMILIES[name].rows(11, 7)
     assert flip_exponents(rows).tolist() == one_by_one(rows)
 

@@ -24,7 +24,7 @@ def tilted_cases(name):
 
 
 @pytest.mark.parametrize("name", FAMILIES)
-def test_lower_end_never_exceeds_a_change_that_is_proved_to_be_enough_and_is_found_where_the_error_is_large(name):
+def test_lower_end_never_exceeds_a_proved_sufficient_change_and_is_positive_for_large_errors(name):
     cases = tilted_cases(name)
     compared = found = 0
     for answer in Position:
@@ -55,7 +55,7 @@ def test_no_sampled_change_within_the_lower_end_makes_the_answer_right():
                 assert position == truth.position if answer is Position.CONTACT else position != answer
 
 
-def test_lower_ends_of_many_rows_equal_those_of_each_row_alone():
+def test_lower_ends_of_many_rows_equal_those_computed_row_by_row():
     cases = tilted_cases("tilted-symmetric")[:40]
     goals = [goal_of(case.position, Position(1 if case.position is not Position.EXTERIOR else 0)) for case in cases]
     array = np.array([case.row for case in cases])
@@ -64,7 +64,7 @@ def test_lower_ends_of_many_rows_equal_those_of_each_row_alone():
     assert np.count_nonzero(together) > 30
 
 
-def test_quick_bracket_agrees_with_the_frozen_one_and_is_narrow_where_first_derivatives_tell():
+def test_quick_bracket_overlaps_the_frozen_one_and_is_narrow_for_small_errors():
     narrow = 0
     cases = tilted_cases("tilted-uniform")[:4] + tilted_cases("tilted-near-contact")[:6]
     for case in cases:

@@ -27,7 +27,7 @@ ROWS = [
 
 
 @pytest.mark.parametrize("operation", [operator.add, operator.sub, operator.mul, operator.truediv])
-def test_enclosures_hold_the_exact_result_of_each_pair_of_their_numbers(operation):
+def test_an_operation_on_enclosures_contains_the_exact_results_for_their_ends(operation):
     draw = random.Random(1)  # noqa: S311
     for _ in range(200):
         ends = [sorted(draw.choice((draw.uniform(-2, 2), draw.gauss(0, 1e-160), 0.0)) for _ in "ab") for _ in "ab"]
@@ -92,7 +92,7 @@ def enough_by_sizes(row, goal, truth):
 
 
 @pytest.mark.parametrize("row", ROWS)
-def test_lower_ends_are_at_most_a_sufficient_change_of_the_sizes_and_above_a_fifth_of_it(row):
+def test_lower_ends_are_between_a_fifth_of_a_sufficient_change_of_the_sizes_and_that_change(row):
     truth = position(Lengths.of(row))
     answers = [Position.CONTACT] if truth is not Position.CONTACT else [Position.EXTERIOR, Position.INTERIOR]
     for answer in answers:
@@ -109,7 +109,7 @@ def test_rows_that_float64_cannot_scale_exactly_have_no_lower_end():
     assert float_boxes.lower_ends(row, [goal_of(Position.EXTERIOR, Position.CONTACT)]).tolist() == [0.0]
 
 
-def test_a_cut_box_is_two_halves_that_together_are_the_box():
+def test_the_two_halves_of_a_box_cover_the_box_and_share_its_middle():
     row = np.array([[1.0, 1.0, 0.5, 0.25, -1.1, 0.0, 1.7, 0.3, -0.6, 0.0]])
     whole = float_boxes._boxes(row, [Goal(Position.EXTERIOR, True)], np.array([0.125]))
     pull = np.array([[1.0], [100.0], [-3.0], [0.0], [0.0], [0.0]])  # z costs most: y has no width
@@ -120,7 +120,7 @@ def test_a_cut_box_is_two_halves_that_together_are_the_box():
     assert (one.high[rest].tolist(), other.low[rest].tolist()) == (whole.high[rest].tolist(), whole.low[rest].tolist())
 
 
-def test_a_lower_end_at_the_least_step_is_excluded_as_any_other_is():
+def test_no_change_within_a_lower_end_of_the_least_size_makes_the_answer_right():
     goal = Goal(Position.EXTERIOR, leave=False)
     rows = np.array([[1, 4, 0.125, 0.25, 1.125 - k * 2.0**-52, 0, 0, 0, 1, 0] for k in range(140, 240, 5)])
     ends = float_boxes.lower_ends(rows, [goal] * len(rows))

@@ -45,7 +45,7 @@ def test_the_float_filter_decides_ordinary_rows_of_every_position():
         assert (proved[expected == position] == position).mean() > 0.999
 
 
-def test_rows_with_heights_whose_axis_has_equal_parts_are_tilted():
+def test_the_float_filter_treats_rows_with_heights_and_an_axis_of_equal_components_as_tilted():
     rows = np.array([[*row, 1.0, 1.0, 1.0, -3.0, np.inf, 0.0] for row in questions("axis").rows[:60, :7].tolist()])
     assert positions(rows).tolist() == [exact_position(Pair.from_row(row).lengths) for row in rows.tolist()]
     upright = rows.copy()

@@ -75,7 +75,7 @@ def test_bounds_of_the_least_value_hold_for_every_point_and_are_as_near_as_reque
         assert n_of(pair, border(pair, found.point)).min() >= found.lower * (1 - 1e-13) - 1e-12
 
 
-def test_a_search_for_the_side_alone_ends_when_it_is_known():
+def test_a_search_that_is_asked_only_for_the_side_ends_as_soon_as_the_side_is_certain():
     for pair in drawn(16, seed=3):
         side, whole = least.to_border(pair, side_alone=True), least.to_border(pair)
         assert side.meets is whole.meets
@@ -107,7 +107,7 @@ def in_cells(pair, some, draw):
 
 
 @pytest.mark.parametrize("stage", STAGES)
-def test_the_bound_of_a_cell_is_below_all_that_the_cell_has(stage):
+def test_the_lower_bound_of_a_cell_is_below_every_value_in_the_cell(stage):
     """The step of the proof: Taylor's formula with the largest second derivatives, in cells of any size."""
     draw = np.random.default_rng(5)
     for pair in drawn(20, seed=4):
@@ -123,7 +123,7 @@ def test_the_bound_of_a_cell_is_below_all_that_the_cell_has(stage):
 
 
 @pytest.mark.parametrize("stage", STAGES)
-def test_the_bound_of_a_cell_at_a_rim_pays_for_no_height_beyond_it(stage):
+def test_the_lower_bound_of_a_cell_at_a_rim_takes_no_account_of_heights_beyond_the_rim(stage):
     """A bound is below the corners of its cell by no more than the terms of second order of both, and roundings."""
     draw = np.random.default_rng(6)
     for pair in drawn(20, seed=14):
@@ -136,7 +136,7 @@ def test_the_bound_of_a_cell_at_a_rim_pays_for_no_height_beyond_it(stage):
         assert (lowest - found.below <= 2 * (found.loose + found.error) * (1 + 1e-6) + 1e-12 * (1 + lowest)).all()
 
 
-def test_parts_of_cells_hold_all_that_the_cells_hold_with_room_for_the_roundings_of_middles():
+def test_parts_of_a_cut_cell_cover_the_cell_in_spite_of_the_rounding_of_their_middles():
     draw = np.random.default_rng(8)
     for pair in drawn(20, seed=9):
         some = cells(pair, draw, 50)
@@ -196,7 +196,7 @@ def exactly(pair, w, turn):
 
 
 @pytest.mark.parametrize("tilted", [False, True])
-def test_hairs_from_a_rim_a_disc_or_the_wall_are_decided_and_as_the_exact_rule_says(tilted):
+def test_rows_very_near_a_rim_a_disc_or_the_wall_have_the_exact_position_by_the_least_value(tilted):
     rows = ended_agreement.hairs(np.random.default_rng(11), 40, tilted=tilted)
     for row in rows.tolist():
         pair = Pair.from_row(row)
@@ -204,7 +204,7 @@ def test_hairs_from_a_rim_a_disc_or_the_wall_are_decided_and_as_the_exact_rule_s
 
 
 @pytest.mark.parametrize(("beyond", "position"), [("1e-20", Position.EXTERIOR), ("-1e-20", Position.CONTACT)])
-def test_a_part_in_ten_to_the_twenty_beside_a_rim_is_seen(beyond, position):
+def test_the_least_value_decides_a_centre_a_relative_1e_minus_20_beside_contact_with_a_rim(beyond, position):
     """The centre is 15/4 + 1 + `beyond` from the axis: y is chosen so that √(x² + y²) is that."""
     x = 4.75 - 2.0**-50
     with mp.workprec(200):
@@ -240,7 +240,7 @@ def test_least_values_are_those_found_by_hand(row, ends, solid, value):
     assert found.lower <= value <= found.upper <= found.lower * (1 + 1e-6)  # a whole ring is nearest: many cells
 
 
-def test_bounds_tell_nothing_of_lengths_beyond_their_range():
+def test_the_search_for_the_least_value_gives_no_bounds_for_lengths_beyond_its_range():
     assert least.to_border(Pair.from_row((1, 1, 1, 1e-70, 3, 0, 0, 0, 0, 1, -1, 1, 0))) is least.NOTHING
     assert least.to_border(Pair.from_row((1e70, 1, 1, 1, 3, 0, 0, 0, 0, 1, -1, 1, 0))) is least.NOTHING
 
@@ -280,7 +280,7 @@ def test_positions_by_the_least_value_are_those_found_by_hand(row, expected):
     assert least.position(Pair.from_row(row)) is expected
 
 
-def test_the_bound_of_a_cell_at_a_narrow_waist_pays_for_how_the_wall_bends_there():
+def test_the_lower_bound_of_a_cell_at_a_narrow_waist_covers_the_curvature_of_the_wall():
     """Far from the axis, beside a waist whose radius of curvature is a thousandth of that distance."""
     draw = np.random.default_rng(3)
     pair = Pair.from_row((0.125, 0.0125, 4, 4, 5, 0, 0, 0, 0, 1, -1, 1, 0))
@@ -294,7 +294,7 @@ def test_a_spheroid_much_smaller_than_the_roundings_of_the_wall_is_left_undecide
     assert least.position(Pair.from_row((1, 1, 2.0**-60, 2.0**-60, 1 + 2.0**-50, 0, 0, 0, 0, 1, -1, 1, 0))) is None
 
 
-def test_the_error_of_a_value_holds_any_error_of_the_coordinates_of_which_it_is_the_square():
+def test_the_error_of_a_squared_length_covers_every_allowed_error_of_its_coordinates():
     """The step of the proof: n is off by e = s (|X| + |C|)/m at most, and so n² by e (2n + e)."""
     draw = np.random.default_rng(9)
     pair = Pair(1.0, 2.0, 2.0**-40, 2.0**-38, 3.0, 4.0, 12.0)

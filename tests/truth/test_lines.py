@@ -89,7 +89,7 @@ def test_lines_decide_most_positions_in_a_tower():
 
 
 @given(st.tuples(*[st.floats(2.0**-100, 2.0**100)] * 4), st.integers(-2, 20))
-def test_constants_of_a_line_stay_in_range(some, reach):
+def test_constants_of_lines_lie_between_2_to_the_minus_600_and_2_to_the_600(some, reach):
     found = lines_for_sizes(*some, reach)
     numbers = [number for line in (*found.exterior, *found.interior) for number in line]
     assert all(2.0**-600 < number < 2.0**600 for number in numbers)

@@ -36,7 +36,7 @@ pytest.importorskip("fcl", reason="python-fcl has no wheel here")
         (4, 10, 1, 1, 3, 4, 1e-160),
     ],
 )
-def test_mesh_oracle_leaves_tangencies_and_pairs_within_float64_of_one_undecided(row):
+def test_mesh_oracle_leaves_tangencies_and_pairs_within_7e_minus_15_radii_of_one_undecided(row):
     found = verdict(Pair(*row))
     assert found.outcome is MeshOutcome.UNDECIDED
     assert found.position is None
@@ -69,7 +69,7 @@ KINDS = {
 
 
 @pytest.mark.parametrize(("axis", "ends"), KINDS.values(), ids=KINDS)
-def test_mesh_oracle_knows_the_wall_all_around_and_high_above_and_far_below_the_waist(axis, ends):
+def test_mesh_oracle_is_right_beside_the_wall_at_all_angles_and_far_above_and_below_the_waist(axis, ends):
     """A small spheroid on the wall, whose radius is 2 √(1 + (z/3)²), and clear of it on either side."""
     for turn in range(8):
         for z in (-7.5, -0.5, 2.5):
@@ -129,7 +129,7 @@ def test_mesh_oracle_is_undecided_if_fcl_contradicts_it(row, said):
     assert found.triangles > 0
 
 
-def test_mesh_oracle_calls_a_surface_out_of_reach_clear_without_a_mesh():
+def test_mesh_oracle_calls_a_pair_far_apart_clear_without_making_a_mesh():
     found = verdict(Pair(1, 1, 1, 1, 100, 0, 0))
     assert (found.position, found.levels, found.triangles, found.lower, found.upper) == (1, 0, 0, 1.25, math.inf)
 

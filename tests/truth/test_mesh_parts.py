@@ -19,7 +19,7 @@ from tests.support.inside import MeshOutcome
 @pytest.mark.slow
 @examples(100)
 @given(rows_of(*everyday(-3, 3)), st.fractions(0, 1))
-def test_window_of_the_meridian_holds_every_point_within_reach(row, share):
+def test_window_of_the_meridian_contains_every_point_within_the_search_distance(row, share):
     meridian = meridian_of(Pair(*row[:5], 0.0, row[6]))
     center = (abs(Fraction(row[4])) / Fraction(row[2]), abs(Fraction(row[6])) / Fraction(row[3]))
     window = window_of(meridian)
@@ -49,11 +49,11 @@ def test_window_of_the_meridian_holds_every_point_within_reach(row, share):
         (((1.0, 2.0), (1.0, 2.0)), (1.0, 2.0)),
     ],
 )
-def test_the_nearest_point_of_a_segment_is_at_its_foot_or_at_an_end(ends, nearest):
+def test_the_nearest_point_of_a_segment_is_the_foot_of_the_perpendicular_or_an_end(ends, nearest):
     assert mesh_meridian._nearest_on(*ends) == nearest
 
 
-def test_a_segment_without_length_is_left_out_of_a_ribbon_and_another_becomes_a_square():
+def test_a_ribbon_omits_a_segment_without_length_and_has_two_triangles_for_another_segment():
     vertices, triangles = mesh_meridian.ribbon([((1.0, 2.0), (1.0, 2.0)), ((3.0, 5.0), (3.0, 9.0))])
     assert vertices.tolist() == [[3, -2, 5], [3, 2, 5], [3, 2, 9], [3, -2, 9]]
     assert triangles.tolist() == [[0, 1, 2], [0, 2, 3]]
@@ -68,7 +68,7 @@ def test_a_segment_without_length_is_left_out_of_a_ribbon_and_another_becomes_a_
         ((4, 4, 1, 1, 3.1, 0, 0), False, False),
     ],
 )
-def test_a_mesh_is_nearer_than_the_wall_where_the_pair_is_clear_and_farther_where_it_is_in_contact(row, outside, clear):
+def test_a_mesh_of_a_clear_pair_is_nearer_than_the_wall_and_a_mesh_of_a_pair_in_contact_farther(row, outside, clear):
     """Chords have their ends on the wall; tangents meet within it."""
     search = mesh_meridian.refine(Pair(*map(float, row)))
     x, _, z = (search.meshes[0][0] + (row[4], 0, 0)).T

@@ -37,7 +37,7 @@ def test_mesh_oracle_says_contact_on_the_rim_of_a_tree_that_ends_and_exterior_ab
     assert asked(RIM, 2.2001, -1, math.inf, solid, axis=axis).position is Position.CONTACT
 
 
-def test_mesh_oracle_knows_the_disc_of_a_solid_that_a_spheroid_touches_within_its_rim():
+def test_mesh_oracle_counts_the_disc_of_a_solid_body_and_not_the_opening_of_an_open_one():
     inside = (5.0, 5.0, 0.5, 0.5)
     for solid, position in ((0, Position.INTERIOR), (1, Position.CONTACT)):
         assert asked(0.0, 1.0, -3, 1.2, solid, sizes=inside).position is position
@@ -56,14 +56,14 @@ def test_mesh_oracle_finds_a_wall_above_or_below_the_center_of_a_disk_that_stand
     assert asked(0.3, -2.1 * side, low, high, 0, **disk).position is Position.EXTERIOR
 
 
-def test_mesh_oracle_says_contact_where_a_short_wall_is_all_within_the_spheroid():
+def test_mesh_oracle_says_contact_if_a_short_wall_lies_wholly_within_the_spheroid():
     assert asked(0.0, 0.0, -0.01, 0.01, 0, sizes=(0.5, 1.0, 2.0, 2.0)).position is Position.CONTACT
     assert asked(0.0, 0.0, -0.01, 0.01, 0, sizes=(0.5, 1.0, 0.4, 0.4)).position is Position.INTERIOR
 
 
 @pytest.mark.parametrize("solid", [0, 1])
 @pytest.mark.parametrize("axis", [(0.0, 0.0, 1.0), (0.3, 0.4, 0.5)])
-def test_meshes_of_a_clear_pair_hold_the_wall_and_the_discs_between_them(solid, axis):
+def test_the_mesh_that_fcl_checks_for_a_clear_pair_separates_the_wall_and_discs_from_the_spheroid(solid, axis):
     """The bodies that FCL is asked about hold the wall: they are beyond the ball, and as near as any of its points."""
     b, d, x, z, top = 0.5, 0.25, 1.55, 0.35, 0.5
     pair = Pair.from_row((1.0, 2.0, b, d, x, 0.0, z, *axis, -1.0, top, solid))
@@ -80,7 +80,7 @@ def test_meshes_of_a_clear_pair_hold_the_wall_and_the_discs_between_them(solid, 
 
 
 @pytest.mark.parametrize("x", [0.4, 1.6])
-def test_contact_is_shown_by_one_mesh_inside_the_hyperboloid_and_one_outside_both_between_its_ends(x):
+def test_contact_beside_ends_is_shown_by_one_mesh_inside_and_one_outside_both_between_the_ends(x):
     draw = np.random.default_rng(2)
     search = refine(Pair.from_row((1.0, 2.0, 1.0, 1.0, x, 0.3, 0.5, 0, 0, 1, -1.0, 0.75, 0)))
     assert search.outcome is MeshOutcome.CONTACT
@@ -129,13 +129,13 @@ def test_tilted_mesh_oracle_leaves_extreme_ratios_of_lengths_undecided():
     assert verdict(Pair.from_row((1, 1, 1e-300, 1e-290, 2, 0, 0, 1, 2, 3))).position is None
 
 
-def test_tilted_mesh_oracle_says_contact_at_once_where_the_centre_is_on_the_surface():
+def test_tilted_mesh_oracle_says_contact_after_one_level_if_the_centre_is_on_the_surface():
     found = verdict(Pair.from_row((1.0, 4.0, 0.125, 0.25, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0)))
     assert (found.position, found.levels) == (Position.CONTACT, 1)
 
 
 @pytest.mark.parametrize("row", [TILTED, (*TREE, RIM, 0, 2.2001, 0, 0, 1, -1, 2, 0)])
-def test_corners_of_cells_are_within_their_slack_of_the_exact_ones(row):
+def test_computed_corners_of_cells_are_within_their_stated_error_of_the_exact_ones(row):
     pair = Pair.from_row(row)
     scene = wall.scene_of(pair)
     cells = scene.whole()[:40]
@@ -160,7 +160,7 @@ def exact_corner(scene, cell, place):
 
 @pytest.mark.parametrize("axis", [(3.0, 0.0, 4.0), (4.0, 0.0, -3.0), (0.0, 1.0, 0.0)])
 @pytest.mark.parametrize(("b", "d"), [(1.0, 0.25), (0.25, 1.0)])
-def test_the_mesh_covers_all_heights_of_the_spheroid_and_not_many_more(axis, b, d):
+def test_the_mesh_covers_the_heights_of_the_spheroid_and_less_than_half_as_much_more(axis, b, d):
     """With the axis v these are √(b² (1 − v_z²) + d² v_z²) above and below its centre."""
     scene = wall.scene_of(Pair(2.0, 3.0, b, d, 1.0, 0.5, 0.25, *axis, -9.0, 9.0))
     share = axis[2] ** 2 / sum(part * part for part in axis)

@@ -244,7 +244,7 @@ def test_clearances_of_a_batch_equal_clearances_of_single_pairs():
     assert batch.stage.dtype == np.uint8
 
 
-def test_positions_without_clearances_agree_and_need_fewer_precise_answers():
+def test_positions_computed_without_clearances_agree_and_need_fewer_high_precision_rows():
     rows = mixed_rows(6000, seed=2)
     batch, alone = clearances(rows), positions(rows)
     assert (alone.position == batch.position).all()
@@ -279,7 +279,7 @@ def test_nearest_oracle_returns_nothing_for_no_rows_and_refuses_invalid_rows():
         positions(rows)
 
 
-def test_nearest_of_one_pair_loads_no_numpy():
+def test_nearest_of_one_pair_does_not_load_numpy():
     script = (
         "import sys; from hypcheck.geometry.pair import Pair; from hypcheck.truth.nearest import nearest;"
         "nearest(Pair(1, 2, 1, 1, 2.5, 0, 0)); sys.exit('numpy' in sys.modules)"

@@ -107,7 +107,7 @@ def test_the_bound_of_the_dual_is_at_least_what_its_derivation_says(factor):
     assert seen > 200
 
 
-def test_float_stage_claims_no_position_from_a_multiplier_beyond_the_poles():
+def test_float_stage_is_not_certain_of_a_position_if_the_multiplier_is_beyond_the_poles():
     """The dual is no bound there; a solver that strays must not be believed."""
     scaled = nearest_rows._scale(mixed_rows(300, seed=13))
     with np.errstate(all="ignore"):
@@ -136,7 +136,7 @@ def test_float_stage_takes_the_interval_end_as_the_maximum_only_where_that_is_ce
     assert mismatches(clearances(rows), rows) == 0
 
 
-def test_clearances_stay_right_if_newton_starts_badly_and_takes_short_steps(monkeypatch):
+def test_clearances_are_right_even_if_newton_starts_badly_and_takes_short_steps(monkeypatch):
     """Short steps leave an error far above what the last of them suggests: the signs of D′ have to notice."""
     rows = mixed_rows(30, seed=12)
     full = [nearest(Pair.from_row(row)) for row in rows.tolist()]
@@ -177,7 +177,7 @@ def test_reference_clearance_of_the_tests_is_accurate_beyond_float64():
         assert abs((clearance - 0.5) * 2**200 + mpf(1) / 5) < mpf(10) ** -50
 
 
-def test_the_gap_is_within_its_bound_where_nothing_but_roundings_is_left():
+def test_the_gap_of_the_dual_is_within_its_error_bound_where_only_roundings_matter():
     """With the poles far away the gap is F²/(2|F′|), which float64 rounds."""
     rng = np.random.default_rng(22)
     slope, curvature = 2.0 ** rng.uniform(-60, 5, (2, 500))
@@ -189,7 +189,7 @@ def test_the_gap_is_within_its_bound_where_nothing_but_roundings_is_left():
 
 
 @pytest.mark.parametrize("order", [-40, -3, 3, 60])
-def test_the_clearance_of_an_exactly_known_squared_distance_is_within_its_bound(order):
+def test_the_clearance_computed_from_an_exact_squared_distance_is_within_its_error_bound(order):
     rng = np.random.default_rng(23)
     high = 2.0**order * rng.uniform(1, 4, 300)
     squared = two_sum(high, high * 2.0**-53 * rng.uniform(-1, 1, 300))

@@ -33,12 +33,12 @@ LEAST = math.ulp(0.0)
         (-(1 << 1100), 1 - (1 << 1100), 10, -math.inf),
     ],
 )
-def test_an_enclosure_has_a_float_where_both_ends_round_to_it_and_0_is_not_inside(low, high, bits, rounded):
+def test_an_enclosure_is_rounded_to_a_float_only_if_both_ends_round_to_it_and_0_is_not_inside(low, high, bits, rounded):
     assert Enclosure(low, high, bits).rounded == rounded
 
 
 @pytest.mark.parametrize(("odd", "even"), [(2**53 + 1, 2**53), (2**53 + 3, 2**53 + 4)])
-def test_very_narrow_enclosure_of_a_rounding_tie_is_rounded_as_the_tie(odd, even):
+def test_very_narrow_enclosure_around_a_rounding_tie_is_rounded_to_the_even_neighbour(odd, even):
     unit, bits = 1 << 400, 400
     assert Enclosure(odd * unit - 1, odd * unit + 1, bits).rounded == even
     assert Enclosure((odd << 190) - 1, (odd << 190) + 1, 190).rounded is None
@@ -64,20 +64,23 @@ def duals():
     return [(row, Dual.of(Pair.from_row(row).lengths)) for row in some]
 
 
-def test_the_way_of_the_start_from_0_has_odds_right_to_a_factor_of_two():
-    """The optimum is at least that far, and is not beyond twice the odds, by exact signs of the slope."""
+def test_the_start_value_has_the_right_ratio_of_distances_to_0_and_to_the_end_within_a_factor_of_two():
+    """That ratio, share/(1 − share), is at most the one of the optimum, and twice it is at least that of the optimum.
+
+    The signs of the slope, which are exact, show on which side of a place the optimum lies.
+    """
     for row, dual in duals():
         side = dual.direction(0, 0)
         L, shift, at_end = nearest._start(dual, side, 96)
         assert not at_end, row
         end = side * dual.end(side, shift)
         share = Fraction(L, end)
-        twice = 2 * share / (1 + share)  # of doubled odds share/(1 − share)
+        twice = 2 * share / (1 + share)  # twice/(1 − twice) is twice share/(1 − share)
         assert dual.direction(L, shift) == side, row
         assert dual.direction(round(end * (twice + Fraction(1, 2**12) * (1 - twice))), shift) == -side, row
 
 
-def test_ends_are_the_last_multiples_within_the_interval_on_either_side():
+def test_end_of_a_dual_is_the_last_multiple_of_the_step_within_the_interval_on_either_side():
     for row, dual in duals():
         for shift in (0, 7, 300):
             for side in (1, -1):
@@ -86,7 +89,7 @@ def test_ends_are_the_last_multiples_within_the_interval_on_either_side():
                 assert not dual.inside(side * (end + 1), shift), row
 
 
-def test_the_general_dual_of_an_upright_pair_is_the_upright_one():
+def test_the_general_dual_of_an_upright_pair_has_the_values_and_slopes_of_the_upright_dual():
     """Value and slope at some places, from two formulas; the unit of the general one is another."""
     dice = random.Random(9)  # noqa: S311
     for row in rows(40, 1, dice):

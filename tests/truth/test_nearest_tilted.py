@@ -59,7 +59,7 @@ SPECIAL = {
 
 
 @pytest.mark.parametrize("groups", SPECIAL)
-def test_clearances_of_many_rows_are_those_of_each_pair_alone_for_axes_of_any_length(groups):
+def test_clearances_of_many_tilted_rows_equal_those_of_single_pairs_for_axes_of_any_length(groups):
     """Few of them ask for more than double-double arithmetic."""
     rows = np.concatenate([questions(groups).rows[::60], SPECIAL[groups]])
     found = clearances(rows)
@@ -77,6 +77,6 @@ def test_clearances_of_many_rows_are_those_of_each_pair_alone_for_axes_of_any_le
         assert (again.stage == found.stage[exact]).all()
 
 
-def test_a_nearest_point_says_whether_the_surfaces_touch():
+def test_tangent_is_true_for_a_nearest_point_only_if_the_surfaces_touch_without_crossing():
     for x, tangent in ((4, True), (math.nextafter(4, 5), False), (3.5, False)):
         assert nearest.nearest(Pair(1, 1, 3, 1, x, 0, 0)).tangent is tangent

@@ -21,7 +21,7 @@ def one_by_one(rows):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", TILTED_FAMILIES)
-def test_certain_float_clearances_and_positions_equal_those_exact_enclosures(name):
+def test_float_clearances_and_positions_marked_as_certain_equal_those_of_exact_enclosures(name):
     rows = TILTED_FAMILIES[name].rows(7, 40)
     found = nearest_tilted.decide(rows)
     for number, each in enumerate(one_by_one(rows)):
@@ -67,7 +67,7 @@ def test_answers_are_refused_if_the_kernel_and_the_nearest_point_disagree_about_
         answers(rows)
 
 
-def test_the_bound_below_all_eigenvalues_of_the_pencil_is_below_them_and_not_0_where_they_are_far_above():
+def test_the_lower_bound_of_the_eigenvalues_of_the_pencil_holds_and_is_positive_if_they_are_large():
     """A step of the proof: it is what the bound of the nearest point's error is divided by."""
     draw = np.random.default_rng(3)
     for name in ("tilted-uniform", "tilted-stiff", "tilted-slight"):

@@ -48,7 +48,7 @@ def test_proof_found_for_a_sweep_passes_its_check(row):
         assert certificate.pieces[-1][1] == first[0]
 
 
-def test_points_of_a_proof_of_contact_have_few_digits():
+def test_points_of_a_proof_of_contact_on_a_sweep_have_denominators_below_2_to_the_128():
     lengths = []
     for row in random_ways(60):
         _, first, certificate = prove_passage(row)
@@ -74,14 +74,14 @@ def test_a_grazing_sweep_is_proved_by_the_double_root_of_one_time():
 
 
 @pytest.mark.parametrize("row", [(*row[:4], *row[4:7], *row[4:7], *row[7:]) for row in TWO_POINTS[::3]])
-def test_a_tangency_in_two_points_is_proved_where_nothing_moves(row):
+def test_a_tangency_in_two_points_on_a_sweep_of_length_0_is_proved(row):
     row = tuple(map(float, row))
     found, first, certificate = prove_passage(row)
     assert found.grazes
     assert check_passage(row, certificate, first)
 
 
-def test_a_sweep_that_ends_in_tangency_is_proved_by_its_end():
+def test_a_sweep_that_ends_in_tangency_is_proved_at_the_time_1():
     row = (*GRAZING[:7], 0.0, *GRAZING[8:])
     found, first, certificate = prove_passage(row)
     assert found.first[1] == certificate.time == first[1] == 1
@@ -107,14 +107,14 @@ def test_damaged_proof_of_a_clear_sweep_is_refused():
     assert not check_passage(OUTSIDE, certificate, (0.5, 0.5))
 
 
-def test_piece_of_a_proof_that_reaches_over_a_contact_is_refused():
+def test_piece_of_a_proof_whose_stretch_contains_a_contact_is_refused():
     """The middle coefficient decides: φ is positive at both ends of [0, 1]."""
     row = (2.0, 3.0, 1.0, 1.0, -4.0, 2.0, 0.0, 4.0, 2.0, 0.0)
     for multiplier in (Fraction(1), Fraction(2), Fraction(3)):
         assert clear_until(row, PassageCertificate(((multiplier, Fraction(1)),))) is None
 
 
-def test_a_piece_that_ends_after_the_sweep_proves_no_time():
+def test_piece_of_a_proof_that_ends_after_the_end_of_the_sweep_is_refused():
     """The ball stays outside on the straight line beyond the way, too."""
     clear = (2.0, 3.0, 1.0, 1.0, 4.0, 0.0, 0.0, 4.0, 1.0, 0.0)
     multiplier = prove_passage(clear)[2].pieces[0][0]
@@ -140,7 +140,7 @@ def test_damaged_proof_of_contact_on_a_sweep_is_refused():
     assert not check_passage(TUNNEL, replace(certificate, pieces=certificate.pieces[:1]), first)
 
 
-def test_a_proof_whose_minors_are_1_holds():
+def test_a_proof_of_a_clear_sweep_whose_minors_are_1_is_accepted():
     row = (1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 4.0, 0.0, 0.0, 5.0)
     assert clear_until(row, PassageCertificate(((Fraction(-1, 2), Fraction(1)),))) == 1
 
@@ -149,7 +149,7 @@ def test_a_proof_whose_minors_are_1_holds():
     ("low", "high"),
     [("3/10", "4/10"), ("0/1", "1/9"), ("314/100", "315/100"), ("7/3", "7/3"), ("2/7", "5/17"), ("5/2", "7/2")],
 )
-def test_the_simplest_fraction_of_a_stretch_has_the_least_denominator(low, high):
+def test_simplest_returns_a_fraction_of_the_least_denominator_between_two_numbers(low, high):
     low, high = Fraction(low), Fraction(high)
     found = simplest(low, high)
     assert low <= found <= high

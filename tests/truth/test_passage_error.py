@@ -31,7 +31,7 @@ def test_a_right_answer_has_no_size_error():
 
 
 @pytest.mark.parametrize("end", [(4.0, 3.0, 0.0), (0.0, 3.0, 0.0)])
-def test_the_size_error_of_clear_is_zero_where_a_sweep_only_touches(end):
+def test_the_size_errors_of_both_answers_are_0_if_a_sweep_only_touches(end):
     row = (2.0, 3.0, 1.0, 1.0, -4.0, 3.0, 0.0, *end)
     assert size_error(row, True).upper == size_error(row, False).upper == 0
 
@@ -47,7 +47,7 @@ _centers = st.tuples(*[st.integers(-6144, 6144).map(lambda n: n / 1024)] * 3)
 
 @examples(40)
 @given(_sizes, _centers, _centers, st.sampled_from([0.25, 0.5, 0.9, 1.1, 1.5, 4.0]))
-def test_larger_spheroid_never_loses_contact_on_the_way(sizes, start, end, scale):
+def test_a_larger_spheroid_has_contact_on_a_sweep_if_a_smaller_one_has(sizes, start, end, scale):
     row = (*sizes, *start, *end)
     hit = hits_at_size(row)
     other = hits_at_size(row, Fraction(scale))

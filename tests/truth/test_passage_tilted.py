@@ -126,7 +126,7 @@ def test_tilted_sweep_that_passes_the_ring_is_clear(row):
 @pytest.mark.parametrize(
     "row", [pytest.param(row, marks=[pytest.mark.thorough] * (place % 3 > 0)) for place, row in enumerate(TWO_POINTS)]
 )
-def test_a_sweep_beside_a_tangency_in_two_points_grazes_there_alone(row):
+def test_a_sweep_through_a_tangency_in_two_points_grazes_at_that_time_only(row):
     found = passage(*way_through(row, beside(row)[0], Fraction(1, 2**20)))
     assert found.hit
     assert found.grazes
@@ -207,7 +207,7 @@ def rationals(*numbers):
 
 @pytest.mark.parametrize("roots", [(Fraction(1, 3), 2), (-2, Fraction(1, 3)), (Fraction(1, 3),) * 2, (Fraction(1, 3),)])
 @pytest.mark.parametrize("g", [(1, -1, 0), (0, 3, 2), (-5, 4, 1), (2, 1, -1), (0, 0, -3), (3, -7, 2)])
-def test_sign_at_the_one_root_between_two_times_is_that_of_the_value_there(roots, g):
+def test_sign_at_the_only_root_between_two_times_equals_that_of_the_exact_value_at_the_root(roots, g):
     """f has the root 1/3, once or twice, alone or with another; where no root is between, the sign is 0."""
     total = (1, -sum(roots), roots[0] * roots[1]) if len(roots) > 1 else (0, 1, -roots[0])
     time = Fraction(1, 3)
@@ -228,7 +228,7 @@ def test_sign_at_the_one_root_between_two_times_is_that_of_the_value_there(roots
 @pytest.mark.parametrize(
     ("low", "high", "ring"), [(0, 1, True), (Fraction(1, 2), 1, False), (-1, Fraction(1, 4), False)]
 )
-def test_ring_is_seen_only_at_a_time_between_the_two(low, high, ring):
+def test_ring_between_two_times_is_found_only_if_its_time_lies_between_them(low, high, ring):
     """F(ℓ) = (3 t − 1)², F′(ℓ) = 3 t − 1 and F″(ℓ) = 1 > 0: the ring at 1/3."""
     at_pole, slope, curvature = rationals(9, -6, 1), rationals(0, 3, -1), rationals(0, 0, 1)
     assert _ring_between(at_pole, slope, curvature, Fraction(low), Fraction(high)) is ring
@@ -246,7 +246,7 @@ def test_a_sweep_without_length_grazes_where_it_touches_and_a_sweep_that_leaves_
 
 
 @pytest.mark.parametrize("axis", [None, (1.0, 0.0, 2.0)])
-def test_the_positions_at_both_ends_of_a_sweep_beside_an_end_are_reported(axis):
+def test_passage_through_the_mouth_of_a_tower_reports_the_positions_at_its_start_and_end(axis):
     """From above the mouth into the body, and back."""
     above, within = (0.5, 0.0, 9.0), (0.5, 0.0, 1.0)
     for start, end in ((above, within), (within, above)):
@@ -267,7 +267,7 @@ def test_the_next_subresultant_replaces_a_discriminant_that_is_always_0():
     assert 0 not in ratios
 
 
-def test_a_coin_that_falls_past_the_narrowest_place_touches_it_for_an_instant():
+def test_a_disc_on_its_edge_that_passes_the_throat_with_exact_fit_grazes_it_at_one_time():
     """It stands across x, 2 in radius, its centre at y = 1: at the height 0 it reaches y = 3, where the throat ends."""
     found = passage((3, 2, 2, 1), (0, 1, -3), (0, 1, 3), (1, 0, 0))
     assert (found.hit, found.first, found.grazes) == (True, (Fraction(1, 2), Fraction(1, 2)), True)

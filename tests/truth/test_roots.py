@@ -127,7 +127,7 @@ nonzero = integers.filter(bool)
 
 
 @given(st.one_of(st.tuples(nonzero, integers, nonzero), st.tuples(nonzero, integers, integers, nonzero)))
-def test_enclosures_of_roots_of_random_polynomials_hold_one_root_each_of_another_algebra(f):
+def test_each_enclosure_of_a_root_contains_exactly_one_root_by_the_count_of_sympy(f):
     polynomial = sympy.Poly(f, sympy.Symbol("x"))
     assume(polynomial.discriminant() != 0)
     enclosures = isolate(f)
@@ -162,14 +162,14 @@ def test_roots_oracle_separates_two_roots_beside_a_tangency():
         ((12, 6, 3, 3, 14, 7, 1), Position.CONTACT, {Kind.EXTERIOR_TANGENT_POINT}),  # A = 16, B = 4, m = 8/3, n = 9
     ],
 )
-def test_signs_and_multiplicities_of_roots_alone_give_the_expected_kinds(row, literal, kinds):
+def test_literal_kinds_are_those_that_signs_and_multiplicities_of_the_roots_allow(row, literal, kinds):
     """Signs and multiplicities alone: ambiguous for a < 1, for c² < a, and for a double positive root when c² > a."""
     report = classify_by_roots(Pair.from_row(row))
     assert report.literal is literal
     assert set(report.literal_kinds) == kinds
 
 
-def test_where_c_squared_is_a_a_triple_root_has_one_meaning():
+def test_a_triple_root_means_an_exterior_osculating_tangency_if_c_squared_equals_a():
     assert classify_by_roots(Pair(4, 2, 1, 1, 5, 0, 0)).literal_kinds == (Kind.EXTERIOR_TANGENT_OSCULATING,)
 
 

@@ -122,7 +122,7 @@ def drawn_roots(draw):
     return ends if len(set(ends)) == 3 else drawn_roots(draw)
 
 
-def test_reach_of_a_quadratic_is_slightly_below_the_distance_to_its_next_root():
+def test_reach_is_slightly_below_the_distance_to_the_next_root_of_the_quadratic():
     draw = random.Random(8)  # noqa: S311
     for _ in range(300):
         first, second, third = drawn_roots(draw)
@@ -156,7 +156,7 @@ def test_steps_enclose_the_first_contact_within_the_stated_width():
 
 
 @pytest.mark.parametrize("row", [THROUGH, OUTSIDE, TUNNEL, INSIDE])
-def test_each_piece_of_a_proof_is_positive_over_its_whole_stretch(row):
+def test_each_piece_of_a_proof_is_positive_from_its_start_to_its_end(row):
     way, last = sweep(row), Fraction(0)
     found = steps(way)
     for multiplier, end in found.pieces:

@@ -60,7 +60,7 @@ def test_the_sign_of_a_polynomial_at_its_own_root_is_0():
 
 @pytest.mark.parametrize("gap", [Fraction(1, 3), Fraction(1, 1 << 60), Fraction(1 << 90)])
 @pytest.mark.parametrize("sign", [-1, 1])
-def test_two_roots_are_enclosed_apart_however_near_or_far_they_are(gap, sign):
+def test_two_roots_have_disjoint_enclosures_however_near_or_far_apart_they_are(gap, sign):
     first = Fraction(5, 3)
     roots = sorted((sign * first, sign * (first + gap)))
     factors = [(root.denominator, -root.numerator) for root in roots]
@@ -69,14 +69,14 @@ def test_two_roots_are_enclosed_apart_however_near_or_far_they_are(gap, sign):
     assert all(low < root < high for root, (low, high) in zip(roots, found, strict=True))
 
 
-def test_two_roots_between_two_powers_of_two_are_enclosed_apart():
+def test_two_roots_between_neighbouring_powers_of_two_have_disjoint_enclosures():
     """There a power of two in the middle of the exponents would be an end."""
     below, above = isolate(polynomial_product((1, -9), (1, -15)))
     assert below[0] < 9 < below[1] <= above[0] < 15 < above[1]
 
 
 @pytest.mark.parametrize(("w", "rational"), [(2, False), (16, True), (Fraction(9, 4), True), (Fraction(4, 3), False)])
-def test_a_root_squares_to_its_radicand_and_is_rational_where_that_is_a_square(w, rational):
+def test_exact_root_squared_is_its_radicand_and_is_a_fraction_if_the_radicand_is_a_square(w, rational):
     root = exact_root(Fraction(w))
     assert root * root == w
     assert root > 0

@@ -88,7 +88,7 @@ def test_the_first_contact_is_where_the_position_changes(sizes, start, end):
 
 
 @given(_sizes, _centers, _centers, st.fractions(0, 1, max_denominator=9))
-def test_sweep_is_clear_exactly_if_both_its_parts_are(sizes, start, end, time):
+def test_a_sweep_is_clear_exactly_if_the_sweeps_before_and_after_any_middle_point_are_clear(sizes, start, end, time):
     middle = at(start, end, time)
     whole, there, back = passage(sizes, start, end), passage(sizes, start, middle), passage(sizes, end, middle)
     assert whole.clear == (there.clear and back.clear)
@@ -170,7 +170,7 @@ def test_tangency_on_a_slanting_sweep_is_not_mistaken_for_the_ring():
 
 
 @given(tangent_places())
-def test_a_sweep_along_the_normal_touches_at_one_radius(place):
+def test_a_sweep_along_the_normal_has_contact_where_the_spheroid_touches_the_surface(place):
     (alpha, gamma, b, d), (r, z), (cosine, sine), steps = place
     side = sign(steps)
     foot = (r - steps * cosine, z + steps * sine)
@@ -245,7 +245,7 @@ def test_sweep_grazes_if_its_contact_lasts_only_an_instant(sizes, start, end, gr
     assert passage(sizes, start, end).grazes is grazes
 
 
-def test_a_spheroid_that_lies_across_and_comes_down_on_a_rim_touches_it():
+def test_a_horizontal_spheroid_that_descends_onto_a_rim_touches_it_at_the_time_worked_out():
     # Its pole is 3.7 from the axis at the height of the rim, whose radius is 3.75; (5.7 − 3.75)² / 4 + (z − 3)² = 1.
     way = (3, 4, 1, 2), (5.7, 0, 9), (5.7, 0, 3), (1, 0, 0)
     touch = 3 + math.sqrt(1 - 1.95**2 / 4)
@@ -291,7 +291,7 @@ def test_a_sweep_of_any_length_beside_an_end_is_clear_where_it_passes_at_a_dista
     assert [passage((1, 2, 0.5, 0.4), *way, axis, z_max=5.0).hit for way in ways] == [False, True]
 
 
-def test_parts_are_in_contact_where_one_of_them_is_and_where_they_lie_on_both_sides():
+def test_a_mover_with_parts_has_contact_if_a_part_has_or_parts_lie_on_both_sides_of_the_wall():
     def ball(radius, x, end):
         return sweep_of((1, 4, radius, radius), (x, 0, 0), end, None, None, (-1.0, 1.0, 0.0))
 
@@ -362,7 +362,7 @@ def test_python_session_in_docs_motion_gives_the_results_that_it_shows():
 
 @pytest.mark.parametrize("axis", [(0, 0, 1), (1, 2, 3)])
 @pytest.mark.parametrize("deep", [2.0**-70, 2.0**-300])
-def test_contact_that_begins_just_before_the_end_of_a_sweep_beside_a_disc_is_found_and_is_no_touch(axis, deep):
+def test_contact_that_begins_just_before_the_end_of_a_sweep_beside_a_disc_is_found_and_does_not_graze(axis, deep):
     way = (8, 8, 1, 1), (0, 0, 4), (0, 0, 1), axis
     found = passage(*way, z_max=deep, solid=True)
     assert (found.hit, found.grazes) == (True, False)
@@ -381,7 +381,7 @@ def test_a_flat_spheroid_that_sweeps_over_a_small_body_tilted_as_much_as_itself_
 
 
 @pytest.mark.parametrize("aside", [2.0**-100, 2.0**-140, 2.0**-400])
-def test_contact_that_lasts_next_to_no_time_beside_ends_is_no_touch_where_it_is_none_without_them(aside):
+def test_distant_ends_do_not_change_whether_a_ball_grazes_a_throat_of_its_width(aside):
     """A ball as wide as the throat goes through it, exactly in the middle or a little aside."""
     for place, grazes in ((0.0, True), (aside, False)):
         way = (1, 1, 1, 1), (0, place, -1), (0, place, 1.5)
@@ -391,7 +391,7 @@ def test_contact_that_lasts_next_to_no_time_beside_ends_is_no_touch_where_it_is_
 
 @pytest.mark.parametrize("axis", [(0, 0, 1), (0, 1, 1), (1, 0, 1)])
 @pytest.mark.parametrize(("b", "d"), [(16, 1), (1, 16)])
-def test_a_sweep_is_not_longer_than_its_bound_in_radii_of_a_spheroid_tilted_as_much_as_the_hyperboloid(axis, b, d):
+def test_the_bound_of_a_sweeps_length_in_radii_holds_if_spheroid_and_hyperboloid_have_one_axis(axis, b, d):
     """The step of the proof: a spheroid enlarged by that bound contains the moved one."""
     for move in itertools.product((0, 1, 5), (0, -1, 3), (0, 1, -7)):
         sweep = sweep_of((1, 1, b, d), (0, 0, 0), move, axis, axis)
@@ -400,7 +400,7 @@ def test_a_sweep_is_not_longer_than_its_bound_in_radii_of_a_spheroid_tilted_as_m
         assert ended_sweeps._radii(sweep) ** 2 >= across / b**2 + along / d**2
 
 
-def test_a_sweep_of_many_radii_through_a_wall_is_not_proved_clear_by_its_clear_middle():
+def test_a_sweep_through_a_wall_is_not_proved_clear_because_its_middle_position_is_clear():
     sweep = EndedSweep(sweep_of((10, 10, 0.125, 0.125), (-10, 0, 0), (10, 0, 0), None, None, (-1.0, 1.0, 0.0)))
     assert not sweep.clear(Fraction(0), Fraction(1))
     assert sweep.clear(Fraction(15, 32), Fraction(17, 32))

@@ -61,7 +61,7 @@ def outward(f, g, side):
 
 
 @pytest.mark.parametrize("family", ["uniform", "twins", "ring", "tangent", "stiff", "slight"])
-def test_places_of_roots_of_a_tilted_pair_are_those_of_another_algebra(family):
+def test_places_of_roots_of_a_tilted_pair_equal_those_of_interpolated_determinants(family):
     tilted = [case for case in frozen.load(f"tilted-{family}").cases if not Pair.from_row(case.row).is_upright]
     for case in tilted[::110]:
         f, centred = (interpolated(*matrices(row))[::-1] for row in (case.row, [*case.row[:4], 0, 0, 0, *case.row[7:]]))

@@ -42,7 +42,7 @@ def scene_of(sizes, axis, upward):
 
 
 @pytest.mark.parametrize("name", TURNS)
-def test_a_scene_that_is_turned_answers_as_the_frozen_label_of_the_pair(name):
+def test_a_turned_scene_has_the_position_of_the_frozen_label_of_the_unturned_pair(name):
     assert len(ROWS) == 60
     for case in ROWS:
         sizes, place, axis, upward = turned(TURNS[name], case.row)
@@ -50,7 +50,7 @@ def test_a_scene_that_is_turned_answers_as_the_frozen_label_of_the_pair(name):
 
 
 @pytest.mark.parametrize("name", TURNS)
-def test_a_passage_that_is_turned_meets_where_the_pair_at_its_start_is_in_contact_or_on_the_way(name):
+def test_passage_of_a_turned_pair_hits_if_the_passage_of_the_unturned_pair_does(name):
     for case in ROWS[:20]:
         sizes, place, axis, upward = turned(TURNS[name], case.row)
         still = passage(sizes, place, place, axis, upward)
@@ -70,7 +70,7 @@ def test_axes_that_lie_across_the_hyperboloids_are_parallel_only_if_their_cross_
 
 
 @pytest.mark.parametrize("name", TURNS)
-def test_a_passage_counts_heights_along_the_given_axis(name):
+def test_passage_measures_z_min_and_z_max_along_the_given_axis_of_the_hyperboloid(name):
     ended, turn = questions("axis heights"), TURNS[name]
     whole = [k for k, row in enumerate(ended.rows) if (np.rint(row * 4) == row * 4)[np.isfinite(row)].all()]
     assert len(whole) > 100
@@ -85,7 +85,7 @@ def test_a_passage_counts_heights_along_the_given_axis(name):
 
 
 @pytest.mark.parametrize("upward", [(1, 1, 0), (0, 1, -1), (1, 1, 1), (2, 1, 0), (1, -2, 1)])
-def test_an_axis_whose_length_is_irrational_is_decided_as_the_pair_turned_upright_in_float64(upward):
+def test_a_hyperboloid_axis_of_irrational_length_gives_the_answers_of_the_pair_turned_upright(upward):
     """Small integers, whose ends lie at irrational multiples of the axis; rows that a hair changes are left out."""
     draw = random.Random(str(upward))  # noqa: S311
     rows = [

@@ -132,7 +132,7 @@ def test_turns_worked_out_by_hand_are_decided_rightly(x, direction, angle, posit
         assert turning(SIZES, center, 0.5, ahead, angle) is position
 
 
-def test_a_turn_without_an_arm_changes_no_position():
+def test_a_turn_with_an_arm_of_length_0_has_the_position_of_its_centre():
     for x, position in ((1.4, INTERIOR), (1.5, CONTACT), (2.5, CONTACT), (2.6, EXTERIOR)):
         assert turning(SIZES, (x, 0, 0), 0, (0, 1), 3.0) is position
 
@@ -162,7 +162,7 @@ def test_turning_raises_an_error_for_an_invalid_turn(arm, direction, angle, mess
     ("squared", "b", "truth"),
     [("2.24", "0.6", CONTACT), ("2.19", "0.51", INTERIOR), ("6.2", "0.495", CONTACT), ("6.245", "0.495", EXTERIOR)],
 )
-def test_no_wrong_answer_about_a_turn_is_given_where_its_radius_is_known_to_a_half_alone(squared, b, truth):
+def test_a_turn_is_right_or_undecided_if_its_radius_is_known_only_within_a_half(squared, b, truth):
     """At z = 0 contact is from α − b to α + b; of the halves beside the radius, one is where the truth is another."""
     squared, b = Fraction(squared), Fraction(b)
     inner, outer = ((2 + side * b) ** 2 for side in (-1, 1))
@@ -172,7 +172,7 @@ def test_no_wrong_answer_about_a_turn_is_given_where_its_radius_is_known_to_a_ha
     assert _all_along(row, (squared, squared), (squared, squared), 20) is truth
 
 
-def test_the_largest_of_a_piece_is_the_summit_where_a_slope_may_still_rise():
+def test_the_largest_value_of_a_piece_is_that_of_the_summit_if_the_slope_may_still_be_positive():
     """ρ = 1; at the start cos is 0.995 and falls by 0.1, which an enclosure of 1/2 to each side does not tell."""
     start, slope = (Fraction("0.99"), Fraction(1)), (Fraction("-0.6"), Fraction("0.4"))
     end, falls = (Fraction("0.8"), Fraction("0.9")), (Fraction("-0.6"), Fraction("-0.5"))

@@ -159,7 +159,7 @@ def test_emitted_exact_pair_code_is_right_in_every_arithmetic_that_a_program_may
 @needs_flags
 @pytest.mark.parametrize("language", COMPILED)
 @pytest.mark.parametrize("method", METHODS[1:])
-def test_emitted_pair_code_in_floats_alone_is_never_wrong_in_any_arithmetic_that_a_program_may_set(
+def test_emitted_pair_code_without_an_exact_stage_is_never_wrong_in_any_arithmetic_that_a_program_may_set(
     pair_kernel, control, rows, positions, language, method
 ):
     kernel = pair_kernel(method, language)

@@ -66,7 +66,7 @@ def numbers_of(library, name, rows):
 
 
 @pytest.mark.parametrize("language", [*LANGUAGES, "python"])
-def test_emitted_clearances_hold_the_labels_of_frozen_cases(tmp_path, language):
+def test_bounds_of_emitted_clearance_code_contain_the_clearance_of_each_frozen_case(tmp_path, language):
     rows, _, cases = with_axes("", "axis")
     step = 29 if language == "python" else 9
     rows, true = rows[::step], np.array([float(case["clearance"]) for case in cases[::step]])

@@ -44,7 +44,7 @@ def test_an_emitted_kernel_is_right_or_cannot_say_where_squares_overflow(questio
 
 @pytest.mark.parametrize("question", ["position", "interior", "contact"])
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_an_emitted_kernel_proves_no_exterior_centre_interior_where_the_square_of_z_alone_overflows(
+def test_an_emitted_kernel_calls_no_exterior_centre_interior_where_only_the_square_of_z_overflows(
     question, language, tmp_path
 ):
     """The line's slope is below 1: times a square of 2^1025 or so it is no larger than an R that is finite."""

@@ -20,7 +20,7 @@ from tests.support.inside import plan_of
 STEPS = 71
 
 
-def test_the_printed_search_answers_as_the_routine_is_run():
+def test_the_printed_search_gives_the_same_answers_as_running_the_routine():
     """From the axis to far outside: every answer occurs; where it changes, down to neighbouring numbers."""
     plan = plan_of(replace(read_scene("tower-simplest"), question="position"))
     constants, routine, scope = plan.settings[0].last.constants, search_of(STEPS), {"math": math}

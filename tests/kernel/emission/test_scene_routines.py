@@ -139,6 +139,6 @@ def test_emitted_sweeps_of_a_scene_answer_as_the_scene(tmp_path, text, language)
         (("--sweeps", "--proof", "p.v"), "--proof is for kernels of pairs"),
     ],
 )
-def test_options_that_code_for_sweeps_lacks_are_refused(capsys, options, words):
+def test_emit_refuses_options_that_do_not_apply_to_code_for_sweeps(capsys, options, words):
     assert main(["emit", "--scene", "tower", *options, "--language", "c"]) == 2
     assert words in capsys.readouterr().err

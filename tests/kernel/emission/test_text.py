@@ -50,7 +50,7 @@ def counted(function):
 
 @pytest.mark.parametrize("question", QUESTIONS)
 @pytest.mark.parametrize("name", SCENES)
-def test_operation_counts_in_the_head_of_a_kernel_are_those_of_its_code(name, question):
+def test_operation_counts_that_a_kernel_states_in_its_head_equal_those_counted_in_its_code(name, question):
     """Comparisons of z with a modelled height stand before them all and are not counted."""
     plan = plan_of(replace(SCENES[name], question=question))
     module = ast.parse(emitted(plan, "python", COMMAND))

@@ -76,7 +76,7 @@ def test_a_kernel_for_a_tilted_mover_is_within_its_error_bound_and_always_answer
 
 @pytest.mark.parametrize("mover", [Mover(0.25, 0.15, ROTORS, PITCHED), Mover(0.2, 0.2, ROTORS, FREE)])
 @needs("c")
-def test_a_kernel_for_a_tilted_mover_knows_its_parts_which_have_its_axis(mover, tmp_path):
+def test_a_kernel_for_a_tilted_mover_tests_its_parts_with_the_axis_of_the_mover(mover, tmp_path):
     """A ball has no axis of its own, but its parts may be tilted. An arm points up or down as far as it is long."""
     scene = replace(tower(PITCHED), mover=mover, region=Region(z=Span(-1.0, 2.0)))
     plan = plan_of(scene)
@@ -134,7 +134,7 @@ def test_a_kernel_for_any_axis_answers_cannot_say_if_the_axis_has_no_direction(l
 
 
 @pytest.mark.parametrize("language", EMITTED_LANGUAGES)
-def test_a_kernel_for_any_axis_answers_cannot_say_without_a_direction_where_every_axis_has_one_answer(
+def test_a_kernel_for_any_axis_answers_cannot_say_for_the_axis_0_even_where_the_axis_does_not_matter(
     language, tmp_path
 ):
     """Deep inside and far out no stage needs the axis, and the elm, far from its region, is exterior unseen."""
@@ -229,7 +229,9 @@ def test_the_last_stage_for_a_tilted_mover_is_right_within_1_u_on_every_tilted_f
         ((2.0**60, 2.0**60, None, 2.0**60), 2, (2.0**48, 2.0**60)),
     ],
 )
-def test_a_last_stage_for_a_tilted_mover_is_made_up_to_its_limits_and_not_beyond(sizes, place, limits):
+def test_the_last_stage_for_a_tilted_mover_exists_up_to_its_size_limits_and_is_refused_beyond_them(
+    sizes, place, limits
+):
     for limit, beyond in zip(limits, (0.0, math.inf), strict=True):
         kept = tuple(limit if k == place else size for k, size in enumerate(sizes))
         assert tilted_search(kept, None).free
@@ -306,7 +308,7 @@ def test_emit_refuses_unsupported_scenes_with_a_tilted_mover_in_one_sentence(sce
         plan_of(scene, precision)
 
 
-def test_proof_and_timing_of_a_kernel_for_a_tilted_mover_are_refused(tmp_path, capsys):
+def test_emit_with_proof_and_plan_with_measure_refuse_a_tilted_mover(tmp_path, capsys):
     path = tmp_path / "scene.toml"
     path.write_text(
         'name = "s"\n[[hyperboloid]]\nalpha = 2.0\ngamma = 9.0\n[mover]\nb = 0.25\nd = 0.15\naxis = "free"\n',

@@ -130,7 +130,7 @@ STUMPS = tuple(
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_a_whole_scene_kernel_never_calls_clear_what_touches_a_rim_or_an_end(language, tmp_path):
+def test_a_whole_scene_kernel_never_calls_a_mover_clear_that_touches_a_rim_or_an_end(language, tmp_path):
     """Centres about the ends of an open and of a solid stump, inside of them, outside, above and on the rims."""
     skip_without(language)
     rng, count = np.random.default_rng(5), 3000
@@ -149,7 +149,7 @@ def test_a_whole_scene_kernel_never_calls_clear_what_touches_a_rim_or_an_end(lan
     assert told(path, language, high).tolist() == [1, 1]
 
 
-def test_a_whole_scene_kernel_knows_a_trunk_that_is_counted_downwards_and_has_one_end(tmp_path):
+def test_a_whole_scene_kernel_is_right_for_a_trunk_with_one_end_whose_axis_points_down(tmp_path):
     down = Hyperboloid("down", 0.75, 2.0, (0.0, 0.0, 0.0), Span(-2.0, float("inf")), (0.0, 0.0, -3.0), solid=True)
     scene = SceneModel("s", "position", (down,), Mover(0.3, 0.2), Region(z=Span(-9.0, 9.0)))
     levels = np.array([-8.0, 0.0, 1.5, 1.9, 2.15, 2.25, 8.0])
