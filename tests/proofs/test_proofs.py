@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from hypcheck.cli.main import main
-from hypcheck.cli.scene import planned
+from hypcheck.cli.scene import asked_scene
 from hypcheck.errors import InputError
 from hypcheck.kernel.printing import coq
 from hypcheck.kernel.printing.coq import proof_of
@@ -25,7 +25,7 @@ from hypcheck.vectors import frozen
 from tests.proofs import ended_agreement
 from tests.proofs.agreement import disagreements
 from tests.proofs.state import up_to_date
-from tests.support.inside import CERTIFIED_CONSTANTS, PATTERNS, SLACK, Kind, U, certified
+from tests.support.inside import CERTIFIED_CONSTANTS, PATTERNS, SLACK, Kind, U, certified, plan_of
 
 ALWAYS_CLEAR = """
 name = "far away"
@@ -166,7 +166,7 @@ def test_emit_writes_the_proof_of_each_discriminant_beside_the_kernel(tmp_path):
     text = proof.read_text(encoding="utf-8")
     assert kernel.read_text(encoding="utf-8").startswith("/*")
     assert text.count("Theorem sign ") == 2
-    for stages in planned("tower", "float64", None).settings:
+    for stages in plan_of(asked_scene("tower", None), "float64").settings:
         assert f"Definition bound : Q := ({Fraction(stages.discriminant.bound).numerator} #" in text
 
 
@@ -181,7 +181,7 @@ def test_emit_with_proof_refuses_a_kernel_without_a_discriminant(tmp_path, capsy
 
 @compiled
 def test_coq_proves_the_bound_of_an_emitted_kernel_and_refuses_a_smaller_one(tmp_path):
-    text = proof_of(planned("tower-simplest", "float32", None))
+    text = proof_of(plan_of(asked_scene("tower-simplest", None), "float32"))
     proof, wrong = tmp_path / "kernel.v", tmp_path / "wrong.v"
     proof.write_text(text, encoding="utf-8")
     assert build.check_kernel(proof) > 0

@@ -25,7 +25,7 @@ from tests.kernel.emission.building import COMMAND, answers, answers_by_scene, p
 from tests.kernel.emission.test_pair import UNFILTERED
 from tests.kernel.emission.test_tilted import SCENES as TILTED
 from tests.kernel.emission.test_whole import answers_as, centres, expected, forest, told
-from tests.support.inside import METHODS, ScenePlan, emitted, emitted_pair, plan_of, whole, whole_plan
+from tests.support.inside import METHODS, ScenePlan, emitted, emitted_pair, emitted_whole, plan_of, whole_plan
 from tests.tools.attack import places
 from tests.tools.attack.strike import truth_of
 from tests.tools.evidence.battery.constructed import BESIDE_TANGENCIES
@@ -54,7 +54,7 @@ def kernels() -> Kernels:
         plan = plan_of(scene, precision)
         found[name] = emitted(plan, "c", COMMAND), _asks_scene(plan)
     for name, scene in _whole_scenes():
-        found[name] = whole(scene, whole_plan(scene), "c", COMMAND), _asks_whole(scene)
+        found[name] = emitted_whole(scene, whole_plan(scene), "c", COMMAND), _asks_whole(scene)
     for method in METHODS:
         found[f"method {method}"] = emitted_pair(method, "c", COMMAND), _asks_method(method != "exact")
     text = emitted_pair("exact", "c", COMMAND)

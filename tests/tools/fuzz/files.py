@@ -10,7 +10,7 @@ from random import Random
 from unittest.mock import patch
 
 from hypcheck.answers import classify_table
-from hypcheck.cli.scene import planned
+from hypcheck.cli.scene import asked_scene
 from hypcheck.cli.settings import read_settings
 from hypcheck.record.integrity import check, repair
 from hypcheck.record.reader import notes, read, recorded_cases
@@ -23,7 +23,7 @@ from hypcheck.scene.reading import read_scene
 from hypcheck.tables.streams import Route
 from hypcheck.vectors.cases import read_cases
 from hypcheck.vectors.checking import examine
-from tests.support.inside import emitted, plan_as_json, plan_lines
+from tests.support.inside import emitted, plan_as_json, plan_lines, plan_of
 from tests.support.records import resealed
 from tests.tools.fuzz.judging import require_sentence
 from tests.tools.fuzz.tables import require_agreement
@@ -123,7 +123,7 @@ def scene(data: bytes) -> None:
 
 def plan(data: bytes) -> None:
     """A scene that is planned, told and emitted."""
-    found = planned(str(kept(data, "scene.toml")), "float32" if len(data) % 2 else "float64", None)
+    found = plan_of(asked_scene(str(kept(data, "scene.toml")), None), "float32" if len(data) % 2 else "float64")
     json.dumps(plan_as_json(found), allow_nan=False)
     list(plan_lines(found))
     emitted(found, LANGUAGES[len(data) % len(LANGUAGES)], ["hypcheck", "emit"])
