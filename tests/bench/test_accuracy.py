@@ -50,7 +50,7 @@ def test_accuracy_line_counts_missing_answers_as_abstained_and_not_as_wrong(cont
     assert found.reliable_above > 0
 
 
-def test_accuracy_line_of_a_method_that_never_answers_is_reliable_above_no_distance(contender, truth):
+def test_accuracy_line_of_a_method_that_never_answers_has_reliable_above_inf(contender, truth):
     found = accuracy_line(contender, answered(truth, np.full_like(truth.positions, CANNOT_SAY)), truth)
     assert (found.wrong, found.reliable_above) == (0, INF)
 

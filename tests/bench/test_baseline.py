@@ -57,7 +57,7 @@ def verdict(before, after, allowed=1.1):
         ({}, {"slowness": 1.5}, 2.0, "same"),
     ],
 )
-def test_verdict_on_two_runs_is_about_the_method_and_not_about_the_machine_or_its_noise(
+def test_verdict_on_two_runs_reports_a_slower_method_but_not_a_slower_machine_or_noise(
     before, after, allowed, expected
 ):
     assert verdict(run(**before, seed=1), run(**after, seed=2), allowed) == expected
@@ -89,7 +89,7 @@ def test_speed_change_widens_its_interval_by_the_noise_before_its_verdict(low, h
     assert SpeedChange(1.0, low, high, noise).verdict(1.1) == expected
 
 
-def test_comparisons_are_of_methods_that_both_runs_timed_without_the_reference():
+def test_comparisons_cover_the_methods_that_both_runs_timed_except_the_reference():
     before, after = run(seed=1), run(2.0, seed=2)
     after.speeds["new", "uniform", "batch"] = structs.replace(after.speeds[KEY], method="new")
     (line,) = comparisons(BenchPlan(), before, after, {"mine"})
@@ -98,7 +98,7 @@ def test_comparisons_are_of_methods_that_both_runs_timed_without_the_reference()
     assert line.ci95[0] <= line.change <= line.ci95[1]
 
 
-def test_bench_gates_the_chosen_methods_or_else_the_certified_ones():
+def test_bench_gates_the_chosen_methods_and_without_a_choice_the_certified_ones():
     everything = contenders(BenchPlan())
     assert gated(BenchPlan(), everything) == {name for name, each in everything.items() if each.kind == "certified"}
     some = BenchPlan(methods=("hessian-float64",))

@@ -56,7 +56,7 @@ def test_cosine_methods_in_c_and_in_numpy_answer_alike_on_the_tower(name, method
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_a_method_in_c_answers_alike_by_scene_by_rows_and_one_by_one(name, methods):
+def test_a_method_in_c_gives_the_same_answers_by_scene_by_rows_and_row_by_row(name, methods):
     way = methods[name].load()
     tower = FAMILIES["tower-body"].rows(2, 700)
     right = way.answer(tower)
@@ -69,7 +69,7 @@ def test_a_method_in_c_answers_alike_by_scene_by_rows_and_one_by_one(name, metho
     assert (way.batch(mixed).answers() == way.answer(mixed)).all()
 
 
-def test_the_empty_call_of_a_method_in_c_runs_and_answers_nothing(methods, rows):
+def test_the_empty_call_of_a_method_in_c_has_the_checksum_0(methods, rows):
     for mode in ("batch", "single"):
         empty = methods[NAMES[0]].load().empty(rows, mode)
         assert empty.name == "C"

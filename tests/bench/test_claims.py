@@ -63,7 +63,7 @@ def test_methods_compared_in_cost_claims_answer_alike_in_c_and_in_numpy(answers)
     assert ((answers["roots", "C"][TRIGONOMETRIC] == 1) == (by_cosines == 1)).all()
 
 
-def test_cost_claims_weigh_the_rotors_by_the_share_of_flight_rows_in_contact():
+def test_share_touching_is_the_share_of_flight_rows_in_contact():
     rows = FAMILIES["flight"].rows(1, 4000)
     touching = inside.positions(rows) == Position.CONTACT
     assert 100 < np.count_nonzero(touching) < 2000
@@ -96,7 +96,9 @@ def test_cost_claims_use_numpy_without_a_compiler_and_are_left_out_if_methods_ar
         (1.05, 1.08, 1.1, "inconclusive", "inconclusive"),
     ],
 )
-def test_a_cost_ratio_is_cheaper_or_dearer_only_beyond_the_noise(low, high, noise, is_cheaper, is_dearer):
+def test_a_cost_ratio_is_cheaper_or_dearer_only_if_its_interval_lies_beyond_the_noise(
+    low, high, noise, is_cheaper, is_dearer
+):
     ratio = Estimate((low + high) / 2, low, high)
     assert claims.cheaper(ratio, noise) == is_cheaper
     assert claims.dearer(ratio, noise) == is_dearer

@@ -88,7 +88,7 @@ def test_bench_does_not_ask_a_method_about_rows_of_more_scenes_than_it_takes():
     assert contender(scenes=1).asked(TWO_SCENES).tolist() == []
 
 
-def test_memory_line_reports_what_a_method_needs_beyond_its_rows():
+def test_memory_line_reports_the_memory_that_a_method_needs_in_addition_to_its_rows():
     def greedy(rows):
         held = np.ones(8_000_000 if len(rows) > 1 else 1)
         return np.full(len(rows), int(held[-1]), dtype=np.int8)
@@ -110,14 +110,14 @@ def test_every_method_that_the_listing_names_is_built_in():
     assert named - builtin.methods().keys() == ({"table-2-longdouble"} if builtin.LONG_DOUBLE is None else set())
 
 
-def test_a_missing_requirement_is_recorded_once():
+def test_a_missing_requirement_is_recorded_once_however_often_it_is_reported():
     recorder = Recorder(GrowingText(), {})
     for what in ("FCL", "Coal", "FCL"):
         run.note_absent(recorder, what, "it is not there")
     assert [line.what for line in recorder.lines] == ["FCL", "Coal"]
 
 
-def test_a_method_of_one_scene_is_timed_on_rows_of_the_first_scene_alone():
+def test_a_method_for_one_scene_is_timed_only_on_rows_of_the_first_scene():
     several = WORKLOADS["near-contact"]
     rows = accuracy.timed_rows(BenchPlan(amounts=QUICK), contender(scenes=1, timed=100), several)
     assert len(rows) == 100

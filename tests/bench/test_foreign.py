@@ -77,7 +77,7 @@ def test_a_python_spec_is_timed_in_its_worker(tmp_path):
     way.close()
 
 
-def test_time_of_a_library_is_taken_in_its_worker_less_a_call_without_rows(library):
+def test_a_library_is_timed_in_its_worker_which_also_times_a_call_without_rows(library):
     way = opened(library)
     assert way.batch(ROWS).timed_by == "worker"
     assert way.single(ROWS[:4]).run(50)[0] > 0
@@ -142,7 +142,7 @@ def test_two_specs_with_the_same_name_are_distinguished(tmp_path):
     assert found[one.name].tier == "foreign"
 
 
-def test_a_slow_spec_is_judged_and_timed_on_fewer_rows(tmp_path):
+def test_a_slow_spec_is_judged_and_timed_on_fewer_rows_than_a_quick_one(tmp_path):
     quick = foreign_method(subject(tmp_path), Limits(), [])
     slow = foreign_method(subject(tmp_path, times=300), Limits(), [])
     assert slow.timed < quick.timed

@@ -53,7 +53,7 @@ def small(monkeypatch):
             monkeypatch.setattr(module, name, value)
 
 
-def test_targets_of_rows_near_contact_name_the_bits_of_the_integers_that_are_multiplied():
+def test_targets_for_rows_near_contact_state_the_bits_of_the_multiplied_integers():
     for name in ("near contact", "near contact, tilted"):
         assert target(name).text.endswith(f"in products of integers of {32 * WORDS} bits")
         assert target(name).at_most
@@ -109,7 +109,7 @@ def test_touching_rows_of_the_tilted_targets_are_within_4e_14_of_contact():
     assert 0 < max(map(abs, clearance)) < 4e-14
 
 
-def test_rows_left_open_beside_ends_are_counted_by_family(monkeypatch):
+def test_target_of_undecided_rows_beside_ends_is_missed_with_a_count_for_each_family(monkeypatch):
     """One row in two of one family is open: its share is the target's, and the sentence names it."""
     pytest.importorskip("hypcheck.kernel._compiled")
     monkeypatch.setattr(targets, "ORDINARY", 10)
@@ -164,7 +164,7 @@ def test_kernel_targets_that_are_all_met_are_measured_once():
     assert len(calls) == 1
 
 
-def test_a_target_relative_to_numpy_is_capped_by_the_time_that_reading_takes():
+def test_the_time_of_reading_the_columns_limits_the_speed_ratio_that_a_numpy_target_demands():
     target = call_targets.numpy_targets()[0]
     found = {
         name: Samples(name, 1, 1, 0, samples_ns=[time])
@@ -214,7 +214,7 @@ def test_the_plain_c_baseline_answers_as_the_kernel_on_uniform_rows(level, tmp_p
 
 
 @COMPILER
-def test_the_timed_loop_of_the_kernel_writes_right_answers(tmp_path):
+def test_the_loop_in_which_bench_times_the_kernel_writes_right_answers(tmp_path):
     pytest.importorskip("hypcheck.kernel._compiled")
     columns, out = uniform_columns(5000), np.full(5000, 9, np.int8)
     library = c_baselines(tmp_path, "plain")[0]

@@ -30,7 +30,7 @@ def test_the_certified_procedure_agrees_with_procedure_2b_along_a_flight(flight)
     assert np.count_nonzero(ours != second) <= 2  # along a flight nothing is near enough to matter
 
 
-def test_rotors_at_places_four_rotors_at_the_arm_length_a_quarter_turn_apart(flight):
+def test_rotors_at_returns_four_rotors_at_the_arm_length_a_quarter_turn_apart(flight):
     ends = rotors_at(flight.cosine, flight.sine, 0.135)
     assert len(ends) == 4
     for (x, y), (u, v) in zip(ends, ends[1:] + ends[:1], strict=True):

@@ -156,7 +156,7 @@ def test_bench_scene_ends_with_1_if_the_emitted_kernel_is_wrong(tmp_path):
     assert codes_of([line]) == {Exit.WRONG}
 
 
-def test_bench_scene_with_a_broken_compiler_raises_nothing_judged(tmp_path, monkeypatch):
+def test_bench_scene_raises_nothing_judged_error_if_the_compiler_does_not_work(tmp_path, monkeypatch):
     monkeypatch.setenv("CC", "false")
     with pytest.raises(NothingJudgedError, match=r"no scene was measured: .*false does not compile"):
         ended(tmp_path, "--scene", "tower")
@@ -189,7 +189,7 @@ def test_plan_measure_prints_one_sentence_for_each_setting_below_the_plan(capsys
 @pytest.mark.parametrize(
     ("words", "title"), [(["--scene", "tower"], "What scenes leave out"), (["--forest"], "A step in a forest")]
 )
-def test_bench_reports_a_scene_or_forests_by_its_command(words, title, tmp_path):
+def test_bench_command_for_a_scene_or_forests_writes_a_record_and_a_report_of_it(words, title, tmp_path):
     code, record, report = ended(tmp_path, *words)
     assert code == 0
     assert title in report

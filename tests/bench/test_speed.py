@@ -61,7 +61,7 @@ def test_a_time_without_an_empty_call_to_subtract_is_always_recorded():
     assert len(of(lines(parts("theirs", [0.5, 0.6])), SpeedLine, "theirs")) == 1
 
 
-def test_a_speed_that_only_one_run_has_makes_the_comparison_inconclusive(tmp_path):
+def test_a_speed_that_only_the_baseline_has_makes_the_comparison_inconclusive(tmp_path):
     before = list(lines(parts("fast-numpy", [20.0, 21.0], [3.0, 3.1])))
     after = list(lines(parts("fast-numpy", [-1.0, 0.2], [3.0, 3.1])))
     plan = BenchPlan(methods=("fast-numpy",), baseline=tmp_path)

@@ -28,7 +28,7 @@ SWEEPS_UPRIGHT, SWEEPS_TILTED = listed(PASSAGE), listed(PASSAGE, tilted=True)
 
 @pytest.mark.parametrize(("workloads", "width"), [(SWEEPS_UPRIGHT, 10), (SWEEPS_TILTED, 13)])
 @pytest.mark.parametrize("name", SWEEPS_UPRIGHT)
-def test_sweep_workload_rows_are_valid_and_fewer_rows_are_the_first_of_more(workloads, width, name):
+def test_sweep_workload_rows_are_valid_and_a_short_workload_is_the_beginning_of_a_longer_one(workloads, width, name):
     assert list(workloads) == list(SWEEPS_UPRIGHT)
     rows = workloads[name].rows(3, 240)
     assert rows.shape == (240, width)
@@ -46,7 +46,7 @@ def test_the_frozen_sweeps_come_from_all_families_of_their_kind_in_turn(tilted, 
     assert len(np.unique(rows[: 4 * len(families)], axis=0)) == 4 * len(families)
 
 
-def test_bench_compares_all_built_in_methods_for_sweeps_but_two_in_a_quick_run_and_engines_if_tilted():
+def test_bench_of_sweeps_omits_two_methods_in_a_quick_run_and_the_engines_for_tilted_sweeps():
     every = {name for name, method in methods().items() if method.question == PASSAGE}
     found = contenders(BenchPlan(question=PASSAGE))
     assert set(found) == every

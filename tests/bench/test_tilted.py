@@ -54,7 +54,7 @@ TILTED_WORKLOADS = listed(POSITION, tilted=True)
 
 
 @pytest.mark.parametrize("name", TILTED_WORKLOADS)
-def test_tilted_workload_rows_are_valid_and_fewer_rows_are_the_first_of_more(name):
+def test_tilted_workload_rows_are_valid_and_a_short_workload_is_the_beginning_of_a_longer_one(name):
     rows = TILTED_WORKLOADS[name].rows(3, 1500)
     assert rows.shape == (1500, 10)
     assert first_trouble(rows) is None
@@ -64,7 +64,7 @@ def test_tilted_workload_rows_are_valid_and_fewer_rows_are_the_first_of_more(nam
     assert TILTED_WORKLOADS[name].rows(3, 0).shape == (0, 10)
 
 
-def test_of_the_tilted_workloads_only_one_axis_is_a_single_scene():
+def test_one_axis_is_the_only_tilted_workload_that_has_a_single_scene():
     assert [name for name, each in TILTED_WORKLOADS.items() if scene_of(each.rows(1, 100)) is not None] == ["one-axis"]
 
 

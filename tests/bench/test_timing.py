@@ -43,7 +43,7 @@ def measured(entries, rounds=3, **options):
     return {each.name: each for each in samples}
 
 
-def test_each_round_begins_with_another_method_and_times_all_of_them():
+def test_each_timing_round_begins_with_another_method_and_times_all_methods():
     order = []
     names = ["a", "b", "c"]
     entries = [TimingEntry(name, 10, Clock(name, order), loops=1) for name in names]
@@ -65,7 +65,7 @@ def test_a_sample_of_slow_work_has_one_loop():
     assert clock.repeats[2:] == [1, 1, 1]
 
 
-def test_a_sample_is_the_fastest_of_its_takes_so_that_an_interruption_does_not_count():
+def test_a_sample_is_the_fastest_of_several_takes_so_that_an_interruption_does_not_count():
     times = iter([9000, 1000, 1100, 8000, 7000] * 3)
     entry = TimingEntry("a", 1, lambda repeat: (0 if repeat == 1 else repeat * next(times), 3), 3, loops=7, takes=5)
     assert measured([entry])["a"].samples_ns == [1000.0] * 3

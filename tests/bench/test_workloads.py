@@ -12,7 +12,7 @@ from tests.support.inside import clearances, flip_exponents
 
 
 @pytest.mark.parametrize("name", WORKLOADS)
-def test_workload_rows_are_valid_and_fewer_rows_are_the_first_of_more(name):
+def test_workload_rows_are_valid_and_a_short_workload_is_the_beginning_of_a_longer_one(name):
     rows = WORKLOADS[name].rows(3, 1500)
     assert rows.shape == (1500, 7)
     assert first_trouble(rows) is None

@@ -33,13 +33,13 @@ def test_operation_counts_of_the_root_formulas_are_those_counted_by_hand():
     assert sweep.scene == Operations()
 
 
-def test_discriminant_share_of_the_four_rotors_is_that_counted_by_hand():
+def test_discriminant_share_of_the_four_rotors_equals_the_count_by_hand():
     # Per rotor 11 products and 4 sums: c0² and 27 c0² are the same for all, and depend on the sizes alone.
     assert discriminant_share() == (4 * 15, 100)
 
 
 @pytest.mark.parametrize("cost", costs(), ids=lambda cost: cost.name)
-def test_every_formula_has_a_cost(cost):
+def test_every_formula_has_a_cost_with_a_title_a_source_and_rounded_operations(cost):
     assert cost.query.rounded > 0
     assert cost.title
     assert cost.source

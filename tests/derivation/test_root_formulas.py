@@ -72,7 +72,7 @@ def test_the_trigonometric_formula_answers_as_procedure_1_as_printed():
 
 
 @pytest.mark.parametrize("wanted", [(1, 2, 5), (-3, -1, 4), (2 + 1j, 2 - 1j, 3), (1e-3, 1, 1e3)])
-def test_repeated_sweeps_of_the_root_finder_converge_to_the_roots(wanted):
+def test_repeated_iterations_of_the_root_finder_converge_to_the_roots(wanted):
     c2, c1, c0 = np.poly(wanted)[1:].real
     starts = [(0.4 + 0.9j) ** power for power in range(3)]
     state = {

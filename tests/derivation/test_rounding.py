@@ -88,7 +88,7 @@ def test_every_value_that_a_formula_computes_in_floats_is_within_its_error_bound
 
 
 @given(st.lists(st.floats(0.25, 4), min_size=7, max_size=7))
-def test_the_error_bound_of_rounded_inputs_counts_one_rounding_more(values):
+def test_the_error_bound_for_rounded_inputs_with_one_rounding_more_is_never_exceeded(values):
     inputs = dict(zip(COLUMNS, values, strict=True))
     found = ratios(FORMULAS["table-2"].program, ("c1", "c2"), "float16", inputs, input_roundings=1)
     assume(found is not None)
@@ -148,7 +148,9 @@ def test_random_programs_in_floats_stay_within_their_counted_error_bounds(progra
         ("hessian", "delta_3", "float64", 0.02),
     ],
 )
-def test_the_greatest_rounding_error_of_a_formula_comes_near_its_bound(name, step, format_name, at_least):
+def test_the_greatest_rounding_error_of_a_formula_on_random_inputs_comes_near_its_bound(
+    name, step, format_name, at_least
+):
     random = np.random.default_rng(20)
     worst = Fraction(0)
     for _ in range(400):
@@ -158,7 +160,7 @@ def test_the_greatest_rounding_error_of_a_formula_comes_near_its_bound(name, ste
     assert at_least < worst <= 1
 
 
-def test_an_error_bound_that_counts_one_rounding_less_is_exceeded():
+def test_an_error_bound_with_one_rounding_less_is_exceeded_by_an_example():
     program = program_of("sum", ("x", "y", "z"), "s = x + y\nt = s + z")
     unit = UNIT["float32"]
     inputs = {"x": 1.0, "y": float(unit), "z": float(unit)}  # both additions are ties that fall back to 1

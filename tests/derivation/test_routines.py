@@ -73,30 +73,30 @@ def test_a_malformed_routine_is_refused(malformed, complaint):
         malformed()
 
 
-def test_a_loop_gives_all_that_it_keeps_to_the_next_round_at_once():
+def test_a_loop_passes_all_its_kept_values_to_the_next_round_at_the_same_time():
     numbers = Routine("f", "", ("a", "b"), FIBONACCI.parts, "one")
     assert run(numbers, EXACT, {"a": 0, "b": 1}) == 8  # 0 1 1 2 3 5 8
 
 
 @pytest.mark.parametrize(("first", "second", "answer"), [(0, 1, 1), (1, 1, 0)])
-def test_an_answer_is_that_of_the_first_condition_that_holds(first, second, answer):
+def test_a_routine_returns_the_answer_of_the_first_condition_that_holds(first, second, answer):
     assert run(FIBONACCI, EXACT, {"a": first, "b": second}) == answer
 
 
-def test_a_routine_is_run_in_the_arithmetic_it_is_given():
+def test_a_routine_is_run_in_the_given_arithmetic():
     halves = looping(times=3, body="y = k / 2")
     assert run(halves, EXACT, {"x": 1}) == Fraction(1, 8)
 
 
 @pytest.mark.parametrize(("start", "answer"), [(1, 8), (3, 12), (100, 200)])
-def test_a_loop_ends_with_the_round_in_which_its_condition_holds(start, answer):
+def test_a_loop_ends_after_the_round_in_which_its_condition_first_holds(start, answer):
     """Of three rounds that double a number, those until it is above 7: the last one counts."""
     body = steps_of("y = k * 2\nenough = y > 7")
     doubling = Routine("d", "", ("x",), (Loop(3, (("k", "x", "y"),), body, "enough"),), "k")
     assert run(doubling, EXACT, {"x": start}) == answer
 
 
-def test_pairs_are_taken_apart_chosen_and_made():
+def test_a_routine_can_divide_select_and_make_pairs():
     assert run(SWAPPED, EXACT, {"p": (3, 4)}) == (4, Fraction(3, 2))
     either = Routine(
         "either",
@@ -110,12 +110,12 @@ def test_pairs_are_taken_apart_chosen_and_made():
     assert [run(either, EXACT, {"x": x, "p": (3, 4)}) for x in (1, 0)] == [(4, Fraction(3, 2)), (3, 4)]
 
 
-def test_parts_that_nothing_needs_are_left_out():
+def test_needed_parts_omits_parts_that_no_requested_value_needs():
     (loop, _) = needed_parts(FIBONACCI.parts, ("above",))
     assert [step.name for step in loop.body] == ["sum", "old"]
     assert needed_parts(FIBONACCI.parts, ("a",)) == ()
 
 
-def test_routines_that_are_called_come_once_and_before_what_calls_them():
+def test_called_lists_each_called_routine_once_and_before_its_caller():
     outer = Routine("outer", "", ("x",), (Call("y", FIBONACCI, ("x", 1)), Call("z", IS_ABOVE, ("x",))), "y")
     assert [routine.name for routine in called(outer)] == ["is_above", "fibonacci"]

@@ -77,7 +77,7 @@ def test_the_certificate_of_a_reproduction_names_the_triangles_point_if_a_point_
     assert all(words in text for words in ["Certificate: the point p = (0, 0, 0.5) of the triangle", *says])
 
 
-def test_the_drawing_of_a_missed_contact_magnifies_the_triangles_point_and_that_of_another_kind_the_spheroids():
+def test_drawing_magnifies_the_triangles_point_for_a_missed_contact_and_else_the_spheroids():
     """The nearest point of the triangle is at z = 0.5, and the point of the unit ball that faces it at z = 1."""
     for kind, height in (("missed contact", 50), ("false contact", 100)):
         assert f"M0.00,-{height}.00 L170,0" in drawing(finding(kind, error=0.001, d=1.0))
@@ -110,7 +110,7 @@ def test_a_reproduction_ends_with_0_if_the_engine_answers_rightly(tmp_path):
     assert [run_reproduction(each, tmp_path) for each in right] == [0, 0]
 
 
-def test_findings_in_which_an_engine_contradicts_itself_lead_the_page_and_no_cell_is_cut_by_a_slash():
+def test_the_page_lists_findings_of_a_self_contradicting_engine_first_and_has_no_digit_slash_digit():
     page = (REPORTS / "README.md").read_text()
     table = page.split("## Findings")[1].split("*of the body*")[0]
     said = [line.split(" | ")[1] for line in table.splitlines() if line.startswith("| ")][2:]
@@ -140,7 +140,7 @@ def test_each_committed_finding_states_what_the_engine_says_at_its_other_setting
 
 
 @pytest.mark.parametrize("one", COMMITTED, ids=lambda one: one.file)
-def test_each_committed_finding_is_proved_and_its_files_are_fresh(one):
+def test_each_committed_finding_is_proved_and_its_files_equal_newly_generated_ones(one):
     assert proved(one)
     assert (REPORTS / one.file).read_text() == reproduction(one)
     assert (REPORTS / one.picture).read_text() == drawing(one)

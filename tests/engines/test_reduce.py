@@ -140,7 +140,7 @@ def test_rows_that_cannot_show_an_error_of_the_engine_itself_are_not_reduced(tmp
     assert list(findings_of(record("python-fcl", *others, explained), tmp_path, engine_with(PLANTED, -PLANTED))) == []
 
 
-def test_an_engine_whose_body_is_a_hull_has_no_missed_contact_or_too_far_error(tmp_path):
+def test_no_missed_contact_or_too_far_error_counts_for_an_engine_whose_body_is_a_convex_hull(tmp_path):
     hull = Asker(ENGINES["pybullet"], tmp_path, 1.0, 0.25)
     exact = Asker(ENGINES["python-fcl"], tmp_path, 1.0, 0.25)
     assert hull.error("too far", Said(False, 1.0), ABOVE) == 0
@@ -170,7 +170,7 @@ def test_error_of_an_engine_is_the_difference_of_its_answer_from_the_true_distan
     assert asker.error(kind, said, ABOVE) == pytest.approx(error, abs=1e-9)
 
 
-def test_asker_reads_the_answer_of_an_adapter_or_gives_none_if_it_ends_early(monkeypatch, tmp_path):
+def test_asker_returns_the_answer_of_an_adapter_or_none_if_the_adapter_ends_early(monkeypatch, tmp_path):
     """The adapter is one for node, in the place of which another program stands on PATH."""
     node = tmp_path / "bin" / "node"
     node.parent.mkdir()
@@ -201,14 +201,14 @@ def test_asker_reads_the_answer_of_an_adapter_or_gives_none_if_it_ends_early(mon
     assert asker(ABOVE[np.newaxis]) is None
 
 
-def test_a_triangle_through_the_middle_of_a_ball_is_deep_by_its_radius():
+def test_the_depth_of_a_triangle_through_the_middle_of_a_ball_is_the_radius():
     """The direction is drawn, for no nearest point gives one: that of the triangle's plane."""
     corners = ABOVE - [0, 0, 0.5]
     way = best_direction(corners, 0.5, 0.5)
     assert lower_bounds(corners, 0.5, 0.5, way[np.newaxis])[0] == pytest.approx(-0.5, abs=1e-9)
 
 
-def test_the_nearest_point_of_a_triangle_without_an_inside_is_on_its_longest_side():
+def test_the_nearest_point_of_a_triangle_without_area_is_on_its_longest_side():
     line = np.array([[-1.0, 1.0, 0.0], [3.0, 1.0, 0.0], [0.5, 1.0, 0.0]])
     shares = nearest_shares(line)
     assert shares @ line == pytest.approx([0, 1, 0])

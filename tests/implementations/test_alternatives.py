@@ -108,7 +108,7 @@ def test_numpy_roots_answers_cannot_say_if_the_coefficients_overflow():
 
 
 @pytest.mark.parametrize("answer", [bounding_sphere, on_rows(bounding_cylinder)])
-def test_a_bounding_shape_is_never_clear_where_the_spheroid_is_not(answer, rows):
+def test_a_bounding_shape_is_clear_only_where_the_spheroid_has_the_same_clear_position(answer, rows):
     found = answer(rows)
     claimed = found != 0
     assert claimed.any()
@@ -132,7 +132,7 @@ def test_the_exact_bench_methods_are_never_wrong(name, rows):
     assert (builtin(name).answer(some) == inside.positions(some)).all()
 
 
-def test_methods_only_for_bench_can_be_opened_by_name():
+def test_built_in_methods_that_only_bench_measures_can_be_opened_by_name():
     measured = [
         name
         for name, method in methods().items()

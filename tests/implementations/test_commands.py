@@ -138,7 +138,7 @@ def test_command_that_answers_too_slowly_times_out():
     assert re.search(r"1 of 40 answers, and hardly one more within 0.7 s", caught.value.reason)
 
 
-def test_a_command_may_answer_cannot_say():
+def test_the_answer_cannot_say_of_a_command_counts_as_answered():
     with open_implementation(command("cannot_say"), LIMITS) as it:
         answered = it.classify(rows())
     assert answered.answered.all()

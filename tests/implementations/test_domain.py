@@ -16,7 +16,7 @@ from tests.support.pairs import pairs
 
 
 @given(st.lists(pairs, min_size=1, max_size=10))
-def test_in_regime_is_decided_exactly(some):
+def test_in_regime_agrees_with_exact_fractions(some):
     rows = np.array([pair.row for pair in some])
     sizes = [[Fraction(value) for value in pair.row[:4]] for pair in some]
     assert in_regime(rows, "a>=1").tolist() == [alpha >= b for alpha, _, b, _ in sizes]

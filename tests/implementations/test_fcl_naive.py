@@ -95,7 +95,7 @@ def test_naive_fcl_accepts_an_empty_array_and_reports_a_missing_fcl(method, monk
         method(CLEAR_OF_DOUBT)
 
 
-def test_pairings_share_meshes_within_the_block_alone_and_answer_the_same(monkeypatch):
+def test_naive_fcl_shares_meshes_only_within_shared_meshes_and_gives_the_same_answers(monkeypatch):
     rows = FAMILIES["uniform"].rows(3, 12)
     expected = {pairing: naive_fcl(rows, pairing).tolist() for pairing in PAIRINGS}
     built = []

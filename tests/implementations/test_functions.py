@@ -138,7 +138,7 @@ def test_a_function_may_return_a_list_of_integers():
         assert it.classify(some).answers.tolist() == truth(some).tolist()
 
 
-def test_a_function_beside_an_import_of_hypcheck_has_no_description_by_that():
+def test_a_function_whose_file_imports_hypcheck_does_not_get_a_description_from_it():
     with open_implementation(function("imports_us"), NOT_ISOLATED) as it:
         assert it.classify(rows()).answers.tolist() == truth(rows()).tolist()
 

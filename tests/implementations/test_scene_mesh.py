@@ -83,7 +83,7 @@ def test_scene_mesh_answers_rightly_about_tilted_ellipsoids_away_from_contact(en
     assert (mesh.answers(rows[:, :7])[far] != truth[far]).sum() > 10  # as if it stood upright
 
 
-def test_turns_of_gives_rotations_that_take_the_z_axis_to_each_axis():
+def test_turns_of_returns_rotations_that_take_the_z_axis_to_each_axis():
     axes = np.array([[0.0, 0.0, 2.0], [0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [1.0, -2.0, 3.0]])
     turns = turns_of(axes)
     assert np.allclose(turns @ np.swapaxes(turns, 1, 2), np.eye(3), atol=1e-15)
@@ -116,7 +116,7 @@ def test_rows_by_sizes_groups_rows_of_the_same_four_sizes():
         assert (rows[places, :4] == sizes).all()
 
 
-def test_height_of_covers_a_body_above_the_usual_height():
+def test_height_of_is_increased_for_rows_with_a_centre_above_the_usual_height():
     rows = WORKLOADS["uniform"].rows(1, 3)
     rows[1, 6] = 90.0
     assert height_of(TOWER, rows) == pytest.approx(90.0 + 1.1 * 0.15)

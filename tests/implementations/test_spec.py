@@ -95,7 +95,7 @@ def test_parse_spec_accepts_any_text_or_refuses_it_with_an_input_error(kind, res
     assert shown.isprintable()
 
 
-def test_every_outcome_of_a_row_has_a_status_of_the_judge():
+def test_every_outcome_of_a_row_except_answered_is_a_status_in_judge():
     assert {each.label for each in Outcome} - {"answered"} <= {each.value for each in judge.Status}
 
 
@@ -230,7 +230,7 @@ def test_output_tail_holds_a_long_stream_in_bounded_memory():
     assert tail.lines() == (escaped("0296" * 1024 + "0297" * 1024 + "0298" * 1024 + "0299" * 1024, WIDTH),)
 
 
-def test_output_tail_gives_the_lines_since_the_mark():
+def test_output_tail_returns_the_lines_since_the_last_mark():
     tail = OutputTail()
     tail.add(b"old\n")
     tail.mark()

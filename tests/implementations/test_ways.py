@@ -109,7 +109,7 @@ def test_ball_mesh_is_inscribed_and_closed():
     assert abs(volume) == pytest.approx(4 * np.pi / 3, rel=0.05)
 
 
-def test_steps_by_distance_of_rows_with_a_vertical_axis_are_those_of_upright_rows():
+def test_the_solver_by_distance_treats_rows_with_a_vertical_axis_as_upright_rows():
     some = ROWS[:, :10]
     upright, leaning = (
         sweeps.advanced(some),

@@ -128,7 +128,7 @@ def test_a_function_for_sweeps_that_does_not_return_hits_and_times_raises_an_err
         loaded(f"def f(rows):\n    return {returned}").classify(ROWS, TIMED)
 
 
-def test_a_function_that_returns_unrequested_times_gets_advice_about_its_description(loaded):
+def test_a_function_that_returns_unrequested_times_is_told_to_declare_them_in_its_description(loaded):
     with pytest.raises(ContractError, match=r"it must be \(3,\); to return times .* must say \"times\": True"):
         loaded("def f(rows):\n    return [1, 0, 1], [0.5, 0.5, 0.5]").classify(ROWS, POSITION)
 
@@ -183,7 +183,7 @@ def test_a_reply_with_a_missing_time_or_checksum_breaks_the_protocol():
     assert raised.value.reason == "it wrote '7 100' where '7 NANOSECONDS CHECKSUM' had to come"
 
 
-def test_a_description_longer_than_any_that_is_meant_is_refused_unread():
+def test_a_description_longer_than_65536_bytes_is_refused_without_parsing():
     with pytest.raises(InputError, match=r"longer than 65536 bytes$"):
         described_by_json(" " * 65537, Description(name="x"))
     assert described_by_json(" " * 65534 + "{}", Description(name="x")).name == "x"

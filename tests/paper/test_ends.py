@@ -36,7 +36,7 @@ def tower(tmp_path):
 
 
 @pytest.mark.parametrize("command", [("simulate", "forest", "--steps", "50"), ("simulate", "tower", "--time", "0.05")])
-def test_output_of_a_simulation_is_the_same_but_for_what_ends_adds(capsys, command):
+def test_the_option_ends_adds_one_key_to_the_output_of_a_simulation_and_changes_no_other(capsys, command):
     ended, without = (result_of(capsys, *command, *more) for more in (("--ends",), ()))
     assert ended.pop("ends")
     assert ended == without
@@ -96,7 +96,7 @@ def is_valid(craft, at, heights):
     return position(craft.sizes, at, heights) == -1 or all(position(craft.rotor, one, heights) == -1 for one in four)
 
 
-def test_simulation_with_ends_says_in_words_what_the_centres_height_misses(capsys, tower):
+def test_text_of_a_simulation_with_ends_states_the_errors_of_a_test_of_the_centres_height(capsys, tower):
     assert main([*FOREST, "--ends", "--steps", "400"]) == 0
     out = capsys.readouterr().out
     assert "Trees as they end, where the walk asks for the height of the centre alone:" in out
@@ -109,7 +109,9 @@ def test_simulation_with_ends_says_in_words_what_the_centres_height_misses(capsy
 
 
 @pytest.mark.parametrize("more", [("tower", "--scene", "tower-simplest"), ("forest", "--scene", "bare.toml")])
-def test_ends_of_a_scene_in_which_nothing_ends_are_refused_in_one_sentence(capsys, tmp_path, monkeypatch, more):
+def test_the_option_ends_is_refused_in_one_sentence_if_no_hyperboloid_of_the_scene_ends(
+    capsys, tmp_path, monkeypatch, more
+):
     monkeypatch.chdir(tmp_path)
     Path("bare.toml").write_text(
         "".join(

@@ -46,7 +46,7 @@ def test_no_inline_formula_of_the_erratum_contains_the_punctuation_of_its_senten
         assert not re.search(r"=[^,()\[\]]*,[^()\[\]]*=", formula), formula  # two equations are two formulas
 
 
-def test_the_erratum_calls_the_row_of_table_5_a_question_and_counts_no_operations(note):
+def test_the_erratum_states_the_row_of_table_5_as_a_question_and_counts_no_operations(note):
     _, item = note.split("9. Table 5, second row: a question.")
     assert "inference" in item.split(r"\head{Proofs}")[0]
     assert "division" not in note

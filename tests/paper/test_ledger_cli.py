@@ -84,7 +84,7 @@ def test_derive_leaves_no_file_if_the_claim_does_not_exist(capsys, tmp_path):
     assert list(tmp_path.iterdir()) == [target]
 
 
-def test_a_claim_that_is_nearly_written_right_gets_the_right_one(capsys):
+def test_a_misspelled_claim_is_refused_with_a_suggestion_of_the_right_one(capsys):
     code, _, errors = told(capsys, "--claim", "Propositon 3.1")
     assert code == Exit.USAGE
     assert "did you mean 'Proposition 3.1'?" in errors
@@ -113,7 +113,7 @@ def test_evidence_that_is_not_found_is_shown_as_failing():
     assert (Emphasis(content.FAILS), prose("nothing found among 7 hulls")) in list(content.details(without))
 
 
-def test_a_verdict_without_its_evidence_is_among_what_derive_says_to_fail():
+def test_derive_shows_a_verdict_without_its_evidence_as_failing():
     (table,) = (entry for entry in entries() if entry.number == "Table 2")
     assert table.confirmed
     assert content.verdict(table) == "false"
@@ -143,7 +143,7 @@ STUDIES = ("hypcheck.paper", "hypcheck.engines", "hypcheck.proofs")
         "replay --help",
     ],
 )
-def test_commands_of_the_product_load_no_study(command):
+def test_commands_for_users_load_no_module_of_the_paper_the_engines_or_the_proofs(command):
     """Studies are the paper's derivation and simulations, the collision engines, and the proofs in Coq."""
     code = (
         "import sys; from hypcheck.cli.main import main\n"

@@ -184,7 +184,7 @@ def test_derive_markdown_lists_formulas_that_hold_as_printed_unless_it_shows_one
 
 
 @pytest.mark.parametrize("form", FORMATS)
-def test_derive_writes_each_format_by_its_writer(form):
+def test_derive_writes_each_format_as_the_function_written_returns_it(form):
     whole = form == "erratum"
     done = CliRunner().invoke(derive, ["--format", form, *([] if whole else ["--claim", "14"])])
     assert done.output.splitlines() == written(form, Selection(tuple(PARTS)) if whole else Selection((), "14"))

@@ -37,7 +37,7 @@ def flown():
     return simulate_tower(TowerPlan(short, 7, 5.0, 0.2, 0), None, lambda _: None)
 
 
-def test_the_text_about_tilted_has_dangerous_and_needless_answers_apart():
+def test_text_about_pitch_counts_dangerous_and_needless_answers_separately():
     assert list(pitch_lines(LEANS)) == [
         "Tilted by 20 degrees into each movement ahead or back, which Procedure 2.b does not know:",
         "  of 1,000 horizontal moves its answer is wrong about 30 (3.000 %):",
@@ -78,7 +78,7 @@ def ways(**changes):
 
 
 @pytest.mark.slow
-def test_the_text_of_the_tower_says_what_touches_on_the_ways_of_flights_and_of_the_table(flown):
+def test_text_of_the_tower_counts_contacts_on_the_sweeps_and_turns_of_flights_and_of_the_table(flown):
     text = list(tower_lines({**flown, "flights": {**flown["flights"], "ways": ways()}}))
     assert text[
         text.index("  10 accepted vertical moves: 3 touch (30.000 %), 1 from their beginning and 2 on the way") :
@@ -94,7 +94,7 @@ def test_the_text_of_the_tower_says_what_touches_on_the_ways_of_flights_and_of_t
     assert "  10 accepted vertical moves: 1 touches (10.000 %), 1 from their beginning and 0 on the way" in one
 
 
-def test_the_text_of_the_tower_ends_with_tilted_before_the_statement(flown):
+def test_text_of_the_tower_has_the_part_about_pitch_between_empty_lines(flown):
     text = list(tower_lines({**flown, "pitch": LEANS}))
     tilted = list(pitch_lines(LEANS))
     start = text.index(tilted[0])
@@ -102,7 +102,7 @@ def test_the_text_of_the_tower_ends_with_tilted_before_the_statement(flown):
     assert text[start - 1] == text[start + len(tilted)] == ""
 
 
-def test_the_text_of_a_tower_that_ends_counts_the_moves_of_the_table_only_if_it_was_flown(flown):
+def test_text_of_a_tower_with_ends_counts_the_moves_of_the_table_only_if_the_table_was_simulated(flown):
     counts = {"asked": 9, "reaching": 7, "beyond": 4, "touching": 1, "dangerous": 2, "needless": 3}
     lines = [
         "of 9 moves asked about the body reaches beyond an end in 7;",

@@ -117,7 +117,7 @@ def test_12_as_printed_misleads_at_two_more_pairs_that_were_computed_by_hand(row
     assert position(row) == CONTACT
 
 
-def test_12_as_printed_is_right_about_the_pair_on_the_axis_that_was_once_held_against_it():
+def test_12_as_printed_is_right_about_a_certain_interior_pair_on_the_axis():
     row = tuple(map(Fraction, (1, 1, 0, 0, 1)))
     assert position(row) == INTERIOR
     assert printed.by_12(*row).numbers == (49, 1, -2)
@@ -131,7 +131,7 @@ def test_all_roots_of_the_witness_against_the_proof_of_proposition_3_are_positiv
     assert (g.c2, g.c1, g.c0) == (0, 0, -1)  # λ³ − 1 has the one real root 1
 
 
-def test_on_the_ring_g_has_three_positive_roots_of_which_two_are_one_and_the_sphere_is_exterior():
+def test_on_the_ring_g_has_a_double_and_a_simple_positive_root_and_the_sphere_is_exterior():
     (row,) = witnesses("Proposition 3, proof: roots")
     a, c, r, _, z = row
     assert (z, r**2) == (0, (c**2 + 1) * (a**2 + c**2) / c**2)
@@ -187,7 +187,7 @@ def test_there_is_contact_with_a_positive_discriminant_in_a_low_hyperboloid(numb
 
 
 @pytest.mark.parametrize("number", ["Section 4, contact", "Section 4, discriminant"])
-def test_contact_about_a_narrow_waist_has_a_positive_discriminant_so_harmless_asks_for_a_wide_one(number):
+def test_harmless_demands_a_wide_waist_because_contact_at_a_narrow_one_has_a_positive_discriminant(number):
     row = tuple(map(Fraction, ("1/2", "1", "0", "0", "0")))
     assert printed.in_regime_3(*row[:2])
     assert position(row) == CONTACT
@@ -295,7 +295,7 @@ def test_the_tilted_pair_of_the_erratum_is_in_contact_and_would_be_interior_if_u
     assert tilted_position((*row, *(float(each) for each in axis.split(",")))) == CONTACT
 
 
-def test_pairs_that_the_centres_height_decides_otherwise_are_confirmed_by_the_least_distance_to_the_wall():
+def test_pairs_on_which_a_test_of_the_centres_height_errs_are_confirmed_by_the_least_value():
     """The least value knows neither the pencil nor the rule in the height."""
     (evidence,) = ledger()["Section 3.2, maximum height"].evidence
     found = re.findall(r"α = [^:]*", evidence.text.replace("−", "-"))

@@ -123,7 +123,7 @@ def test_missing_libraries_of_ocaml_and_coq_are_named_where_the_programs_are_the
     assert "apt-get install libzarith-ocaml-dev libcoq-flocq" in output
 
 
-def test_prove_names_each_file_its_axioms_and_the_refused_statements(tools):
+def test_prove_lists_each_file_with_its_axioms_and_counts_the_refused_statements(tools):
     code, output = tools.prove("--weakened", "2")
     lines = output.splitlines()
     assert code == 0
@@ -160,9 +160,7 @@ def test_prove_names_each_file_its_axioms_and_the_refused_statements(tools):
         (7, "true", "Coq accepts the printed C with"),
     ],
 )
-def test_prove_ends_with_1_where_coq_accepts_a_change_of_the_printed_c_or_does_not_judge(
-    place, verdict, message, tools
-):
+def test_prove_ends_with_1_if_coq_accepts_a_change_of_the_printed_c_or_gives_no_verdict(place, verdict, message, tools):
     verdicts = ["true", *("false" for _ in printed_c.changes(2, seed=45))]
     verdicts[place] = verdict
     tools.judge(*verdicts)
@@ -176,7 +174,7 @@ def test_prove_ends_with_1_where_coq_accepts_a_change_of_the_printed_c_or_does_n
         build.refuse_changes(2, tools.built)
 
 
-def test_changes_of_the_printed_c_reach_every_part_and_change_one_line_each():
+def test_changes_of_the_printed_c_cover_every_part_and_change_one_line_each():
     parts = printed_c.parts(printed_c.HEADER.read_text(encoding="utf-8"))
     found = printed_c.changes(2, seed=45)
     assert {part for part, _, _ in found} == set(range(len(parts)))
@@ -193,7 +191,7 @@ def test_changes_of_the_printed_c_reach_every_part_and_change_one_line_each():
         )
 
 
-def test_changes_of_functions_of_words_reach_every_function_and_change_one_word_each():
+def test_changes_of_functions_of_words_cover_every_function_and_change_one_word_each():
     texts = printed_c.functions(printed_c.HEADER.read_text(encoding="utf-8"))
     assert len(texts) == len(printed_c.FUNCTIONS)
     unchanged = [re.findall(r"\w+|\S", text) for text in texts]
@@ -204,13 +202,13 @@ def test_changes_of_functions_of_words_reach_every_function_and_change_one_word_
         assert sum(left != right for left, right in zip(unchanged, new, strict=True)) == 1
 
 
-def test_each_function_of_words_is_changed_in_the_file_that_says_what_it_computes():
+def test_each_changed_function_of_words_is_named_in_the_coq_file_that_is_tried():
     for change in build.changed_functions():
         name = re.search(r" in (\w+),", change.allows)[1]
         assert f'called "{name}"' in build.source(change.file)
 
 
-def test_changes_of_functions_that_decide_reach_every_function_in_the_file_that_runs_it():
+def test_changes_of_functions_that_decide_cover_every_such_function_of_the_header():
     header = printed_c.HEADER.read_text(encoding="utf-8")
     of_doubles = printed_c.of_doubles(header)
     deciding = (*printed_c.deciding(header), *printed_c.beside_tangency(header))
@@ -228,7 +226,7 @@ def test_changes_of_functions_that_decide_reach_every_function_in_the_file_that_
         assert source.count(change.old) == 1
 
 
-def test_prove_with_soundness_compiles_what_the_checker_rests_on_alone(tools):
+def test_prove_with_soundness_compiles_only_the_files_on_which_the_checker_depends(tools):
     tools.assume(CLOSED, "")
     code, output = tools.prove("--soundness")
     names = (*build.SOUNDNESS, "ExtractedChecker")
@@ -254,7 +252,7 @@ def test_coq_that_does_not_print_assumptions_is_an_error(tools):
     assert tools.prove("--soundness")[1].endswith("error: Coq does not say what the proofs assume: Error: nothing\n")
 
 
-def test_the_excluded_middle_is_allowed_in_floats_alone_and_another_axiom_nowhere(tools):
+def test_prove_allows_the_excluded_middle_only_for_the_floats_and_no_other_axiom(tools):
     tools.assume(f"Axioms:\n{build.OF_FLOCQ} : P\n", CLOSED)
     assert tools.prove()[1].endswith(f"error: the proofs assume {build.OF_FLOCQ}; that is not allowed\n")
     tools.assume(CLOSED, "Axioms:\nFalse_is_true : P\n")
@@ -292,7 +290,7 @@ def test_an_error_of_ocaml_is_quoted(tools):
         ("exit 3", 2, "check_cases ended with 3\n"),
     ],
 )
-def test_prove_ends_as_the_checker_says_about_the_frozen_vectors(tools, script, code, message):
+def test_prove_ends_with_the_exit_code_of_the_checker_of_the_frozen_vectors(tools, script, code, message):
     """With 1 where a label is wrong, with 2 where a file cannot be read."""
     tools.program("checker", f'#!/bin/sh\necho "$@" > {tools.folder}/files\n{script}\n')
     found, output = tools.prove("--soundness", "--weakened", "0")
@@ -335,7 +333,7 @@ def test_prove_ends_with_1_where_coq_accepts_a_statement_that_a_program_weakened
     assert output.endswith(f"Coq accepts {change.file}.v with {change.allows}, and no reason is given for that\n")
 
 
-def test_a_statement_that_a_program_weakened_is_tried_without_what_comes_after_its_proof(tools):
+def test_an_automatically_weakened_statement_is_tried_without_the_text_after_its_proof(tools):
     change = next(change for change in weakenings.made(build.source) if change.until)
     tools.program("bin/coqc", f"#!/bin/sh\ncp {change.file}.v {tools.folder}/tried\n")
     assert build.accepted(change, tools.built)

@@ -38,7 +38,7 @@ def test_each_theorem_of_the_table_is_proved_in_its_file():
     assert [theorem for theorem in named if not build.proves(*theorem)] == []
 
 
-def test_exactly_the_proved_steps_name_theorems():
+def test_exactly_the_steps_that_count_as_proved_have_theorems():
     assert {step["how"] for step in STEPS if theorems(step)} == {"proved", "proved false"}
     assert [step["step"] for step in STEPS if step["how"].startswith("proved") and not theorems(step)] == []
 

@@ -44,7 +44,7 @@ z = [0.0, 1.0]
 compiled = pytest.mark.skipif(not up_to_date(), reason="`make prove` has not been run here since the last change")
 
 
-def test_every_coq_file_is_compiled_and_leaves_nothing_unproved():
+def test_every_coq_file_is_compiled_and_has_neither_admitted_proofs_nor_axioms():
     assert {path.stem for path in build.SOURCES.rglob("*.v")} == set(build.FILES) - {build.HEADER_TEXT}
     for name in build.FILES:
         assert all(build.proves(name, each) for each in build.statements(name)), name
@@ -58,7 +58,7 @@ def test_every_coq_file_is_compiled_and_leaves_nothing_unproved():
         ("Lemma easy : True.\nProof. exact I. Qed.\n(* Admitted *)", ""),
     ],
 )
-def test_a_file_with_an_admitted_proof_or_an_axiom_leaves_something_unproved(text, word):
+def test_unproved_finds_an_admitted_proof_and_an_axiom_in_a_coq_file(text, word):
     assert build.unproved(text) == word
 
 
@@ -78,7 +78,7 @@ def test_coq_accepts_the_checker_and_refuses_it_if_the_ring_counts_as_a_tangency
     assert not accepted(ring)
 
 
-def test_a_program_makes_weakened_statements_of_every_stage_and_explains_known_ones_alone():
+def test_weakened_statements_are_made_for_every_stage_and_reasons_are_given_only_for_existing_ones():
     made = weakenings.made(build.source)
     assert {change.stage for change in made} == {"1 to 5", "1", "2", "3", "4", "5", "ends", "checker"}
     assert len({(change.file, change.allows) for change in made}) == len(made) >= 400
@@ -201,7 +201,7 @@ def test_the_proved_checker_proves_every_frozen_position_and_every_sweep_without
 
 
 @compiled
-def test_the_proved_checker_counts_contacts_without_a_certificate_of_which_it_finds_no_point(capfd, tmp_path):
+def test_the_proved_checker_fails_if_it_finds_no_common_point_for_a_contact_without_a_certificate(capfd, tmp_path):
     file = json.loads((frozen.folder() / "ended-rim-tangent.json").read_text(encoding="utf-8"))
     (tmp_path / "found.json").write_text(json.dumps(file), encoding="utf-8")
     touch, other = (case for case in file["cases"][:2] if case["certificate"] == {"rule": "height"})
@@ -300,7 +300,7 @@ def test_the_proved_checker_refuses_a_wrong_label(name, place, damage, capfd, tm
 
 
 @compiled
-def test_the_proved_checker_says_of_a_row_that_ends_and_must_be_refused_that_it_is_valid(capfd, tmp_path):
+def test_the_proved_checker_finds_a_valid_row_in_a_file_of_invalid_rows_with_ends(capfd, tmp_path):
     file = json.loads((frozen.folder() / "ended-invalid.json").read_text(encoding="utf-8"))
     _valid_row(file["cases"][0])
     (tmp_path / "wrong.json").write_text(json.dumps(file), encoding="utf-8")
