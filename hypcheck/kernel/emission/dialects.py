@@ -1,14 +1,15 @@
-"""The languages of emitted code: their phrases and templates, descriptions and prefixes, and routines in them.
+"""The languages of emitted code: phrases and templates, a file's description of itself, prefixes, printed routines.
 
 templates/ has a file of phrases for each language, NAME.toml, and a template for each kind of file, which C and C++
 share. In both ${name} is replaced by a text. In a template, a name that is alone on its line is replaced by the lines
 of its text, with the indent that it has.
 
-The description is what a file says of itself: a text of JSON, or an object of its language, a line for each setting.
+The description is what an emitted file says about itself: a text of JSON, or an object of its language, with a line for
+each setting.
 
 A routine is printed as a head, a statement for each part, and a result; steps are printed as those of programs are.
-The phrases say how a function begins and ends, how a number is kept from round to round, and what a loop and a call
-are. No function here knows a language.
+The phrases say how a function begins and ends, how a number is kept from round to round, and how a loop and a call are
+written. The printer of routines has no code for a single language.
 """
 
 from __future__ import annotations
@@ -51,7 +52,7 @@ _ESCAPED_MARK = re.compile(r"\$\{\{(\w+)\}\}")
 
 
 def filled(package: str, name: str, parts: Mapping[str, str]) -> str:
-    """The template of a package with its marks filled in; text of a part that looks like a mark stays.
+    """Return a template of the package with its marks filled in; text of a part that looks like a mark stays.
 
     Raises KeyError for a mark that has no part.
     """
@@ -69,14 +70,17 @@ def filled(package: str, name: str, parts: Mapping[str, str]) -> str:
 class Dialect:
     """A language: its types of numbers, and its phrases, as its file in templates/ has them.
 
-    `extension` is that of its source files, `templates` that of its templates. `comment` begins a line of the head,
-    and `between` separates two functions. `numbers` has the type for each format that the language computes in, as
-    printing/languages.py has it; `suffixes` end literals of a format. `types` are those of pairs and of answers,
-    `capitals` whether types are CalledSo. `phrases` are formats of str.format; `whole` replaces and adds those of a
-    whole scene's kernel, and `integers` are those of steps in whole numbers (programs/integers.py). `axis` has what a
-    kernel's text says besides where it takes an axis: how one is declared, given on, read from a row. `exports`: its
-    kernels have functions that a linker sees; the others' names are their module's. `by_block`: they have loops over
-    many centres that compilers make vectors of.
+    `extension` ends the names of its source files, `templates` those of its templates. `comment` begins a line of the
+    head of a file, and `between` separates two functions. `numbers` has the type for each format that the language
+    computes in, as printing/languages.py has it; `suffixes` has what ends a literal of a format. `types` names the
+    types of a pair, an answer and the index of a table. `capitals`: the names of types are written LikeThis.
+
+    The texts of `phrases`, `whole` and `integers` are for str.format. `whole` replaces and adds phrases for the kernel
+    of a whole scene; `integers` has those for steps in whole numbers (programs/integers.py). `axis` has the texts that
+    a kernel with an axis has in addition: how an axis is declared, passed to a function, read from a row.
+
+    `exports`: a linker sees the functions of its kernels; in the other languages they are names of a module.
+    `by_block`: its kernels have loops over many centres, which compilers turn into vector code.
     """
 
     name: str
@@ -96,36 +100,36 @@ class Dialect:
     integers: Mapping[str, str]
 
     def number_of(self, precision: str) -> str:
-        """The type of numbers for a format; raises InputError where the language has none."""
+        """Return the type of numbers for a format. Raises InputError if the language has none."""
         if precision not in self.numbers:
             raise InputError(f"{self.name} has no {precision}; it computes in {' or '.join(self.numbers)}")
         return self.numbers[precision]
 
     def literal(self, value: float, precision: str) -> str:
-        """A number of the format, in decimals that read back as that very number."""
+        """Return a number of the format in decimals that read back as that very number."""
         return f"{value!r}{self.suffixes.get(precision, '')}"
 
     def statements(self, program: Program, wanted: tuple[str, ...], precision: str) -> tuple[str, ...]:
-        """The needed part of the program, in numbers of the format; a statement for each step."""
+        """Return a statement for each step of the program that the wanted names need, in numbers of the format."""
         return statements_in(self.name, program, wanted, number=self.number_of(precision))
 
     def filled(self, name: str, parts: Mapping[str, str]) -> str:
-        """The language's template of that name with its marks filled in, as `filled` does. Raises KeyError."""
+        """Return the language's template of that name with its marks filled in, as `filled` does. Raises KeyError."""
         return filled("hypcheck.kernel.emission", f"{name}.{self.templates}.tmpl", parts)
 
     @property
     def asked_of_compiler(self) -> str:
-        """The options that a compiler must not be given; nothing if no option changes the language's arithmetic."""
+        """The lines that refuse compiler options that change arithmetic; empty if the language has no such options."""
         return self.filled("arithmetic", {}) if self.by_block else ""
 
     def say(self, phrase: str, **words: object) -> str:
-        """A phrase with its words filled in; `place` is the setting's number and `number` the type of numbers."""
+        """Return a phrase with its words filled in; `place` is a setting's number, `number` the type of numbers."""
         return self.phrases[phrase].format(**words)
 
 
 @cache
 def dialect_of(language: str) -> Dialect:
-    """The language of that name, one of LANGUAGES."""
+    """Return the language of that name, one of LANGUAGES."""
     tables = _tables_of(language)
     for section in ("phrases", "whole", "integers"):
         tables[section] = {name: _format_of(text) for name, text in tables[section].items()}
@@ -133,7 +137,7 @@ def dialect_of(language: str) -> Dialect:
 
 
 def _tables_of(language: str) -> dict[str, Any]:
-    """The file of a language, with what the language that it is based on adds to each of its tables."""
+    """Read the file of a language. Where its tables have no entry, that of the language it is based on holds."""
     own = dict(toml.shipped("hypcheck.kernel.emission", f"templates/{language}.toml"))
     base = own.pop("based_on", None)
     if base is None:
@@ -144,7 +148,7 @@ def _tables_of(language: str) -> dict[str, Any]:
 
 
 def _format_of(phrase: str) -> str:
-    """The phrase for str.format."""
+    """Return the phrase with ${name} written as {name}, for str.format."""
     return _ESCAPED_MARK.sub(r"{\1}", phrase.replace("{", "{{").replace("}", "}}"))
 
 
@@ -168,10 +172,10 @@ def description_in_language(
     asked: tuple[str, int],
     separators: tuple[str, str] | None = None,
 ) -> str:
-    """The description in a language: in C the body of the function that returns it, in Rust the whole function.
+    """Return the description as code: in C the body of the function that returns it, in Rust the whole function.
 
-    `asked` is the name of the function that the description is about, and the numbers of a row; `separators` are those
-    of json.dumps.
+    `asked` is the name of the function that the description is about, and how many numbers a row has; `separators` are
+    those of json.dumps.
     """
     if language == "python":
         return "\n    ".join(line.rstrip() for line in _lines(value, repr))
@@ -188,9 +192,10 @@ def description_in_language(
 
 
 def _in_rust(quoted: Sequence[str], prefix: str, predicate: str, width: int) -> str:
-    """The description in Rust, with the names that the adapter of `hypcheck init` takes from a module.
+    """Return the description in Rust, with the names that the adapter of `hypcheck init` takes from a module.
 
-    `predicate` is that function, `width` the numbers of a row; another function is there and answers none.
+    `predicate` is the name of the function that answers, and `width` the number of columns of a row. The other one of
+    `predicate` and `tilted` exists too, but answers no row.
     """
     columns = str(width)
     other, other_columns = ("tilted", "10") if predicate == "predicate" else ("predicate", "7")
@@ -200,7 +205,7 @@ def _in_rust(quoted: Sequence[str], prefix: str, predicate: str, width: int) -> 
 
 
 def _lines(value: dict[str, Any], written: Callable[[Any], str]) -> Iterator[str]:
-    """The text of a value in pieces: the part before its domain's settings, each setting, the end."""
+    """Yield the text of a description in pieces: the part before the domain's settings, each setting, the end."""
     settings = value["domain"].get("settings")
     if settings is None:
         yield written(value)
@@ -231,7 +236,9 @@ def require_prefix(prefix: str, language: str) -> None:
 
 
 def routines_text(routines: Sequence[Routine], dialect: Dialect, precision: str) -> str:
-    """The code of the routines, of all routines that they call, each once and before its callers, and of their records.
+    """Return the code of the routines and of all routines that they call, with the types of their records.
+
+    Each routine is there once, and before those that call it.
 
     Raises ValueError for a name that the language reserves.
     """
@@ -250,6 +257,8 @@ def routines_text(routines: Sequence[Routine], dialect: Dialect, precision: str)
 
 @dataclass(frozen=True)
 class _Printer:
+    """Prints routines in one language, with numbers of one format."""
+
     dialect: Dialect
     precision: str
 
@@ -263,20 +272,20 @@ class _Printer:
         return self.dialect.say(phrase, number=self.dialect.number_of(self.precision), **words)
 
     def type_of(self, kind: str) -> str:
-        """The name of the language's type for this kind."""
+        """Return the name of the language's type for a kind of names: NUMBER, BOOLEAN, PAIR or ANSWER."""
         if kind in self.dialect.types:
             return self.dialect.types[kind]
         return self.spelling.number if kind == NUMBER else self.spelling.boolean
 
     def record(self, routine: Routine) -> str:
-        """The type of its record; nothing where it has none, or the language needs none."""
+        """Return the code of the type of a routine's record; empty if it has none, or the language needs no type."""
         if not routine.record:
             return ""
         lines = (self._named("record_field", name, routine) for name in routine.record)
         return self.say("record", record=self._type_of_record(routine), fields="\n".join(INDENT + one for one in lines))
 
     def tables(self, parts: Iterable[Part]) -> Iterator[str]:
-        """The code of the tables whose rows the loops of the parts read."""
+        """Yield the code of each table whose rows a loop of the parts reads."""
         for part in parts:
             if isinstance(part, Loop):
                 if part.table is not None:
@@ -287,7 +296,7 @@ class _Printer:
                 yield from self.tables(part.body)
 
     def text(self, routine: Routine) -> str:
-        """The function."""
+        """Return the code of the routine, a function."""
         inputs = ", ".join(self._named("input", name, routine) for name in routine.inputs)
         if routine.record:
             of = ", ".join(self._named("input", name, routine) for name in routine.record)
@@ -307,14 +316,16 @@ class _Printer:
         return "\n".join([*_broken(head), *_indented(body), *filter(None, [self.say("end")])])
 
     def _named(self, phrase: str, name: str, routine: Routine) -> str:
+        """Return a phrase about a name that the routine is given, with the type of the name."""
         return self.say(phrase, name=name, type=self.type_of(routine.given[name]))
 
     def _type_of_record(self, routine: Routine) -> str:
+        """Return the name of the type of a routine's record."""
         words = routine.record_name.split("_")
         return "".join(map(str.capitalize, words)) if self.dialect.capitals else routine.record_name
 
     def _parts(self, parts: Iterable[Part], kinds: dict[str, str]) -> Iterator[str]:
-        """The statements; `kinds`, of the names before, gets those of the names that they make."""
+        """Yield the statements of the parts. `kinds` holds the kind of each name so far; the new names are added."""
         several = list(parts)
         for part, next_part in zip(several, (*several[1:], None), strict=False):
             if isinstance(part, Loop):
@@ -336,6 +347,7 @@ class _Printer:
                 yield self.spelling.declaration.format(**words)
 
     def _value(self, part: Step | Call | Half) -> str:
+        """Return the expression of a step, a call or a half of a pair."""
         if isinstance(part, Step):
             return value_of(part, self.spelling)
         if isinstance(part, Half):
@@ -344,6 +356,7 @@ class _Printer:
         return f"{part.routine.name}({arguments})"
 
     def _loop(self, loop: Loop, kinds: dict[str, str]) -> Iterator[str]:
+        """Yield the statements of a loop: the kept numbers, its head, the cells of its table, its body, its end."""
         for name, start, _ in loop.kept:
             kinds[name] = NUMBER
             self._require_free(name)
@@ -362,10 +375,12 @@ class _Printer:
         yield from filter(None, [self.say("end_if")])
 
     def _require_free(self, name: str) -> None:
+        """Raise ValueError if the language reserves the name."""
         if name in self.spelling.reserved:
             raise ValueError(f"{name} is not a name in {self.dialect.name}")
 
     def _result(self, result: Result) -> Iterator[str]:
+        """Yield the statements that return the result."""
         if isinstance(result, str):
             yield self.say("return", value=result)
         elif isinstance(result, tuple):
@@ -378,14 +393,14 @@ class _Printer:
 
 
 def _low_half(part: Part, next_part: Part | None) -> Half | None:
-    """The next part, where the two are the halves of one pair, the first number first."""
+    """Return the next part if it is the low half of the pair whose high half `part` is, else None."""
     if isinstance(part, Half) and isinstance(next_part, Half) and part.pair == next_part.pair:
         return next_part if next_part.low and not part.low else None
     return None
 
 
 def _broken(head: str) -> Iterator[str]:
-    """The lines of a function's head; a line that is too long is broken after commas."""
+    """Yield the lines of a function's head; a line that is too long is broken after commas."""
     for line in head.splitlines():
         inputs = line.split(", ") if len(line) > WIDTH else [line]
         begun, *others = inputs
@@ -399,4 +414,5 @@ def _broken(head: str) -> Iterator[str]:
 
 
 def _indented(lines: Iterable[str]) -> list[str]:
+    """Return the lines, each indented by one step."""
     return [f"{INDENT}{line}" for line in lines]

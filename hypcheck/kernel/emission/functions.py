@@ -1,11 +1,14 @@
-"""The functions of a setting: one centre in any language, and many centres at once in C and C++.
+"""Writes the functions of a setting: one for one centre, in any language, and one for many centres, in C and C++.
 
-The function for one centre has the stages of its plan, one after the other, until one answers.
+A setting is one pair of sizes: one spheroid beside one hyperboloid (specialise/settings.py).
 
-The function for many has the stages as loops without branches, block by block. The first loop asks the lines, the
-second, where they leave a centre of the block open, the discriminant; centres that are open after that go to the
-setting's function one by one. After an open block the lines are passed over for a while: where centres are spread all
-over a region, nearly every block is open, and along a path hardly any.
+The function for one centre runs the stages of the plan in their order. The first stage that decides gives the answer.
+
+The function for many centres runs the stages as loops without branches, a block of centres at a time. The first loop
+tests the lines. If they leave a centre of the block undecided, a second loop computes the discriminant. Centres that
+are undecided after that go to the setting's function one by one. After a block with an undecided centre, the next
+blocks skip the lines: where centres are spread all over a region, nearly every block has one, and along a path hardly
+any.
 """
 
 from __future__ import annotations
@@ -27,14 +30,15 @@ from hypcheck.kernel.specialise.plan import ONE_SIDED, ScenePlan, Stages
 
 
 def answer(position: Position, question: str) -> int:
-    """The answer for a position: itself, or 1 for yes and 0 for no."""
+    """Return the answer about a spheroid in this position: the position, or 1 for yes and 0 for no."""
     return int(position) if question == "position" else int(position is Position[question.upper()])
 
 
 def setting_function(plan: ScenePlan, stages: Stages, place: int, dialect: Dialect, *, shared: bool = False) -> str:
-    """The function of the setting at this place, from the first line to the last.
+    """Return the text of the function for one setting; `place` is the number in the function's name.
 
-    Where settings share it, it is also given their numbers, c, and which setting it is, s, and says nothing of one.
+    If `shared`, several settings share the function. It then takes two more arguments: c, the numbers of one setting,
+    and s, the number of that setting. Its head has no comment about one setting.
     """
     parts = list(_Body(plan, stages, place, dialect).lines())
     read = set(re.findall(r"\w+", "\n".join(parts)))
@@ -49,7 +53,7 @@ def setting_function(plan: ScenePlan, stages: Stages, place: int, dialect: Diale
 
 
 class _Statements:
-    """A setting's stages, written in one language and number format for the plan's question."""
+    """Writes the stages of a setting in one language and number format, for the plan's question."""
 
     def __init__(self, plan: ScenePlan, stages: Stages, dialect: Dialect) -> None:
         self._question, self._precision = plan.question, plan.format.name
@@ -57,24 +61,29 @@ class _Statements:
         self._number = dialect.number_of(self._precision)
 
     def _entry(self, wanted: tuple[str, ...]) -> Iterator[str]:
-        """The inputs of the stages, computed from x, y and z, and the constants that this needs."""
+        """Yield the statements from x, y and z to the wanted inputs of the stages, after the constants they read."""
         program, constants = self._stages.entry, self._stages.entry_constants
         read = {name for step in needed(program, wanted) for name in step.reads}
         yield from self._constants({name: value for name, value in constants.items() if name in read})
         yield from self._printed(program, wanted)
 
     def _constants(self, constants: Mapping[str, float]) -> Iterator[str]:
+        """Yield a declaration for each constant."""
         for name, value in constants.items():
             yield self._say("constant", name=name, value=self._literal(value))
 
     def _printed(self, program: Program, wanted: tuple[str, ...]) -> tuple[str, ...]:
+        """Return a statement for each step of the program that the wanted names need."""
         return self._dialect.statements(program, wanted, self._precision)
 
     def _literal(self, value: float) -> str:
+        """Return the number as the language writes it in the plan's format."""
         return self._dialect.literal(value, self._precision)
 
     def _beyond_height(self) -> list[str]:
-        """The conditions under which z is beyond the modelled height; an end that the format does not reach has none.
+        """Return a condition for each end of the modelled height: z is beyond that end.
+
+        An end that overflows in the format has no condition.
 
         Rounding is monotone: no z within the height is beyond the rounded ends once it is rounded itself.
         """
@@ -86,28 +95,30 @@ class _Statements:
         return [f"z {sign} {self._literal(end)}" for sign, end in zip("<>", ends, strict=True) if isfinite(end)]
 
     def _beyond_thresholds(self) -> Iterator[tuple[str, int]]:
-        """The conditions under which R is on a position's side of its threshold, and the answer there."""
+        """Yield, for each threshold, the condition that R is on its position's side, and the answer there."""
         for position, threshold in thresholds_asked(self._stages, self._question):
             sign = ">" if position is Position.EXTERIOR else "<"
             yield f"R {sign} {self._literal(threshold)}", answer(position, self._question)
 
     def _side(self) -> Iterator[str]:
-        """The step `outside`: on which side the centre is."""
+        """Yield the statements that compute `outside`: whether the centre lies outside the hyperboloid."""
         yield from self._constants(self._stages.centre)
         yield from self._printed(CENTRE, ("outside",))
 
     def _say(self, phrase: str, **words: object) -> str:
+        """Return a phrase of the language with its words filled in."""
         return self._dialect.say(phrase, **{"number": self._number, **words})
 
 
 class _Body(_Statements):
-    """The statements of one function."""
+    """Writes the statements of the function for one centre."""
 
     def __init__(self, plan: ScenePlan, stages: Stages, place: int, dialect: Dialect) -> None:
         super().__init__(plan, stages, dialect)
         self._place = place
 
     def lines(self) -> Iterator[str]:
+        """Yield all statements, from the test of the height to the last answer."""
         stages = self._stages
         if stages.setting.cut is not None:
             yield self._note("beyond the modelled height")
@@ -121,6 +132,7 @@ class _Body(_Statements):
             yield from self._stages_in_turn(stages.last)
 
     def _thresholds(self) -> Iterator[str]:
+        """Yield the statements for one fixed height: R is compared with each threshold; all else is contact."""
         conditions = list(self._beyond_thresholds())
         if conditions:
             yield from self._entry(("R",))
@@ -129,6 +141,7 @@ class _Body(_Statements):
         yield self._say("return", value=answer(Position.CONTACT, self._question))
 
     def _stages_in_turn(self, search: DualSearch | TiltedSearch) -> Iterator[str]:
+        """Yield the statements of all stages in order: lines, limits, the centre's side, discriminant, search."""
         stages = self._stages
         yield from self._entry(("R", "zz", "height") if isinstance(search, DualSearch) else ("R", "zz"))
         for line in stages.lines:
@@ -150,10 +163,12 @@ class _Body(_Statements):
         yield from self._searched(search)
 
     def _within(self, stage: Discriminant | DualSearch | TiltedSearch) -> str:
+        """Return the condition that R and zz are within the limits up to which the stage holds."""
         widest, highest = self._literal(stage.widest), self._literal(stage.highest)
         return self._say("and", left=f"R <= {widest}", right=f"zz <= {highest}")
 
     def _centre(self) -> Iterator[str]:
+        """Yield the statements that compute the centre's side; a one-sided question is answered no on the other."""
         yield self._note("the side of the centre")
         yield from self._side()
         if self._question in ONE_SIDED:
@@ -161,6 +176,7 @@ class _Body(_Statements):
             yield self._say("return_if", condition=never, value=0)
 
     def _discriminant(self, delta: Discriminant) -> Iterator[str]:
+        """Yield the statements that compute the discriminant and answer where its sign is certain."""
         yield self._note("the sign of three times the discriminant, where it is certain")
         yield from self._constants(delta.constants)
         yield from self._printed(delta.program, ("delta_3",))
@@ -176,12 +192,13 @@ class _Body(_Statements):
         yield from filter(None, [self._say("end_if")])
 
     def _clear(self) -> str:
-        """The expression for the answer about a clear spheroid; for positions it reads `outside`."""
+        """Return the expression for the answer about a clear spheroid; for positions it reads `outside`."""
         if self._question == "position":
             return self._say("select", condition="outside", left="1", right="-1")
         return "0" if self._question == "contact" else "1"
 
     def _searched(self, search: DualSearch | TiltedSearch) -> Iterator[str]:
+        """Yield the statements that call the search and turn its result into the answer to the question."""
         if isinstance(search, TiltedSearch):
             answer = self._say("free_search" if search.free else "fixed_search", place=self._place)
         else:
@@ -197,6 +214,7 @@ class _Body(_Statements):
         yield self._say("return", value=self._say("truth", condition=compared[self._question]))
 
     def _return_if(self, condition: str, position: Position) -> str:
+        """Return the statement that answers for this position if the condition holds."""
         return self._say("return_if", condition=condition, value=answer(position, self._question))
 
     def _note(self, text: str) -> str:
@@ -204,15 +222,17 @@ class _Body(_Statements):
 
 
 BLOCK = 256
+"""Centres in a block."""
+
 PASSED_OVER = 15
-"""Blocks that go straight to the discriminant after an open one."""
+"""After a block with an undecided centre, so many blocks skip the lines and go straight to the discriminant."""
 
 OPEN = 3
 """The code of a centre that is not decided yet."""
 
 
 def batch_function(plan: ScenePlan, stages: Stages, place: int, dialect: Dialect) -> str:
-    """The function for many centres of the setting at this place."""
+    """Return the text of the function for many centres of a setting; `place` is the number in the function's name."""
     batch, number = _Batch(plan, stages, dialect), dialect.number_of(plan.format.name)
     second = "\n".join(batch.second())
     words = {
@@ -229,14 +249,14 @@ def batch_function(plan: ScenePlan, stages: Stages, place: int, dialect: Dialect
 
 
 class _Batch(_Statements):
-    """The statements of one setting for many rows: a quick first loop, and a loop for the rows that it leaves open."""
+    """Writes the statements for many centres: a quick first loop, and a second one for centres that are still OPEN."""
 
     def code(self, value: int) -> str:
-        """An answer, or OPEN, as a number: comparisons and selections of one type become vectors."""
+        """Return an answer, or OPEN, as a number of the format: compilers make vectors of code with one type only."""
         return self._dialect.literal(float(value), self._precision)
 
     def first(self) -> Iterator[str]:
-        """All tests that cost a few operations; centres that they do not decide are OPEN."""
+        """Yield the statements of the first loop: all tests that cost a few operations. Undecided centres are OPEN."""
         stages, choices, rest = self._stages, self._unmodelled(), OPEN
         yield from self._centre_read()
         if isinstance(stages.last, Position):
@@ -261,7 +281,7 @@ class _Batch(_Statements):
         yield f"code[i] = {self._chosen(choices, self.code(rest))};"
 
     def second(self) -> Iterator[str]:
-        """The discriminant, for those that are open."""
+        """Yield the statements of the second loop, the discriminant for OPEN centres; none if the setting has none."""
         delta = self._stages.discriminant
         if delta is None:
             return
@@ -289,19 +309,23 @@ class _Batch(_Statements):
 
     @property
     def _truth(self) -> str:
+        """The type of truth values."""
         return "bool" if self._dialect.name == "cpp" else "int"
 
     def _centre_read(self) -> Iterator[str]:
+        """Yield the statements that read x, y and z of centre i."""
         for name in "xyz":
             yield f"const {self._number} {name} = ({self._number}){name}s[i];"
         yield "(void)x; (void)y; (void)z;"
 
     def _unmodelled(self) -> list[tuple[str, int]]:
+        """Return the condition that z is beyond the modelled height, with the answer there; [] without such a test."""
         if self._stages.setting.cut is None:
             return []
         return [(" | ".join(f"({condition})" for condition in self._beyond_height()) or "0", CANNOT_SAY)]
 
     def _chosen(self, choices: list[tuple[str, int]], rest: str) -> str:
+        """Return the expression for the value of the first condition that holds, else `rest`."""
         text = rest
         for condition, value in reversed(choices):
             text = f"({condition}) ? {self.code(value)} : ({text})"

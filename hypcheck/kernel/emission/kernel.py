@@ -1,17 +1,17 @@
-"""The kernels of a scene in a language, from its plan: one for its pairs of sizes, and one for the whole scene.
+"""Writes the kernels of a scene in a language, from its plan: one for its pairs of sizes, one for the whole scene.
 
-Searches, and what they call, are printed from routines.
+Searches and the routines that they call are printed by dialects.py.
 
 **The whole scene.** Its kernel also has the hyperboloids and their places, heights, the mover's parts, and the loop
 over them. Settings whose functions differ only in their numbers share one, a *shape*, which reads the numbers from a
 table; its statements, and so its arithmetic, are those of the functions that functions.py writes. So a kernel grows by
 a line a hyperboloid, and there may be as many as a scene has.
 
-Each pair of sizes is asked for its position, as `verify` asks of any kernel. The whole is put together as
-hypcheck.Scene does it (kernel/scene.py): contact with any hyperboloid is contact, else inside any is interior, else
-exterior; parts are asked where the mover has contact. The offset from a hyperboloid's centre is rounded once, a change
-of that coordinate by a unit more. Of a spheroid that reaches over an end only bounds are asked, those of
-kernel/scene_pairs.py; where they do not tell, the answer is 2.
+The kernel computes the position for each pair of sizes, as any kernel does that `verify` tests. It combines them as
+hypcheck.Scene does (kernel/scene.py): contact with any hyperboloid is contact, else inside any is interior, else
+exterior. The parts are tested where the mover has contact. The offset from a hyperboloid's centre is rounded once,
+which changes that coordinate by one unit more. If a spheroid reaches over an end, only the bounds of
+kernel/scene_pairs.py are used; where they do not decide, the answer is 2.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ from hypcheck.version import VERSION
 
 
 def emitted(plan: ScenePlan, language: str, command: Sequence[str], prefix: str = PREFIX) -> str:
-    """The text of the kernel; its header names `command` as the command that wrote it. Raises InputError.
+    """Return the text of the kernel; its header names `command` as the command that wrote it. Raises InputError.
 
     Its exported functions are `prefix`_classify, `prefix`_classify_scene and `prefix`_describe.
     """
@@ -71,7 +71,10 @@ def emitted(plan: ScenePlan, language: str, command: Sequence[str], prefix: str 
 
 
 def _common_parts(plan: ScenePlan, dialect: Dialect, prefix: str) -> dict[str, str]:
-    """The parts of kernels of pairs and of whole scenes. Raises InputError for a wrong prefix."""
+    """Return the texts for the marks that the templates of pairs and of whole scenes share.
+
+    Raises InputError for a wrong prefix.
+    """
     require_prefix(prefix, dialect.name)
     phrases = ("includes", "linkage", "end_linkage") if dialect.by_block else ()
     return {
@@ -92,7 +95,7 @@ def _common_parts(plan: ScenePlan, dialect: Dialect, prefix: str) -> dict[str, s
 
 
 def description(plan: ScenePlan, language: str) -> dict[str, Any]:
-    """The kernel's description of itself, in the form of docs/protocol.md."""
+    """Return the kernel's description of itself, in the form of docs/protocol.md."""
     settings = [
         {"sizes": list(setting.sizes), **setting.spans, **setting.named_axis}
         for setting in (stages.setting for stages in plan.settings)
@@ -110,20 +113,21 @@ def description(plan: ScenePlan, language: str) -> dict[str, Any]:
 
 
 def _numbered(plan: ScenePlan) -> list[tuple[int, Stages]]:
+    """Return the settings of the plan with their numbers, from 1."""
     return list(enumerate(plan.settings, start=1))
 
 
 def _searched(plan: ScenePlan) -> list[tuple[int, DualSearch | TiltedSearch]]:
-    """The searches of the settings that have one, with the settings' numbers."""
+    """Return the searches of the settings that have one, each with the setting's number."""
     ends = ((place, stages.last) for place, stages in _numbered(plan))
     return [(place, last) for place, last in ends if isinstance(last, DualSearch | TiltedSearch)]
 
 
 def _axis_parts(plan: ScenePlan, dialect: Dialect) -> dict[str, str]:
-    """The parts of a kernel's functions that concern an axis: empty if the spheroid is upright.
+    """Return the texts for the marks about an axis, which are empty if the spheroid is upright.
 
-    Marks that begin with `fixed` are filled where the kernel has one axis, with `free` where it asks for any, and
-    with `any` in both.
+    Marks that begin with `fixed_` are filled if the kernel has one axis, those with `free_` if each query names an
+    axis, and those with `any_` in both cases.
     """
     axis = plan.axis
     parts = {"tilted": "", "columns": "7", "number_word": "seven", "predicate": "predicate"}
@@ -135,7 +139,7 @@ def _axis_parts(plan: ScenePlan, dialect: Dialect) -> dict[str, str]:
 
 
 def _settings(plan: ScenePlan, dialect: Dialect) -> list[str]:
-    """The code of the tables of constants that the searches of a plan read."""
+    """Return the code of the constants that the searches of a plan read, one text for each setting with a search."""
     texts = []
     for place, search in _searched(plan):
         if isinstance(search, TiltedSearch):
@@ -148,7 +152,7 @@ def _settings(plan: ScenePlan, dialect: Dialect) -> list[str]:
 
 
 def _choices(plan: ScenePlan, dialect: Dialect) -> list[str]:
-    """The code that finds the function of a setting by its sizes, and by its axis if the kernel has one."""
+    """Return the code that finds the function of a setting by its sizes, and by its axis if the kernel has one."""
     axis, choices, also = plan.axis, [], ""
     if axis is not None and not isinstance(axis, str):
         also = dialect.say("has_axis", **dict(zip(AXIS, axis, strict=True)))
@@ -159,7 +163,7 @@ def _choices(plan: ScenePlan, dialect: Dialect) -> list[str]:
 
 
 def _searches_text(plan: ScenePlan, dialect: Dialect) -> str:
-    """The search that all settings share, and whether a free axis is one."""
+    """Return the code of the search that all settings share, and of the check of a free axis; empty without both."""
     searches = [search for _, search in _searched(plan)]
     routines = [HAS_DIRECTION] if plan.free else []
     if searches and isinstance(searches[0], TiltedSearch):
@@ -170,7 +174,7 @@ def _searches_text(plan: ScenePlan, dialect: Dialect) -> str:
 
 
 def _frame(of: TiltedSearch, place: int, dialect: Dialect) -> str:
-    """The code of a setting's constants: its frame or, if the axis is free, the sizes that a frame is computed from."""
+    """Return the code of a setting's constants: its frame or, if the axis is free, the sizes for computing one."""
     fields = [(name, _pair(value, dialect)) for name, value in of.constants.items()]
     fields += [(name, dialect.literal(value, "float64")) for name, value in (("most", of.most), ("omega", of.omega))]
     values = ",\n    ".join(dialect.say("field", name=name, value=value) for name, value in fields)
@@ -178,6 +182,7 @@ def _frame(of: TiltedSearch, place: int, dialect: Dialect) -> str:
 
 
 def _pair(value: DoubleDouble, dialect: Dialect) -> str:
+    """Return a double-double as a constant of the language."""
     high, low = (dialect.literal(part, "float64") for part in value)
     return dialect.say("constant_pair", high=high, low=low)
 
@@ -186,14 +191,14 @@ MOST_SETTINGS = 20_000
 """The most hyperboloids, equal to the limit of a scene file."""
 
 NO_POSITION = 9
-"""Stands for the position that answers yes, where the question is the position itself and nothing is compared."""
+"""Takes the place of the position that means yes if the question is the position itself; equal to no position."""
 
 _NUMBER_IN_NOTE = re.compile(r"^lambda = \S+ proves")
 
 
 @dataclass(frozen=True)
 class _Recording(Dialect):
-    """A language in which every number of a setting is read from the table c, and is kept in `values`."""
+    """A language whose literals are read from the table c. `values` collects the numbers, in the order of c."""
 
     values: list[float] = field(default_factory=list)
 
@@ -209,7 +214,11 @@ class _Recording(Dialect):
 
 @dataclass(frozen=True)
 class _Shapes:
-    """The functions that settings share, the tables of their numbers, and of each setting which it has, and its row."""
+    """The functions that settings share, called shapes, and the tables of their numbers.
+
+    `texts` are the functions, `rows` the rows of each one's table. Of each setting, `shape` has the place of its
+    function in `texts`, and `row` the place of its numbers in that function's table.
+    """
 
     texts: list[str]
     rows: list[list[list[float]]]
@@ -218,7 +227,7 @@ class _Shapes:
 
 
 def whole_plan(scene: SceneModel, precision: str = "float64") -> ScenePlan:
-    """The plan for all pairs of sizes, with positions as answers. Raises InputError if the scene has no such kernel."""
+    """Return the plan for all pairs of sizes, with positions as answers. Raises InputError if there is none."""
     bodies = tuple(_taller(body, scene.mover.d) for body in scene.hyperboloids)
     plan = plan_of(replace(scene, question="position", hyperboloids=bodies), precision, MOST_SETTINGS)
     if plan.axis is not None:
@@ -229,7 +238,7 @@ def whole_plan(scene: SceneModel, precision: str = "float64") -> ScenePlan:
 
 
 def _taller(body: Hyperboloid, reach: float) -> Hyperboloid:
-    """The open hyperboloid, longer at both ends by `reach`, which is how far the mover extends up and down."""
+    """Return the hyperboloid without flat ends, longer at both ends by `reach`, how far the mover extends up."""
     if body.height is None:
         return body
     far = reach * (1 + 2.0**-40)
@@ -240,7 +249,7 @@ def _taller(body: Hyperboloid, reach: float) -> Hyperboloid:
 def emitted_whole(
     scene: SceneModel, plan: ScenePlan, language: str, command: Sequence[str], prefix: str = PREFIX
 ) -> str:
-    """The text of the kernel of a scene, whose plan is whole_plan's. Raises InputError."""
+    """Return the text of the kernel of a whole scene; `plan` is that of whole_plan. Raises InputError."""
     dialect = dialect_of(language)
     tabled = replace(dialect, phrases={**dialect.phrases, **dialect.whole})
     shapes = _shapes(plan, tabled)
@@ -264,6 +273,7 @@ def emitted_whole(
 
 
 def _shapes(plan: ScenePlan, dialect: Dialect) -> _Shapes:
+    """Return the shapes of a plan: settings whose functions differ only in numbers share one."""
     shapes, known = _Shapes([], [], [], []), dict[str, int]()
     for stages in plan.settings:
         recording = _Recording(**vars(dialect))
@@ -279,7 +289,7 @@ def _shapes(plan: ScenePlan, dialect: Dialect) -> _Shapes:
 
 
 def _used(scene: SceneModel, plan: ScenePlan) -> list[tuple[int, list[int]]]:
-    """The hyperboloids that the mover can reach, and the settings of the mover and its parts beside each."""
+    """Return the number of each hyperboloid that the mover can reach, with the settings of mover and parts there."""
     places = {stages.setting.sizes: place for place, stages in enumerate(plan.settings)}
     mover, used = scene.mover, []
     spheroids = [(mover.b, mover.d), *((part.b, part.d) for part in mover.parts)]
@@ -291,7 +301,7 @@ def _used(scene: SceneModel, plan: ScenePlan) -> list[tuple[int, list[int]]]:
 
 
 def _tables(scene: SceneModel, plan: ScenePlan, shapes: _Shapes, dialect: Dialect) -> list[str]:
-    """The code of the tables: of the settings, of the hyperboloids, and of the constants of searches."""
+    """Return the code of the tables: of the settings, of the hyperboloids, and of the constants of searches."""
     precision = plan.format.name
     number, index = dialect.number_of(precision), dialect.types["index"]
     wide = dialect.number_of("float64")
@@ -328,7 +338,7 @@ def _tables(scene: SceneModel, plan: ScenePlan, shapes: _Shapes, dialect: Dialec
 
 
 def _searches(plan: ScenePlan, dialect: Dialect) -> str:
-    """The table of the constants of the searches, a row for each setting; rows without a search hold 1."""
+    """Return the table of the constants of the searches, a row for each setting; rows without a search hold 1."""
 
     def row(search: object) -> str:
         constants = search.constants if isinstance(search, DualSearch) else dict.fromkeys(SETTING, 1.0)
@@ -341,7 +351,7 @@ def _searches(plan: ScenePlan, dialect: Dialect) -> str:
 
 
 def _region(scene: SceneModel, dialect: Dialect) -> str:
-    """The condition under which a centre is in the region: finite at least."""
+    """Return the condition that a centre is in the region; where the region is open, that it is finite."""
     spans = zip("xyz", scene.region.spans, strict=True)
     most = float_info.max
     ends = [(name, *((-most, most) if span is None else (span.low, span.high))) for name, span in spans]

@@ -1,18 +1,21 @@
-"""Code about rows of any sizes, one file without dependencies: for one pair, or for a whole scene whose bodies tilt.
+"""Writes a file of code for rows of any sizes, without dependencies: for pairs, or for a scene with tilted bodies.
 
 A kind of file (Kind) is the question, the routine or program that answers, and the text of the file about both. A new
 kind is an entry of KINDS: its columns, its routine (specialise/sweeping.py), how the routine's number becomes an
-answer, and the numbers that the file also gives. Only the phrases of a language (templates/NAME.toml) depend on it.
+answer, and the numbers that the file gives in addition. Only the phrases of a language (templates/NAME.toml) depend on
+it.
 
 The method "exact" has two stages, both printed from the programs that the fast path runs. CERTIFIED decides in float64
 where a proved bound excludes that rounding changes a sign (kernel/programs/certified.py); INTEGERS decides the rest in
 whole numbers, which are read from the bits of the row. No stage depends on the rounding mode, or on whether the program
 flushes subnormal numbers to zero. C and C++ refuse -ffast-math and its parts, which change the order of operations
 (templates/arithmetic.c.tmpl). The method "certified" is the first stage alone, and says 2, "cannot say", where it does
-not decide. So do "dual" and "local-maximum", whose proof is another (kernel/programs/dual.py).
+not decide. "dual" and "local-maximum" also answer 2 there; they prove their answers in another way
+(kernel/programs/dual.py).
 
-Python and JavaScript have integers of any size. C, C++ and Rust get some forty lines of them: each number of the
-straight-line program has room for the bits that are counted for it (programs/integers.py), so C allocates nothing.
+Python and JavaScript have integers of any size. For C, C++ and Rust the file contains some forty lines of integer
+arithmetic. Each number of the straight-line program has room for the bits that are counted for it
+(programs/integers.py), so C allocates no memory.
 """
 
 from __future__ import annotations
@@ -46,7 +49,7 @@ from hypcheck.version import VERSION
 
 @dataclass(frozen=True)
 class Number:
-    """A second result beside the answer: the routine that computes it, and its value if nothing is proved."""
+    """A number that a file gives beside the answer: the routine for it, and its value if nothing is proved."""
 
     routine: Routine
     nothing: float
@@ -56,10 +59,11 @@ class Number:
 class Kind:
     """A kind of emitted file: the answer that it gives about a row with these `columns`.
 
-    `routine` makes a number, which is the answer where it is below `decided`; of a `passage` it is a time, and one up
-    to 1 is the answer 1. Without a routine the statements are a program's, which makes exterior, interior and decided.
-    `one` and `many` are the functions for one row and for many, `python` what the latter is called there, `numbers`
-    those that the file has besides, and `head` is what its first lines say.
+    `routine` computes a number. If that is below `decided` it is the answer; for a `passage` it is a time, and the
+    answer is 1 if the time is at most 1, else 0. Without a routine a program computes exterior, interior and decided.
+    `one` and `many` name the functions for one row and for many rows, `python` names the latter in Python. `meaning`
+    says in a sentence what they answer, `numbers` has the numbers that the file also gives, by name, and `head` has
+    the first lines of the file.
     """
 
     columns: tuple[str, ...]
@@ -85,7 +89,7 @@ class Kind:
 
     @property
     def domain(self) -> dict[str, object]:
-        """The domain in which the code decides; outside of it the answer is 2."""
+        """The domain in which the code decides: ratios and magnitudes of sizes; outside of it the answer is 2."""
         if self.routine is None:
             return {"ratio": [0, float_info.max], "magnitude": [0, float_info.max]}
         return {"ratio": [2.0**-26, 2.0**26], "magnitude": [2.0**-250, 2.0**250]}
@@ -114,7 +118,7 @@ _PROOF = (
 )
 
 POSITION = Kind(COLUMNS, "position", "classify", _PAIR, python="classify")
-"""Of upright spheroids, by a program."""
+"""The kind of file for upright spheroids, whose answer is computed by a program."""
 
 _TILTED_POSITION = ("position", "classify_tilted", _PAIR, sweeping.POSITION)
 
@@ -153,11 +157,14 @@ KINDS = {
         ),
     ),
 }
-"""By name: the methods of `emit --method` that answer by a routine."""
+"""The kinds of files whose answer is computed by a routine, by the name that `emit --method` takes."""
 
 
 def kind_of_scene(scene: SceneModel, *, sweep: bool) -> Kind:
-    """Code for a whole scene, for a mover and hyperboloids of any axis: positions, or sweeps. Raises InputError."""
+    """Return the kind of file for a whole scene with any axes: sweeps or, without `sweep`, positions.
+
+    Raises InputError if the scene has no hyperboloid.
+    """
     parts = ("Where the mover itself has contact, its parts are for the caller: the answer is 2.",)
     last = (*(parts if scene.mover.parts else ()), *_PROOF)
     mover = f"The mover of a scene of {len(scene.hyperboloids)} hyperboloid{'s' * (len(scene.hyperboloids) != 1)}"
@@ -202,16 +209,16 @@ _FLOATS = {
     DUAL: (dual.DUAL, dual.CONSTANTS),
     LOCAL_MAXIMUM: (dual.LOCAL_MAXIMUM, dual.CONSTANTS),
 }
-"""The program in float64 of a method, and its constants."""
+"""By method: its program in float64, and the constants of the program."""
 
 _SIGNS = ("n2", "n1", "delta", "slope_at_B", "slope_at_A", "offset_at_B", "offset_at_A", "ring_excess")
-"""The values whose signs the last stage needs."""
+"""The values of INTEGERS whose signs the last stage needs."""
 
 _ANSWER = ("exterior", "interior", "decided")
 
 
 def emitted_pair(method: str, language: str, command: Sequence[str], prefix: str = PREFIX) -> str:
-    """The text of the file. Raises InputError for another method, or a prefix that the language has no use for."""
+    """Return the text of the file. Raises InputError for another method, or a prefix that the language refuses."""
     if method not in METHODS:
         raise InputError(f"--method is {method!r}; it must be {', '.join(METHODS[:-1])} or {METHODS[-1]}")
     kind = KINDS.get(method, POSITION)
@@ -219,19 +226,20 @@ def emitted_pair(method: str, language: str, command: Sequence[str], prefix: str
 
 
 def needs_routine(scene: SceneModel) -> bool:
-    """Whether something in the scene is tilted, so that a plan of pairs cannot be made of the whole."""
+    """Whether a body of the scene is tilted: the whole scene then needs a routine; a plan of pairs cannot hold it."""
     return axis_of(scene.mover) is not None or any(is_tilted(body.axis) for body in scene.hyperboloids)
 
 
 def emitted_scene(
     scene: SceneModel, language: str, command: Sequence[str], prefix: str = PREFIX, *, sweep: bool
 ) -> str:
-    """The text of a file for a whole scene, whose mover and hyperboloids may be tilted. Raises InputError."""
+    """Return the text of a file for a whole scene, whose mover and hyperboloids may be tilted. Raises InputError."""
     kind = kind_of_scene(scene, sweep=sweep)
     return _printed(kind, "scene", kind.head, language, command, prefix)
 
 
 def _printed(kind: Kind, method: str, head: Sequence[str], language: str, command: Sequence[str], prefix: str) -> str:
+    """Return the text of a file of this kind: the template of the language, filled in."""
     require_prefix(prefix, language)
     dialect = dialect_of(language)
     made = (f"Made by `{' '.join(command)}`, hypcheck {VERSION}.", "")
@@ -253,7 +261,7 @@ def _printed(kind: Kind, method: str, head: Sequence[str], language: str, comman
 
 
 def _by_program(method: str, dialect: Dialect) -> dict[str, str]:
-    """The statements of a program of one pair, in the function itself, and how they become an answer."""
+    """Return the parts of the template for a method that a program answers: its statements, and what they give."""
     program, values = _FLOATS[method]
     number, steps = dialect.number_of("float64"), dialect.statements(program, _ANSWER, "float64")
     constants = [dialect.say("constant", number=number, name=name, value=repr(value)) for name, value in values.items()]
@@ -268,7 +276,7 @@ def _by_program(method: str, dialect: Dialect) -> dict[str, str]:
 
 
 def _routine_text(kind: Kind, routine: Routine, dialect: Dialect) -> dict[str, str]:
-    """The routines of a kind, the statements that call the one that answers, and how its number becomes an answer."""
+    """Return the parts of the template for a kind with a routine: the routines, the call, and what it gives."""
     routines = {each.name: each for each in (routine, *(number.routine for number in kind.numbers.values()))}
     decided = Program("told", ("told",), (Step("decided", "lt", ("told", kind.decided)),))
     call = dialect.say("told", value=f"{routine.name}({', '.join(kind.columns)})")
@@ -283,7 +291,7 @@ def _routine_text(kind: Kind, routine: Routine, dialect: Dialect) -> dict[str, s
 
 
 def _columns_text(kind: Kind, dialect: Dialect, prefix: str) -> dict[str, str]:
-    """The text of a template about rows: columns, check, functions."""
+    """Return the parts of the template about rows: columns, checks of a row, functions."""
     names, scripted, in_python = kind.columns, dialect.name == "javascript", dialect.name == "python"
     parameters = ", ".join(dialect.say("parameter", name=name) for name in names)
     words = {
@@ -328,17 +336,18 @@ def _columns_text(kind: Kind, dialect: Dialect, prefix: str) -> dict[str, str]:
 
 
 def _camel(name: str) -> str:
+    """Return a name with underscores in camel case, as JavaScript has it."""
     first, *others = name.split("_")
     return first + "".join(map(str.capitalize, others))
 
 
 def _checked_axis(kind: Kind, dialect: Dialect) -> str:
-    """The condition under which the axis of a row is not 0, 0, 0, joined to one before it."""
+    """Return the code, joined to the check of a row, that refuses the axis 0, 0, 0; empty without an axis."""
     return dialect.say("checked_axis", start=len(kind.columns) - 3) if kind.tilted else ""
 
 
 def _valid(kind: Kind, dialect: Dialect) -> str:
-    """The condition under which a row is valid, in C, C++ and Python."""
+    """Return the condition under which a row is valid, for C, C++ and Python."""
     axis, others = _checked_axis(kind, dialect), kind.columns[len(kind.sizes) :]
     if dialect.name == "python":
         sizes = f"all(map(is_size, ({', '.join(kind.sizes)}))) and " if kind.sizes else ""
@@ -348,6 +357,7 @@ def _valid(kind: Kind, dialect: Dialect) -> str:
 
 
 def _head(method: str) -> Iterator[str]:
+    """Yield the lines at the head of a file for upright spheroids, by this method."""
     yield "A spheroid of semi-axes b, b, d at (x, y, z) against the hyperboloid (x² + y²)/alpha² − z²/gamma² = 1."
     yield "+1 exterior, 0 contact (tangency included), −1 interior; 127 where a size is not finite and > 0, or a"
     yield "coordinate is not finite."
@@ -364,6 +374,7 @@ def _head(method: str) -> Iterator[str]:
 
 
 def _notes(language: str) -> Iterator[str]:
+    """Yield the lines that say what must not change the arithmetic."""
     if language == "javascript":
         yield "Where the engine flushes subnormal numbers to zero, 2 is also the answer to a 0 that may have been one."
     else:
@@ -372,6 +383,7 @@ def _notes(language: str) -> Iterator[str]:
 
 
 def _described(method: str, kind: Kind, language: str, prefix: str) -> str:
+    """Return the description of the file by itself, as code of the language."""
     description: dict[str, Any] = {
         "protocol": 1,
         "name": f"{method} ({language})" if method == "scene" else f"pair, {method} ({language})",

@@ -1,8 +1,8 @@
-"""A plan in words and numbers: operations, the comment at the head of a kernel, the output of `hypcheck plan`.
+"""Writes a plan as text: counts of operations, the comment at the head of a kernel, the output of `hypcheck plan`.
 
-Operations are those before the search, counted from the programs and the kernel's own comparisons. The comment says for
-which scene the kernel is, what it costs and what is proved of it. The output says what each setting of a scene needs,
-what is left out and why, and what that saves.
+The operations before the search are counted, from the programs and the kernel's own comparisons. The comment says for
+which scene the kernel is, what it costs and what is proved about it. The output says what each setting of a scene
+needs, what is left out and why, and what that saves.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from hypcheck.version import VERSION
 
 
 def thresholds_asked(stages: Stages, question: str) -> tuple[tuple[Position, float], ...]:
-    """The thresholds that the question needs: exterior above the first one, interior below the other."""
+    """Return the thresholds that the question needs: exterior above the first one, interior below the other."""
     if not isinstance(stages.last, Thresholds):
         return ()
     sides = [(Position.EXTERIOR, stages.last.outer)]
@@ -47,7 +47,7 @@ def needs_side(stages: Stages, question: str) -> bool:
 
 
 def operations_before(stages: Stages, question: str) -> Operations:
-    """The operations of all stages before the search, each of which a centre may have to pass."""
+    """Count the operations of all stages before the search: the most that a centre can cost there."""
     if isinstance(stages.last, Position):
         return Operations()
     sides = thresholds_asked(stages, question)
@@ -66,7 +66,7 @@ def operations_before(stages: Stages, question: str) -> Operations:
 
 
 def operations_text(operations: Operations) -> str:
-    """The operations in words."""
+    """Return the operations in words: "3 additions, 1 multiplication"."""
     return ", ".join(
         counted(number, noun)
         for number, noun in (
@@ -81,16 +81,16 @@ def operations_text(operations: Operations) -> str:
 WIDTH = 110
 LONGEST_NAME = 60
 FEW = 4
-"""The head describes up to so many settings; of more, each is described at its own function."""
+"""The head describes up to so many settings; if there are more, each is described at its own function."""
 
 
 def header(plan: ScenePlan, command: Sequence[str], prefix: str) -> str:
-    """The lines of the comment, each after `prefix`."""
+    """Return the comment at the head of a kernel; each line begins with `prefix`."""
     return _comment(_paragraphs(plan, command), prefix)
 
 
 def whole_header(plan: ScenePlan, scene: SceneModel, command: Sequence[str], prefix: str) -> str:
-    """The comment at the head of a whole scene's kernel, whose plan is of positions."""
+    """Return the comment at the head of a whole scene's kernel; its plan's question is the position."""
     name, question = comment_text(scene.name).replace('"', "'"), _question_in_comment(scene.question)
     pairs = _question_in_comment(plan.question)
     answers = f"It answers {CANNOT_SAY} outside of the scene's region and to numbers that are not finite."
@@ -111,17 +111,20 @@ def whole_header(plan: ScenePlan, scene: SceneModel, command: Sequence[str], pre
 
 
 def _comment(paragraphs: Iterable[str], prefix: str) -> str:
+    """Join the paragraphs to one comment, with an empty line between two; each line begins with `prefix`."""
     lines = [line for paragraph in paragraphs for line in (*_wrapped(paragraph), "")]
     return "\n".join(f"{prefix}{line}".rstrip() for line in lines[:-1])
 
 
 def _wrapped(paragraph: str) -> list[str]:
+    """Break a paragraph into lines of at most WIDTH - 3 characters; an indented command stays as it is."""
     if paragraph.startswith("    "):
         return [paragraph]
     return wrap(paragraph, WIDTH - 3, break_long_words=False, break_on_hyphens=False)
 
 
 def _paragraphs(plan: ScenePlan, command: Sequence[str]) -> Iterator[str]:
+    """Yield the paragraphs of the comment at the head of a kernel."""
     scene = comment_text(plan.scene.name).replace(
         '"', "'"
     )  # beside the quotation marks about it, it could end Python's text
@@ -147,12 +150,12 @@ def _paragraphs(plan: ScenePlan, command: Sequence[str]) -> Iterator[str]:
 
 
 def notes(plan: ScenePlan, stages: Stages) -> list[str]:
-    """The lines at the head of a setting's function; none where the head of the kernel describes the setting."""
+    """Return the lines at the head of a setting's function; none if the head of the kernel describes the setting."""
     return [] if len(plan.settings) <= FEW else _wrapped(_setting(stages, plan.question))
 
 
 def comment_text(text: str) -> str:
-    """A foreign text on one line of visible characters that are valid in a comment, a raw string of Python and C.
+    """Return a foreign text as one line of visible characters, valid in comments and raw strings of Python and C.
 
     A blank breaks characters that would end a comment, open one, or be a trigraph. A backslash that ends a word gets a
     full stop after it: at the end of a line, C and C++ would join that line to the next.
@@ -165,22 +168,24 @@ def comment_text(text: str) -> str:
 
 
 def _and_axis(plan: ScenePlan) -> str:
-    """The axis that a query names, which must be the kernel's own."""
+    """Return the words about the axis that a query must name; empty if the kernel has none, or takes any."""
     return " and the axis, number by number," if plan.axis is not None and not plan.free else ""
 
 
 def _question_in_comment(question: str) -> str:
+    """Return what the answers to the question mean."""
     if question == "position":
         return "+1 exterior, 0 contact (tangency included), -1 interior"
     return f"1 if it is {question if question != 'contact' else 'in contact'}, else 0"
 
 
 def _no_direction(plan: ScenePlan) -> str:
-    """The sentence about a query with an invalid axis, for a kernel for any axis."""
+    """Return the sentence about queries with an invalid axis; empty unless each query names its axis."""
     return "So is an axis that is 0, 0, 0 or not finite. " if plan.free else ""
 
 
 def _setting(stages: Stages, question: str) -> str:
+    """Return the description of a setting: sizes, pairs of the scene, region, answers outside it, cost."""
     setting = stages.setting
     alpha, gamma, b, d = setting.sizes
     uses = "; ".join(comment_text(use) for use in setting.uses[:4]) + (" ..." if len(setting.uses) > 4 else "")
@@ -191,21 +196,21 @@ def _setting(stages: Stages, question: str) -> str:
 
 
 def axis_text(setting: Setting) -> str:
-    """The axis of a tilted spheroid, after a comma; nothing where it is upright."""
+    """Return the axis of a tilted spheroid, after a comma; empty if the spheroid is upright."""
     if setting.axis is None:
         return ""
     return ", axis free" if setting.axis == FREE else f", axis {list(setting.axis)!r}"
 
 
 def region(setting: Setting) -> str:
-    """The region of the centre, relative to the hyperboloid's centre, in a sentence or two."""
+    """Return one or two sentences about the region of the centre, relative to the hyperboloid's centre."""
     spans = [f"{name} {_span(span)}" for name, span in zip("xyz", setting.box.spans, strict=True) if span is not None]
     beyond = "" if setting.cut is None else f" Beyond the height {_span(setting.cut)} the answer is {CANNOT_SAY}."
     return f"Region: {', '.join(spans) or 'everywhere'}.{beyond}"
 
 
 def outside(stages: Stages) -> str:
-    """A sentence that says whether an answer is right for a centre outside the region."""
+    """Return a sentence that says whether an answer is right for a centre outside the region."""
     last = stages.last
     if isinstance(last, Position):
         return "Outside it the answer is worth nothing: the centre is not looked at."
@@ -220,10 +225,12 @@ def outside(stages: Stages) -> str:
 
 
 def _span(span: Span) -> str:
+    """Return the interval of a coordinate in words."""
     return f"= {span.low!r}" if span.fixed else f"from {span.low!r} to {span.high!r}"
 
 
 def _cost(stages: Stages, question: str) -> str:
+    """Return a sentence about the operations of a setting, and how many centres each stage decides."""
     if isinstance(stages.last, Position):
         return "Nothing is computed: all of the region has one answer."
     shares = ", ".join(f"{name} {share:.1%}" for name, share in stages.shares.items() if share)
@@ -233,6 +240,7 @@ def _cost(stages: Stages, question: str) -> str:
 
 
 def _bound(plan: ScenePlan) -> str:
+    """Return the sentence about what is proved of the answers."""
     if plan.bound_u == 0:
         return "Proved: every answer is right."
     unit = plan.format.unit
@@ -253,19 +261,21 @@ def _bound(plan: ScenePlan) -> str:
 
 
 def _by_side(plan: ScenePlan) -> str:
+    """Return the words about the backward error of the centre's side; empty unless the question is one-sided."""
     if plan.question not in ONE_SIDED:
         return ""
     return f", and where it rests on the side of the centre, for inputs each changed by {float(plan.bound_u):g} u"
 
 
 PRINTED = "table-2"
-"""What a plan is compared with: the paper's loop, its constant terms taken out as the paper does."""
+"""The formula with which a plan is compared: the paper's loop, without its constant terms, as in the paper."""
 
 Numbered = tuple[int, Stages]
+"""A setting's number in the kernel, from 1, and its stages."""
 
 
 def plan_lines(plan: ScenePlan) -> Iterator[str]:
-    """The plan for people, line by line; settings that leave out the same for the same reasons are grouped."""
+    """Yield the lines of the plan for people. Settings that leave out the same for the same reasons are grouped."""
     yield f"{escaped(plan.scene.name, 60)}: {_question_in_words(plan.question)}, in {plan.format.name}"
     for group in _alike(plan):
         yield ""
@@ -281,7 +291,7 @@ def plan_lines(plan: ScenePlan) -> Iterator[str]:
 
 
 def plan_as_json(plan: ScenePlan) -> dict[str, Any]:
-    """The plan for programs."""
+    """Return the plan for programs, as values of JSON."""
     return {
         "schema": "1.0.0",
         "scene": plan.scene.name,
@@ -294,11 +304,12 @@ def plan_as_json(plan: ScenePlan) -> dict[str, Any]:
 
 
 def printed_operations() -> Operations:
-    """The operations of Table 2 for each centre, without its constant terms."""
+    """Count the operations of the paper's Table 2 for one centre, without the constant terms."""
     return count(hoist(FORMULAS[PRINTED].program, SIZES).inside)
 
 
 def _question_in_words(question: str) -> str:
+    """Return the question as the output of `hypcheck plan` has it."""
     return {
         "position": "exterior, in contact or interior",
         "exterior": "exterior or not",
@@ -308,7 +319,7 @@ def _question_in_words(question: str) -> str:
 
 
 def _alike(plan: ScenePlan) -> Iterator[list[Numbered]]:
-    """The settings, with their numbers in the kernel, grouped by what they leave out and what they cost."""
+    """Yield groups of settings that leave out the same and cost the same, with their numbers in the kernel."""
     groups: dict[object, list[Numbered]] = {}
     for number, stages in enumerate(plan.settings, start=1):
         what = tuple((omission.what, _reason(omission.why, stages)) for omission in stages.omitted)
@@ -317,11 +328,12 @@ def _alike(plan: ScenePlan) -> Iterator[list[Numbered]]:
 
 
 def _reason(why: str, stages: Stages) -> str:
-    """The reason why something is left out, without the value of a fixed height."""
+    """Return the reason why something is left out, with the word "fixed" in place of a fixed height."""
     return why.replace(repr(stages.last.height), "fixed") if isinstance(stages.last, Thresholds) else why
 
 
 def _group_lines(group: Sequence[Numbered], question: str) -> Iterator[str]:
+    """Yield the lines about a group of settings: each one's stages, then what they leave out and cost."""
     _, first = group[0]
     for number, stages in group:
         alpha, gamma, b, d = stages.setting.sizes
@@ -341,6 +353,7 @@ def _group_lines(group: Sequence[Numbered], question: str) -> Iterator[str]:
 
 
 def _steps(stages: Stages, question: str) -> Iterator[str]:
+    """Yield a line for each stage of a setting."""
     if isinstance(stages.last, Position):
         yield f"asks nothing: the whole region is {stages.last.name.lower()}"
     for position, threshold in thresholds_asked(stages, question):
@@ -360,7 +373,7 @@ def _steps(stages: Stages, question: str) -> Iterator[str]:
 
 
 def _average(stages: Stages, question: str) -> float:
-    """The mean number of rounded operations for a centre of the sample, without those of the search."""
+    """Return the mean number of rounded operations for a centre of the sample, without those of the search."""
     if not stages.searches:
         return operations_before(stages, question).rounded
     average = float(_of(stages.entry.steps) + sum(_of(line.program.steps) for line in stages.lines))
@@ -373,10 +386,12 @@ def _average(stages: Stages, question: str) -> float:
 
 
 def _of(steps: tuple[Step, ...]) -> int:
+    """Return how many operations of the steps round."""
     return count(steps).rounded
 
 
 def _setting_as_json(stages: Stages, question: str) -> dict[str, Any]:
+    """Return a setting and its stages as values of JSON."""
     setting, last = stages.setting, stages.last
     return {
         "sizes": list(setting.sizes),

@@ -1,4 +1,4 @@
-"""Programs printed for Coq: StageTwo.v and Programs.v of the kernel's own, and the proof of an emitted kernel.
+"""Prints programs for Coq: StageTwo.v and Programs.v about the fast path, and the proof of an emitted kernel.
 
 A program becomes definitions of type `expr` (hypcheck/proofs/Rounding.v), one a step, in the program's order. The proof
 of an emitted kernel states its steps, constants and bound, and proves by hypcheck/proofs/Region.v that beyond the bound
@@ -21,7 +21,8 @@ from hypcheck.kernel.specialise.plan import ScenePlan
 from hypcheck.kernel.specialise.settings import scaled
 
 REACH = 1 + Fraction(1, 2**20)
-"""A computed R or z² that the kernel lets in is less than this times its exact value: four roundings."""
+"""The exact R or z² is less than this times the computed one, which the kernel compares with its limit: four roundings
+at most."""
 
 _HEAD = """(** The discriminants that the kernel of the scene "{scene}" computes in {format}, and what their signs say.
 
@@ -58,7 +59,10 @@ Qed.
 
 
 def proof_of(plan: ScenePlan) -> str:
-    """The file. Raises InputError where the mover is tilted, and where no setting of the plan has a discriminant."""
+    """Return the text of the file with the proof of the discriminants of a plan.
+
+    Raises InputError if the mover is tilted, and if no setting of the plan has a discriminant.
+    """
     if plan.axis is not None:
         raise InputError(
             "--proof: where the mover is tilted, Coq has no proof of the kernel; docs/plans.md has the one of its bound"
@@ -76,6 +80,7 @@ def proof_of(plan: ScenePlan) -> str:
 
 
 def _setting(number: int, plan: ScenePlan, sizes: Sizes, stage: Discriminant) -> Iterator[str]:
+    """Yield the lines about one setting: its constants, limits and bound, the steps, the theorem."""
     measures = scaled(sizes, plan.format)
     unit, constants = exact_constants(measures)
     yield f"Module Setting_{number}."
@@ -99,10 +104,12 @@ def _setting(number: int, plan: ScenePlan, sizes: Sizes, stage: Discriminant) ->
 
 
 def _rational(value: Fraction) -> str:
+    """Return a fraction as a term of type Q."""
     return f"({value.numerator} # {value.denominator})"
 
 
 def _real(value: Fraction) -> str:
+    """Return a fraction as a term of type R."""
     return f"{value.numerator} / {value.denominator}"
 
 
@@ -113,9 +120,9 @@ STAGE_TWO = "hypcheck/proofs/StageTwo.v"
 
 
 def definitions(program: Program, wanted: tuple[str, ...]) -> list[str]:
-    """The inputs by their places, then the steps that the wanted ones need, one definition a line.
+    """Return the definitions of the inputs, by their places, then of the steps that the wanted names need.
 
-    Raises ValueError for a step that has no bound: a comparison, a selection, a root.
+    Raises ValueError for a step without a bound: a comparison, a selection, a root.
     """
     steps = needed(program, wanted)
     inputs = [f"Definition {name} := Input {place}." for place, name in enumerate(program.inputs)]
@@ -123,6 +130,7 @@ def definitions(program: Program, wanted: tuple[str, ...]) -> list[str]:
 
 
 def _expression(step: Step) -> str:
+    """Return a step as a term of type expr. Raises ValueError for a step without a bound."""
     if step.operation not in _WORDS:
         raise ValueError(f"step {step.name}: no bound is proved for {step.operation}")
     first = step.arguments[0]
@@ -132,11 +140,12 @@ def _expression(step: Step) -> str:
 
 
 def _argument(argument: Argument) -> str:
+    """Return a name, or an integer as a term of type expr."""
     return argument if isinstance(argument, str) else f"(Whole ({argument})%Z)"
 
 
 def stage_two() -> str:
-    """The text of STAGE_TWO."""
+    """Return the text of the file STAGE_TWO."""
     modules = (
         ("Parts", cut(CERTIFIED, ("c0", "c1", "c2"), ("h1", "h2", "h3")), ("h1", "h2", "h3")),
         ("Last", cut(CERTIFIED, ("h1", "h2", "h3"), ("delta_3",)), ("delta_3",)),
@@ -206,7 +215,7 @@ Open Scope string_scope.
 
 
 def programs() -> str:
-    """The text of PROGRAMS: every program as its listing, with a semicolon after each step."""
+    """Return the text of the file PROGRAMS: every program as its listing, with a semicolon after each step."""
     listings = {name: " ".join(f"{line_of(step)};" for step in program.steps) for name, program in _PRINTED.items()}
     definitions = (f'Definition {name} := steps_of "\n{fill(text, 118)}".\n' for name, text in listings.items())
     return "\n".join((_PROGRAMS_HEAD, *definitions))

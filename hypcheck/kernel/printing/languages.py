@@ -1,25 +1,25 @@
-"""Programs printed in C, C++, Rust, JavaScript and Python.
+"""Prints programs in C, C++, Rust, JavaScript and Python.
 
-A printer fills in a Spelling; `statements` does the rest. Nothing is reordered, merged or folded: what stands in the
-program is what the printed text rounds, and in that order.
+Each language fills in a Spelling, from which `statements` prints. Nothing is reordered, merged or computed in advance:
+the printed text rounds exactly the operations of the program, in their order.
 
-C99: a `const` declaration a step, in an order and a form that a compiler may vectorise and must not rearrange. Compile
-without -ffast-math. Contraction (FMA) leaves roundings out; where results must be the same to the bit,
+C99: a `const` declaration for each step, in an order and a form that a compiler may vectorise and must not rearrange.
+Compile without -ffast-math. Contraction (FMA) leaves roundings out; where results must be the same to the bit,
 -ffp-contract=off, and a machine that evaluates in the type itself (FLT_EVAL_METHOD 0, as everywhere but on x87). Truth
 values are `int`, joined by & and |, so that no step is a branch. gcc 12 makes vectors of such a loop at -O3 with
--fno-trapping-math -fno-math-errno; for SSE2 alone it asks in addition for an answer selected and stored as a number,
-narrowed in a loop of its own.
+-fno-trapping-math -fno-math-errno; for SSE2 alone, the answer must in addition be selected and stored as a number,
+which another loop narrows.
 
 C++11 and later: as C99, with `bool` for truth values and the overloads of <cmath>.
 
-Rust: a `let` a step. Its arithmetic is that of the type itself on every platform, and nothing is contracted.
+Rust: a `let` for each step. Its arithmetic is that of the type itself on every platform, and nothing is contracted.
 
-JavaScript: a `const` a step. Its numbers are binary64; binary32 is that rounded once more by Math.fround. Rounding
-twice is rounding once for + − × ÷ √ of binary32 numbers, since 53 ≥ 2·24 + 2.
+JavaScript: a `const` for each step. Its numbers are binary64; binary32 is that rounded once more by Math.fround.
+Rounding twice is rounding once for + − × ÷ √ of binary32 numbers, since 53 ≥ 2·24 + 2.
 
-Python: an assignment a step, in binary64, the only format its floats have. Unlike the other languages, Python raises
-ZeroDivisionError and ValueError where IEEE 754 gives an infinity or a NaN: a caller divides by nothing that can be
-zero, and takes no root of what can be negative.
+Python: an assignment for each step, in binary64, the only format its floats have. Unlike the other languages, Python
+raises ZeroDivisionError and ValueError where IEEE 754 gives an infinity or a NaN: a program for Python must not divide
+by a number that can be zero, or take the root of one that can be negative.
 """
 
 from __future__ import annotations
@@ -47,12 +47,12 @@ INFIX = {
 """The operations that the languages of this folder write alike; {0}, {1} and {2} are the arguments."""
 
 BITWISE = {"and": "{0} & {1}", "or": "{0} | {1}"}
-"""Truth values joined without a branch, where a language has that for its type of them."""
+"""The operations that join truth values without a branch, for languages that have them."""
 
 
 @dataclass(frozen=True)
 class Spelling:
-    """A language, or a dialect of one.
+    """How a language writes programs with one type of numbers.
 
     `operations` has a template for every operation of derivation/program.py. `number` and `boolean` are the types, and
     `declaration` is the template of a statement, with {type}, {name} and {value}. `constant` writes an integer as a
@@ -68,7 +68,7 @@ class Spelling:
 
 
 def literal(suffix: str = "") -> Callable[[int], str]:
-    """A writer of integers as numbers with a decimal point and the suffix; a negative number is put in parentheses."""
+    """Return a function that writes an integer with a decimal point and the suffix, a negative one in parentheses."""
 
     def constant(value: int) -> str:
         text = f"{abs(value)}.0{suffix}"
@@ -78,7 +78,7 @@ def literal(suffix: str = "") -> Callable[[int], str]:
 
 
 def statements(program: Program, wanted: tuple[str, ...], spelling: Spelling) -> tuple[str, ...]:
-    """One declaration for each step that the wanted names depend on, in the program's order.
+    """Return one declaration for each step that the wanted names depend on, in the program's order.
 
     The inputs are in scope under their own names. Raises KeyError where a wanted name does not exist, and ValueError
     for a name that the language reserves or an operation it has no template for.
@@ -98,12 +98,12 @@ def statements(program: Program, wanted: tuple[str, ...], spelling: Spelling) ->
 
 
 def value_of(step: Step, spelling: Spelling) -> str:
-    """The expression of a step. Raises KeyError for an operation without a template in this language."""
+    """Return the expression of a step. Raises KeyError for an operation without a template in this language."""
     return spelling.operations[step.operation].format(*(argument_of(argument, spelling) for argument in step.arguments))
 
 
 def argument_of(argument: Argument, spelling: Spelling) -> str:
-    """A name, or an integer as the language writes it."""
+    """Return a name, or an integer as the language writes it."""
     return argument if isinstance(argument, str) else spelling.constant(argument)
 
 
@@ -114,13 +114,13 @@ NUMBERS = {
     "javascript": ("number", "float32"),
     "python": ("float",),
 }
-"""The types of numbers of each language: first that of binary64."""
+"""The types of numbers of each language; the first is that of binary64."""
 
 
 def statements_in(
     language: str, program: Program, wanted: tuple[str, ...], *, number: str | None = None
 ) -> tuple[str, ...]:
-    """The needed part of the program in a language of NUMBERS, one declaration a step: `const double name = x + y;`.
+    """Return the needed steps of the program in a language of NUMBERS, as declarations: `const double a = x + y;`.
 
     The inputs are in scope under their own names, as `number`s, by default of binary64. `abs` and `sqrt` need math.h in
     C, <cmath> in C++ and `import math` in Python; a lint of Rust that wants snake_case has to allow A, B, P and Q.
@@ -138,7 +138,7 @@ c_statements = partial(statements_in, "c")
 
 @cache
 def spelling_of(language: str, number: str) -> Spelling:
-    """The spelling of programs in a language, in this type of numbers."""
+    """Return the spelling of a language for this type of numbers."""
     return _SPELLINGS[language](number)
 
 

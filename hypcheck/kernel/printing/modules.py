@@ -1,12 +1,13 @@
-"""Printer of the modules in kernel/printed: numpy statements over reused buffers, and scalar Python.
+"""Prints the modules in kernel/printed: numpy statements over reused buffers, and scalar Python.
 
     python -m hypcheck.kernel.printing.modules
 
-rewrites them; a test compares the committed files with what this prints.
+writes them again; a test compares the committed files with what this prints.
 
-numpy gets a ufunc call a step, over chunks, into buffers that are used again as soon as their value has been read.
-Temporaries make a numpy expression slow: each is memory to find, to fill and to read back. A chunk's buffers stay in
-the cache. Each call is one IEEE operation, so this is the program's arithmetic to the bit.
+Each step becomes one call of a ufunc of numpy, over a chunk of rows. It writes into a buffer that is used again as soon
+as its value has been read for the last time. Temporary arrays make a numpy expression slow: memory is allocated, filled
+and read back for each one. The buffers of a chunk stay in the cache. Each call is one IEEE operation, so this is the
+program's arithmetic to the bit.
 """
 
 from __future__ import annotations
@@ -42,9 +43,9 @@ _UFUNCS = {
 
 @dataclass(frozen=True, slots=True)
 class InPlace:
-    """Statements over buffers n0, n1, … of numbers and t0, t1, … of truth values.
+    """Statements over buffers: n0, n1, … hold numbers and t0, t1, … truth values.
 
-    `place` says in which buffer each wanted name is found.
+    `numbers` and `truths` are how many of each there are. `place` has the buffer of each wanted name.
     """
 
     statements: tuple[str, ...]
@@ -54,7 +55,7 @@ class InPlace:
 
 
 def in_place_statements(program: Program, wanted: tuple[str, ...], copied: tuple[str, ...] = ()) -> InPlace:
-    """The needed part of the program as calls of ufuncs on arrays of one shape.
+    """Return the needed steps of the program as calls of ufuncs on arrays of one shape.
 
     The inputs are in scope under their own names, as arrays or floats, and are left as they are; a step that depends
     on floats alone would still fill a buffer. The inputs in `copied` are first put into a buffer, rounded to its type.
@@ -89,12 +90,14 @@ def in_place_statements(program: Program, wanted: tuple[str, ...], copied: tuple
 
 
 def _ufunc(program: Program, step: Step) -> str:
+    """Return the ufunc of a step. Raises ValueError for an operation without one."""
     if step.operation not in _UFUNCS:
         raise ValueError(f"program {program.name}: step {step.name}: there is no ufunc in place for {step.operation}")
     return _UFUNCS[step.operation]
 
 
 def _arguments(step: Step, place: dict[str, str]) -> str:
+    """Return the arguments of a step: buffers, inputs, and integers as floats."""
     return ", ".join(place.get(a, a) if isinstance(a, str) else f"{a}.0" for a in step.arguments)
 
 
@@ -104,7 +107,7 @@ INDENT = "    "
 
 
 def modules() -> dict[str, str]:
-    """The text of each module by its file name."""
+    """Return the text of each module by its file name."""
     return {"chunks.py": _chunks(), "scalars.py": _scalars(), "tilted.py": _tilted()}
 
 
@@ -120,6 +123,7 @@ _ARRAYS = (
 
 
 def _chunks() -> str:
+    """Return the text of chunks.py."""
     wanted = ("R_plus_T", "exterior", "interior", "decided")
     return _module(
         "The line stage and the certified stage over chunks of rows, in buffers that the caller keeps.",
@@ -140,6 +144,7 @@ def _chunks() -> str:
 
 
 def _tilted() -> str:
+    """Return the text of tilted.py."""
     form = ("p", "s", "t", "k0", "k1", "m", "radius", "height", "cross_squared", "level")
     row = dict.fromkeys(TILTED_COLUMNS, "Floats")
     return _module(
@@ -156,7 +161,10 @@ def _tilted() -> str:
 def _in_place(
     name: str, program: Program, wanted: tuple[str, ...], arrays: Mapping[str, str], *, single: bool = False
 ) -> list[str]:
-    """The function of that name; `arrays` has the types of its inputs. Buffers are float32 where `single` is set."""
+    """Return the lines of a function over chunks; `arrays` has the types of its inputs.
+
+    With `single` its buffers of numbers are float32.
+    """
     numbers = "Singles" if single else "Floats"
     copied = tuple(symbol for symbol, kind in arrays.items() if kind != numbers)
     printed = in_place_statements(program, wanted, copied)
@@ -188,10 +196,11 @@ def _in_place(
 
 
 ON_A_LINE = 20
-"""Buffers unpacked at a time."""
+"""How many buffers one line unpacks at most."""
 
 
 def _unpacked(names: Sequence[str], source: str) -> Iterator[str]:
+    """Yield the lines that give the buffers their names."""
     if 1 < len(names) <= ON_A_LINE:
         yield f"{INDENT}{', '.join(names)} = {source}"
     elif len(names) == 1:
@@ -203,6 +212,7 @@ def _unpacked(names: Sequence[str], source: str) -> Iterator[str]:
 
 
 def _scalars() -> str:
+    """Return the text of scalars.py."""
     return _module(
         "Programs over Python's floats: one pair, and the constants of a scene's half planes.",
         [
@@ -224,6 +234,7 @@ def _scalars() -> str:
 
 
 def _function(name: str, program: Program, wanted: tuple[str, ...]) -> list[str]:
+    """Return the lines of a scalar function."""
     kind = "bool" if name == "chord" else "float"
     of_lines = {"u_8": lines.U_8, "more": lines.MORE, "less": lines.LESS}
     constants = certified.SINGLE_CONSTANTS if program is certified.SINGLE else of_lines
@@ -243,6 +254,7 @@ def _function(name: str, program: Program, wanted: tuple[str, ...]) -> list[str]
 
 
 def _module(summary: str, imports: Iterable[str], functions: Iterable[list[str]], ignored: str = "PLR0915") -> str:
+    """Return the text of a module; `ignored` has the rules of the linter that do not hold in it."""
     head = [f'"""{summary}', "", f"Printed by `{COMMAND}`. Change the programs, not this.", '"""', ""]
     head += [
         f"# ruff: noqa: {ignored}",

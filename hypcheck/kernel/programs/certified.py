@@ -1,10 +1,13 @@
 """The programs of the second stage: a position where an error bound proves it, for rows of any sizes and for one pair.
 
 CERTIFIED has a running error bound. u = 2⁻⁵² here: twice the unit roundoff, so that every bound holds in each rounding
-mode and not in "to nearest" alone.
+mode and not only in "to nearest".
 
-Coefficients. The formula object counts the rounding factors (tests/kernel/test_programs.py asks it): at most 7 in c0 =
-−AB, 11 in a term of c1, 7 in a term of c2. With one unit more for the second order,
+Notation. A = (α/b)², B = (γ/d)², P = (x² + y²)/b², Q = z²/d². c0, c1, c2 are the coefficients of the cubic g, and Δ is
+its discriminant. ĉ is a computed number, c the exact one.
+
+Coefficients. derivation/rounding.py counts the rounding factors (tests/kernel/test_programs.py checks them): at most 7
+in c0 = −AB, 11 in a term of c1, 7 in a term of c2. With one unit more for the second order,
 
     |ĉ0 − c0| ≤ e0 = 8u AB,   |ĉ1 − c1| ≤ e1 = 12u (AB + A + B + BP + AQ),   |ĉ2 − c2| ≤ e2 = 8u (A + B + 1 + P + Q).
 
@@ -15,7 +18,7 @@ Discriminant. With mᵢ = |ĉᵢ| + eᵢ, which bounds |cᵢ| too, and |x̂ŷ �
     h3 = c1² − 3c2c0   E3 = 2 m1 e1 + 3 (m2 e0 + m0 e2) + 4u (m1² + 3 m2 m0)
     3Δ = 4 h1 h3 − h2²  with aᵢ = |ĥᵢ| + Eᵢ:  E = 4 (a1 E3 + a3 E1) + 2 a2 E2 + 4u (4 a1 a3 + a2²)
 
-(at most three roundings an expression, so 4u). The listing takes these sums apart so that they need fewer products.
+(at most three roundings an expression, so 4u). The program factors these sums so that they need fewer products.
 
 Slopes, by the same count (10 factors in a term at most): g'(B) = (3B + 2c2) B + c1 within 2B e2 + e1 +
 16u (3B² + 2 m2 B + m1), likewise g'(−A); 3B + c2 and 3A − c2 within e2 + 16u (B + m2) and e2 + 16u (A + m2).
@@ -23,14 +26,14 @@ Slopes, by the same count (10 factors in a term at most): g'(B) = (3B + 2c2) B +
 The bounds are rounded themselves, by less than 2⁻⁴⁰ of their value: they are sums and products of positive numbers, of
 fewer than 100 factors (1 ± u) each. SLACK = 1 + 2⁻²⁰ covers that.
 
-Range. Asked for: b, d, A and B in 2^±100, and P + Q < FARTHEST = 2²⁰⁰. So α and γ lie in 2^±151, and no size, A, B or
-AB over- or underflows. Nothing that follows from P and Q overflows: with M2 = A + B + 1 + P + Q < 2²⁰¹ and
-M1 = AB + A + B + BP + AQ < 2³⁰¹, the values and their bounds are m2 < 2²⁰², m1 < 2³⁰², m0 < 2²⁰¹, a1 < 2⁴⁰⁷, a2 < 2⁵⁰⁷
-and a3 < 2⁶⁰⁷, so 4 a1 a3 + a2² < 2¹⁰¹⁷, and the slopes stay below 2³⁰⁴.
+Range. The program tests that b, d, A and B are in 2^±100, and that P + Q < FARTHEST = 2²⁰⁰. So α and γ lie in 2^±151,
+and no size, A, B or AB over- or underflows. Nothing that follows from P and Q overflows: with M2 = A + B + 1 + P + Q <
+2²⁰¹ and M1 = AB + A + B + BP + AQ < 2³⁰¹, the values and their bounds are m2 < 2²⁰², m1 < 2³⁰², m0 < 2²⁰¹, a1 < 2⁴⁰⁷,
+a2 < 2⁵⁰⁷ and a3 < 2⁶⁰⁷, so 4 a1 a3 + a2² < 2¹⁰¹⁷, and the slopes stay below 2³⁰⁴.
 
-P + Q has to be asked for: what overflows is infinite or NaN in round to nearest, and every comparison that decides is
+P + Q must be tested: what overflows is infinite or NaN in round to nearest, and every comparison that decides is
 false; but rounded down or towards zero it is the largest finite number, and a difference of two such numbers means
-nothing. The question itself is safe in every mode: x² + y² overflows to 2¹⁰²³ at least, hence P ≥ 2⁸²² as b² < 2²⁰⁰,
+nothing. The test itself is safe in every mode: x² + y² overflows to 2¹⁰²³ at least, hence P ≥ 2⁸²² as b² < 2²⁰⁰,
 and Q likewise; infinity and NaN are not below FARTHEST.
 
 Underflow. A centre coordinate whose square underflows (or is flushed to zero) changes P and Q by 2^-1021/2^-200 at most
@@ -39,13 +42,13 @@ to spare. E1 ≥ 3 e1, E2 ≥ 9 e0 > 2⁻²⁴⁹ and E3 ≥ 3 m0 e2 > 2⁻²⁴
 small factor), hence E, which contains a1 E3, a3 E1 and a2 E2, what these do to Δ.
 
 SINGLE is for one pair in plain Python, where each operation costs as much as a comparison or a call. It is CERTIFIED
-with a cheaper bound, the one that the formula object counts (derivation/rounding.py): a computed value is off by at
-most γ_k M, M being the sum of its terms' sizes, without any of their cancellation. k is 7 for c2, 11 for c1 and 42 for
-3Δ (tests/kernel/test_programs.py asks); the constants below leave a unit or more for the second order, for the rounding
-of M and for squares that underflow. For 3Δ, M = 4 H1 H3 + H2² with H1 = M2² + 3 M1, H2 = M2 M1 + 9 AB and
-H3 = M1² + 3 M2 AB is at most 32 (M2 M1)²: multiplied out, the difference has no negative term. What it leaves open, or
-what lies outside c² > a > 1, goes to the integers. Its range is that of CERTIFIED, for the same reason: M2 < 2²⁰¹ and
-M1 < 2³⁰¹, so (M2 M1)² < 2¹⁰⁰⁴, and 3Δ, at most 32 times that, does not overflow either.
+with a cheaper bound, the one that derivation/rounding.py counts: a computed value is off by at most γ_k M, M being the
+sum of its terms' sizes, without any of their cancellation. k is 7 for c2, 11 for c1 and 42 for 3Δ
+(tests/kernel/test_programs.py checks them); the constants below leave a unit or more for the second order, for the
+rounding of M and for squares that underflow. For 3Δ, M = 4 H1 H3 + H2² with H1 = M2² + 3 M1, H2 = M2 M1 + 9 AB and H3 =
+M1² + 3 M2 AB is at most 32 (M2 M1)²: multiplied out, the difference has no negative term. Rows that it leaves
+undecided, or with sizes outside c² > a > 1 (a = α/b, c = γ/d), go to the integers. Its range is that of CERTIFIED, for
+the same reason: M2 < 2²⁰¹ and M1 < 2³⁰¹, so (M2 M1)² < 2¹⁰⁰⁴, and 3Δ, at most 32 times that, does not overflow either.
 """
 
 from __future__ import annotations
@@ -67,7 +70,7 @@ CONSTANTS = {
     "greatest": 2.0**100,
     "farthest": 2.0**200,
 }
-"""The inputs beside the seven columns, by name."""
+"""The inputs of CERTIFIED beside the seven columns, by name."""
 
 USABLE = """
     alpha_usable = alpha > 0
@@ -160,7 +163,10 @@ _DISCRIMINANT_BOUND = """
 
 
 def _slope(pole: str, sign: str, tag: str) -> str:
-    """g' at a pole and its offset 3 |pole| ± c2, each with an error bound and the two comparisons that it allows."""
+    """Return the steps to g' at a pole and to the offset 3 |pole| ± c2, with their error bounds and comparisons.
+
+    `sign` is that of c2, and `tag` ends the names of the steps.
+    """
     return f"""
     thrice_{tag} = 3 * {pole}
     chord_{tag} = thrice_{tag} {sign} two_c2
@@ -233,7 +239,7 @@ CERTIFIED = program_of(
     _slope("A", "-", "A"),
     _DECISION,
 )
-"""From a row and CONSTANTS to `exterior`, `interior` and `decided`; decided and neither is contact."""
+"""The program from a row and CONSTANTS to `exterior`, `interior` and `decided`; decided and neither is contact."""
 
 
 SINGLE_CONSTANTS = {"u_8": 8 * U * SLACK, "u_12": 12 * U * SLACK, "u_1536": 48 * 32 * U * SLACK}
@@ -261,4 +267,4 @@ SINGLE = program_of(
 )
 
 SINGLE_RESULTS = ("A", "B", "BB", "P_plus_Q", "c1", "e1", "c2", "e2", "delta_3", "E")
-"""What a kernel takes from it: delta_3, c1 and c2 with their error bounds E, e1 and e2, and what the range asks of."""
+"""The results of SINGLE: delta_3, c1, c2 with their error bounds E, e1, e2, and the numbers whose range is tested."""

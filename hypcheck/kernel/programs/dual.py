@@ -1,8 +1,9 @@
-"""One pair of any sizes by the dual form: a λ that proves clear, and the tangent there that proves contact.
+"""The programs that decide one pair of any sizes by the dual form: a λ proves clear, and the tangent there contact.
 
-φ(λ) = Pλ/(A+λ) − Qλ/(B−λ) − λ − 1 has the sign of g in (−A, B) (derivation/listings.py): the pair is exterior exactly
-where φ > 0 somewhere in (0, B), interior where φ > 0 somewhere in (−A, 0), and φ(0) = −1. It is concave, as
-φ'' = −2PA/(A+λ)³ − 2QB/(B−λ)³. So a λ with φ(λ) > 0 proves clear, and its tangent bounds φ in the whole interval:
+A = (α/b)², B = (γ/d)², P = (x² + y²)/b² and Q = z²/d²; c0, c1, c2 are the coefficients of the cubic g. φ(λ) = Pλ/(A+λ)
+− Qλ/(B−λ) − λ − 1 has the sign of g in (−A, B) (derivation/listings.py): the pair is exterior exactly where φ > 0
+somewhere in (0, B), interior where φ > 0 somewhere in (−A, 0), and φ(0) = −1. It is concave, as φ'' = −2PA/(A+λ)³ −
+2QB/(B−λ)³. So a λ with φ(λ) > 0 proves clear, and its tangent bounds φ in the whole interval:
 
     φ ≤ φ(λ) + max(φ'(λ) (B−λ), −φ'(λ) (A+λ)),   φ' = PA/(A+λ)² − QB/(B−λ)² − 1.
 
@@ -11,16 +12,16 @@ so |λ| takes the place of the length beyond 0. The pair is also in contact wher
 the spheroid: the one at the centre's height, at the distance √R from the axis in units of b, with R = A (1 + Q/B), if
 |√P − √R| < 1.
 
-The programs differ in how they find λ = B − v. Where φ' = 0, v + m v/√(v² + QB) = A + B with m = √(PA). The left side
-grows and is concave, so Newton's steps from below never pass the root; both m and m v/√(QB) bound the middle term from
-above, so A + B − m and (A+B) √(QB) / (√(QB) + m) are below the root. DUAL takes steps from the larger one.
-LOCAL_MAXIMUM takes fewer from the local maximum of the cubic g, (−c2 − √(c2² − 3c1))/3. Nothing is asked of the λ found
-but what _PROOF computes: a bad one makes the answer 2, and no answer wrong.
+The two programs differ in how they find λ = B − v. Where φ' = 0, v + m v/√(v² + QB) = A + B with m = √(PA). The left
+side grows and is concave, so Newton's steps from below never pass the root; both m and m v/√(QB) bound the middle term
+from above, so A + B − m and (A+B) √(QB) / (√(QB) + m) are below the root. DUAL takes steps from the larger one.
+LOCAL_MAXIMUM takes fewer from the local maximum of the cubic g, (−c2 − √(c2² − 3c1))/3. The proof (_proof) holds for
+any λ: a bad one makes the answer 2, but no answer wrong.
 
 Bounds. u = 2⁻⁵², twice the unit roundoff, for every rounding mode. λ is a float, and exact. The rounding factors are 3
-in A, B and Q and 4 in P. V = B − λ and W = A + λ are asked to be above 2⁻²⁸ of B and A, so their relative errors are at
-most ρ = (4B/V + 2) u and (4A/W + 2) u, below 2⁻²¹. Pλ/W then has (4 + 2) u + ρ, and sums at most 3u of each of their
-terms: with 1 + |λ|, and one u to spare for underflow,
+in A, B and Q and 4 in P. The program tests that V = B − λ and W = A + λ are above 2⁻²⁸ of B and A, so their relative
+errors are at most ρ = (4B/V + 2) u and (4A/W + 2) u, below 2⁻²¹. Pλ/W then has (4 + 2) u + ρ, and sums at most 3u of
+each of their terms: with 1 + |λ|, and one u to spare for underflow,
 
     |φ̂ − φ| ≤ e = u ((16 + 8A/W) |Pλ/W| + (16 + 8B/V) |Qλ/V| + 4 (1 + |λ|)),
     |φ̂' − φ'| ≤ e' = u ((24 + 12A/W) PA/W² + (24 + 12B/V) QB/V² + 4),
@@ -41,10 +42,10 @@ from hypcheck.kernel.programs.certified import CONSTANTS as CERTIFIED_CONSTANTS
 from hypcheck.kernel.programs.certified import SLACK, USABLE, U
 
 STEPS = 8
-"""Newton's steps of DUAL."""
+"""How many steps of Newton's method DUAL makes."""
 
 STEPS_FROM_MAXIMUM = 3
-"""Newton's steps of LOCAL_MAXIMUM."""
+"""How many steps of Newton's method LOCAL_MAXIMUM makes."""
 
 CONSTANTS = {
     "u": U * SLACK,
@@ -55,7 +56,7 @@ CONSTANTS = {
     "least_margin": 2.0**-28,
     **{name: CERTIFIED_CONSTANTS[name] for name in ("least", "greatest", "farthest")},
 }
-"""The inputs beside the seven columns, by name."""
+"""The inputs of both programs beside the seven columns, by name."""
 
 _ENDS = """
     S = A + B
@@ -101,7 +102,7 @@ _LOCAL_MAXIMUM = """
 
 
 def _newton(step: int) -> str:
-    """The next v, for v + m v/√(v² + QB) = S."""
+    """Return the steps of one of Newton's steps, from v_`step` to the next v, for v + m v/√(v² + QB) = S = A + B."""
     return f"""
     vv_{step} = v_{step} * v_{step}
     square_{step} = vv_{step} + QB
@@ -121,7 +122,7 @@ def _newton(step: int) -> str:
 
 
 def _proof(last: str) -> str:
-    """The lines of a listing that lead from the last v to the answer."""
+    """Return the steps from the last v to the answer."""
     return f"""
     lambda_found = B - {last}
     A_margin = A * margin
@@ -224,7 +225,7 @@ DUAL = program_of(
     *map(_newton, range(STEPS)),
     _proof(f"v_{STEPS}"),
 )
-"""From a row and CONSTANTS to `exterior`, `interior` and `decided`; decided and neither is contact."""
+"""The program from a row and CONSTANTS to `exterior`, `interior` and `decided`; decided and neither is contact."""
 
 LOCAL_MAXIMUM = program_of(
     "local-maximum-certified",
@@ -236,4 +237,4 @@ LOCAL_MAXIMUM = program_of(
     *map(_newton, range(STEPS_FROM_MAXIMUM)),
     _proof(f"v_{STEPS_FROM_MAXIMUM}"),
 )
-"""The same, from the local maximum of g."""
+"""The same, with steps that begin at the local maximum of g."""

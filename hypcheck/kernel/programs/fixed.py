@@ -1,25 +1,28 @@
-"""The programs of the stage before the integers: the same rule in 128-bit fixed point, with a bound of the cut bits.
+"""The programs of the stage before the integers: the same rule in 128-bit fixed point, with a bound of the lost bits.
+
+p, q, s, t are the squares of α, b, γ, d, R = x² + y² and S = z². n2 and n1 are N c2 and N c1, with N = q t and c2, c1
+the coefficients of the cubic g; ps = p s is −N c0. Δ is the discriminant of g, A and B are p/q and s/t.
 
 Each number is a whole number of units, in two's complement; a product keeps the highest 128 of its 256 bits. Nothing is
 rounded by the machine's floats, so one bound holds under every rounding mode.
 
 Units. Lengths of one kind (α, b, x, y, or γ, d, z) are measured by the power of two above the longest of them, so each
-square is below 1; it is a number of units of 2⁻¹²⁶, and at most one unit of it is cut. `whole_p` is p times the power
-of four that makes it at least 1/4: nothing of it is cut, and N, ps and the factors of n2 are as exact for short lengths
-as for long ones. A product of numbers in units of 2⁻ᶠ and 2⁻ᵍ is in units of 2¹²⁸⁻ᶠ⁻ᵍ.
+square is below 1; it is a number of units of 2⁻¹²⁶, and at most one unit of it is cut off. `whole_p` is p times the
+power of four that makes it at least 1/4: nothing of it is cut off, so N, ps and the factors of n2 are as exact for
+short lengths as for long ones. A product of numbers in units of 2⁻ᶠ and 2⁻ᵍ is in units of 2¹²⁸⁻ᶠ⁻ᵍ.
 
-Balance. g(λ) and g(2ᵏλ) have discriminants of one sign; so N, n2, n1, ps may be multiplied by 2^(3k+a), 2^(2k+a),
-2^(k+a) and 2^a. Any k and a are right; with |n1/n2| for 2ᵏ, which is within a factor of two of a double root, n2, n1
-and ps become about 1, the unit is 2⁻¹²⁵, and the discriminant of three terms of one size is left with some 100 bits.
-Where n2 or n1 is moved up by 2^grown in that, its error is too.
+Balance. The discriminants of g(λ) and g(2ᵏλ) have the same sign; so N, n2, n1, ps may be multiplied by 2^(3k+a),
+2^(2k+a), 2^(k+a) and 2^a. Any k and a are right. With 2ᵏ near |n1/n2|, which is within a factor of two of a double
+root, n2, n1 and ps become about 1, the unit is 2⁻¹²⁵, and the discriminant, a sum of three terms of one size, keeps
+some 100 bits. If n2 or n1 is multiplied by 2^grown in that, so is its error.
 
-`errors` follows both what is cut and how large a number can be through every step, in whole units. ERRORS are the
-bounds that it gives for what the stage compares with 0; 2^grown multiplies those of `delta` and `middle`.
+`errors` follows through every step how much is cut off and how large a number can be, in whole units. ERRORS has the
+bounds for the numbers that the stage compares with 0; those of `delta` and `middle` are multiplied by 2^grown.
 
-What is asked. INTEGERS has delta; `middle` is 27 N³ g(−c2/3), g at its inflection. Near a tangency the two lower roots
-are close and the third is not: `middle` < 0. On the ring and near it the two upper ones are close, delta vanishes,
-and `middle` > 0 is a proof of exterior where −c2/3 lies in (0, B). The signs at the poles decide contact whatever delta
-is, where they are against the clear position (docs/mathematics.md, "The coefficient rule for all regimes").
+What decides. `delta` is that of INTEGERS, 3 N⁴ Δ; `middle` is 27 N³ g(−c2/3), g at its inflection. Near a tangency the
+two lower roots are close and the third is not: `middle` < 0. On the ring and near it the two upper ones are close,
+delta vanishes, and `middle` > 0 is a proof of exterior where −c2/3 lies in (0, B). The signs at the poles prove contact
+whatever delta is, where they contradict a clear position (docs/mathematics.md, "The coefficient rule for all regimes").
 """
 
 from __future__ import annotations
@@ -35,8 +38,10 @@ SQUARE, BALANCED = 126, 125
 """A square is a number of units of 2⁻¹²⁶, so N, n2, n1 and ps are of 2⁻¹²⁴; balanced they are of 2⁻¹²⁵."""
 
 MOST_GROWN = 100
+"""The greatest `grown`: n2 and n1 may be multiplied by 2^100 at most."""
 
 WHOLE = {"whole_p": "p", "whole_q": "q", "whole_s": "s", "whole_t": "t"}
+"""The squares from which nothing is cut off, each with the square that it is a multiple of."""
 
 TERMS = program_of(
     "fixed-terms",
@@ -62,7 +67,8 @@ TERMS = program_of(
     p_q = p * whole_q
 """,
 )
-"""What has the factor `whole_t` is then divided by a power of two, what has `whole_q` by another: one of them is 1."""
+"""The program of the coefficients. Results with the factor `whole_t` are then divided by a power of two, those with
+`whole_q` by another; one of the two is 1."""
 
 TERM_RESULTS = ("R", "radial_2", "axial_2", "n1", "N", "ps")
 
@@ -80,7 +86,7 @@ DISCRIMINANT = Program(
     middle = n2_h1_2 - N_h2_3
 """),
 )
-"""delta = 3 N⁴ Δ and middle = 27 N³ g(−c2/3)."""
+"""The program that computes delta = 3 N⁴ Δ and middle = 27 N³ g(−c2/3)."""
 
 POLES = program_of(
     "fixed-poles",
@@ -109,12 +115,13 @@ POLES = program_of(
     slope_at_A = rise_at_A + width_at_A
 """,
 )
-"""q t² g'(B), q² t g'(−A), q t (3B + c2) and q t (3A − c2): those of INTEGERS without a common factor t or q."""
+"""The program of the slopes q t² g'(B), q² t g'(−A) and the offsets q t (3B + c2), q t (3A − c2) at the poles: those of
+INTEGERS without a common factor t or q."""
 
 
 @dataclass(frozen=True, slots=True)
 class Range:
-    """A number of units between `low` and `high`, less the exact value: between `under` and `over`."""
+    """The range of a computed number: from `low` to `high` units. Its error is from `under` to `over` units."""
 
     low: int
     high: int
@@ -128,10 +135,10 @@ class Range:
 
 
 def errors(program: Program, inputs: Mapping[str, Range]) -> dict[str, Range]:
-    """Every input and step with the least and the greatest value and error that it can have.
+    """Return the range of every input and step of the program, by name.
 
-    Raises ValueError where a number may leave the 128 bits, unsigned if it is never negative, or for an operation
-    that is none of fixed point.
+    Raises ValueError if a number may leave the 128 bits (unsigned if it is never negative), and for an operation that
+    fixed point does not have.
     """
     known = dict(inputs)
 
@@ -154,24 +161,31 @@ def errors(program: Program, inputs: Mapping[str, Range]) -> dict[str, Range]:
 
 
 def _sum(left: Range, right: Range) -> Range:
+    """Return the range of a sum."""
     return Range(left.low + right.low, left.high + right.high, left.under + right.under, left.over + right.over)
 
 
 def _negative(number: Range) -> Range:
+    """Return the range of the number with the other sign."""
     return Range(-number.high, -number.low, -number.over, -number.under)
 
 
 def _scaled(factor: Range, number: Range) -> Range:
+    """Return the range of a product with a positive integer, which rounds nothing."""
     k = factor.low
     return Range(k * number.low, k * number.high, k * number.under, k * number.over)
 
 
 CUT = 3
-"""Units: a product lacks that of both lower halves, and the lower halves of the two mixed ones."""
+"""So many units a product can lose: it omits the product of both lower halves, and the lower halves of the two mixed
+products."""
 
 
 def _product(left: Range, right: Range) -> Range:
-    """âb̂ − ab = â eb + b̂ ea − ea eb, of which 128 bits are cut, rounded down, and up to CUT units more."""
+    """Return the range of a product, of which 128 bits are cut off, rounded down, and up to CUT units more.
+
+    With â = a + ea and b̂ = b + eb the computed factors, âb̂ − ab = â eb + b̂ ea − ea eb.
+    """
     values = [a * b for a in (left.low, left.high) for b in (right.low, right.high)]
     mixed = [a * e for a in (left.low, left.high) for e in (right.under, right.over)]
     other = [b * e for b in (right.low, right.high) for e in (left.under, left.over)]
@@ -195,11 +209,12 @@ _RULES: dict[str, Callable[[Range, Range], Range]] = {
 
 
 def moved_down(number: Range) -> Range:
-    """The number divided by any power of two, 1 included, and rounded down."""
+    """Return the range of the number divided by any power of two, 1 included, and rounded down."""
     return Range(min(0, number.low), max(0, number.high), min(0, number.under) - 1, max(0, number.over))
 
 
 def _terms() -> dict[str, Range]:
+    """Return the ranges in TERMS, whose results are then moved down by shifts."""
     most = (2**53 - 1) ** 2 * 2 ** (SQUARE - 106)
     square, whole = Range(0, most, -1, 0), Range(2 ** (SQUARE - 2), most)
     terms = errors(TERMS, {name: whole if name in WHOLE else square for name in TERMS.inputs})
@@ -209,7 +224,10 @@ def _terms() -> dict[str, Range]:
 
 
 def _balanced(terms: Mapping[str, Range], grown: int) -> dict[str, Range]:
-    """The inputs of DISCRIMINANT: below 2^125 in size; N and ps are doubled, n2 and n1 moved by up to 2^grown."""
+    """Return the ranges of the inputs of DISCRIMINANT, below 2^125 in size.
+
+    N and ps are doubled, n2 and n1 multiplied by up to 2^grown.
+    """
 
     def moved(number: Range, factor: int) -> Range:
         most = 2**BALANCED
@@ -219,6 +237,7 @@ def _balanced(terms: Mapping[str, Range], grown: int) -> dict[str, Range]:
 
 
 def _ranges() -> dict[str, dict[str, Range]]:
+    """Return the ranges of all numbers of TERMS, DISCRIMINANT and POLES."""
     terms = _terms()
     terms["n2"] = _sum(terms["radial_2"], _negative(terms["axial_2"]))
     poles = errors(POLES, {name: terms[name] for name in POLES.inputs})
@@ -226,11 +245,14 @@ def _ranges() -> dict[str, dict[str, Range]]:
 
 
 RANGES = _ranges()
-"""What each number of the three programs can be, for the printer: whether it is ever negative."""
+"""By program, the range of each number: the printer reads whether it is ever negative."""
 
 
 def _errors() -> dict[str, int]:
-    """An error is at most c0 + c1 2^grown + c2 4^grown, so its share of 2^grown is largest at an end."""
+    """Compute ERRORS.
+
+    An error is at most c0 + c1 2^grown + c2 4^grown with c0, c1, c2 ≥ 0, so divided by 2^grown it is largest at an end.
+    """
     terms, poles = RANGES["terms"], RANGES["poles"]
     grown = {end: errors(DISCRIMINANT, _balanced(terms, end)) for end in (0, MOST_GROWN)}
     return {
@@ -244,4 +266,5 @@ def _errors() -> dict[str, int]:
 
 
 ERRORS = _errors()
-"""In units: of n2 and n1, of offsets and slopes at the poles, and, for 2^grown = 1, of delta and of middle."""
+"""The greatest errors, in units: of n2 and n1, of offsets and slopes at the poles, and, to be multiplied by 2^grown, of
+delta and of middle."""

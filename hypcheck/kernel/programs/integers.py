@@ -1,24 +1,25 @@
 """The programs of the last stage, in whole numbers: nothing is divided, so integers stay integers.
 
-**Upright.** N = b² d² times the coefficients of g, and what the rule for all regimes asks of them. Lengths may be in
-one unit for α, b, x, y and in another for γ, d, z. n2, n1 and −n0 = p s are N c2, N c1 and N c0's size; delta is
-3 N⁴ Δ, slope_at_B is N t² g'(B), slope_at_A N q² g'(−A).
+**Upright.** INTEGERS computes the coefficients of the cubic g times N = b² d², and the numbers whose signs the rule for
+all regimes reads (docs/mathematics.md). p, q, s, t are the squares of α, b, γ, d; A = p/q and B = s/t. Lengths may be
+in one unit for α, b, x, y and in another for γ, d, z. n2 and n1 are N c2 and N c1, and ps is −N c0; delta is 3 N⁴ Δ,
+slope_at_B is N t² g'(B), slope_at_A is N q² g'(−A).
 
-**A tilted axis.** The quartic of the pair, and its discriminant: with p, q, s, t the squares of α, b, γ, d, and w
-that of the axis' length,
+**A tilted axis.** QUARTIC computes the coefficients of the pair's quartic F. With w the square of the axis' length,
 
     F(λ) = λ (λ E + (p + qλ)(G − λ m)) − (1 + λ)(p + qλ)(k0 + k1 λ − k2 λ²) = f4 λ⁴ + f3 λ³ + f2 λ² + f1 λ + f0
 
 is p² q² s t w det(S + λH), as tests/kernel/test_tilted_integers.py checks. Lengths have one unit, the axis another.
-`minus_f0` is the size of f0, which is negative. `delta` is 27 times the discriminant.
+`minus_f0` is −f0, as f0 is negative. `delta` is 27 times the discriminant of F.
 
 **A tangency**, in whole numbers of fixed width (docs/kernel.md, "A tangency"). With D = b d and K = α γ, a row touches
-where there are whole numbers M and e of one sign with M e = D K, n2 = −(2 D M + e²) and n1 = M² + 2 K e. TANGENCY has
-their sizes, and `inner` says that both are negative: r1, r2 and r3 are what the equations are off by; the rooms and
-`beyond`, which must not be negative, say that the double root lies between the poles and is no ring. WAIST is the rule
-in the plane z = 0, where g is B − λ times −(λ² − w λ + A) and W is b² w; `size` is that of W. In C a length is a word,
-what has degree 2 is NARROW, and all else twice as wide: what may be negative is in two's complement. That each number
-fits is proved in Coq (StageFour.v).
+where there are whole numbers M and e of one sign with M e = D K, n2 = −(2 D M + e²) and n1 = M² + 2 K e. The inputs M
+and e of TANGENCY are their sizes, and `inner` says that both are negative. r1, r2 and r3 are the differences between
+the two sides of these equations. `room_within`, `room_without` and `beyond` must not be negative: then the double root
+lies between the poles, and it is not a ring. WAIST is the rule in the plane z = 0, where g is B − λ times
+−(λ² − w λ + A), and W is b² w; its input `size` is |W|. In C a length is one word, numbers of degree 2 are NARROW, and
+all others are twice as wide; numbers that may be negative are in two's complement. Coq proves that each number fits
+(StageFour.v).
 """
 
 from __future__ import annotations
@@ -198,7 +199,7 @@ INVARIANTS = program_of(
     J = middle + many_ends
 """,
 )
-"""I = 12 f4 f0 − 3 f3 f1 + f2² and J = 72 f4 f2 f0 + 9 f3 f2 f1 − 27 f4 f1² − 27 f0 f3² − 2 f2³."""
+"""The program to I = 12 f4 f0 − 3 f3 f1 + f2² and J = 72 f4 f2 f0 + 9 f3 f2 f1 − 27 f4 f1² − 27 f0 f3² − 2 f2³."""
 
 DISCRIMINANT = program_of(
     "tilted-discriminant",
@@ -213,11 +214,11 @@ DISCRIMINANT = program_of(
 )
 
 FLOAT64_BITS = 2098
-"""Bits of the largest float64 in units of the smallest: 2¹⁰²⁴ / 2⁻¹⁰⁷⁴."""
+"""The bits of the largest float64 as a multiple of the smallest: 2¹⁰²⁴ / 2⁻¹⁰⁷⁴ = 2²⁰⁹⁸."""
 
 
 def bits_counted(program: Program, of_inputs: int = FLOAT64_BITS) -> dict[str, int]:
-    """For every step the bits that its size cannot exceed, where each input has at most `of_inputs` bits.
+    """Return for every step how many bits its size has at most, if each input has at most `of_inputs` bits.
 
     A product has no more bits than its factors together, a sum at most one more than the longer term. Raises
     ValueError for any other operation.
@@ -243,11 +244,11 @@ def bits_counted(program: Program, of_inputs: int = FLOAT64_BITS) -> dict[str, i
 def integer_statements(
     program: Program, wanted: tuple[str, ...], phrases: Mapping[str, str], known: tuple[str, ...] = ()
 ) -> list[str]:
-    """A statement for each step that the wanted names need, less those for the known ones.
+    """Return a statement for each step that the wanted names need and the known names do not.
 
-    `phrases` are formats of str.format for the operations add, sub and mul, and scale: the product with an integer.
-    They have {name}, the arguments {0} and {1}, the {bits} that are counted, and {limbs}: limbs of 32 bits that have
-    room for these, and two more.
+    `phrases` has texts for str.format for the operations add, sub and mul, and for scale, the product with an integer.
+    They contain {name}, the arguments {0} and {1}, the {bits} that are counted, and {limbs}: how many limbs of 32 bits
+    hold these, and two more.
     """
     bits, before = bits_counted(program), needed(program, known)
     return [
@@ -324,7 +325,7 @@ WAIST = program_of(
 _SQUARES = ("p", "q", "s", "t", "xx", "yy", "R", "S", "p_2", "q_2")
 _SUMS = ("p_plus_q", "p_q_R", "s_plus_S", "t_minus_s", "t_s_S", "R_minus_q", "R_less_q", "W", "opposite", "W_p_2")
 NARROW = frozenset((*_SQUARES, *_SUMS, "D", "K", "M", "e", "size"))
-"""Of degree 2 in the lengths."""
+"""The numbers of degree 2 in the lengths, and M, e and `size`: in C they are half as wide as all others."""
 
 SIGNED = frozenset(("p_q_R", "t_s_S", "R_minus_q", "W"))
 """Factors that may be negative."""
@@ -332,11 +333,14 @@ SIGNED = frozenset(("p_q_R", "t_s_S", "R_minus_q", "W"))
 BEFORE = ("D_K", "n2", "inner")
 EQUATIONS = ("r1", "r2")
 LAST = ("r3", "room_within", "beyond", "room_without")
-"""The results that the C code needs from the parts of TANGENCY, in its order."""
+"""The results that the C code needs from each of the three parts of TANGENCY, in the order of the code."""
 
 
 def statements_of(program: Program, wanted: tuple[str, ...], known: tuple[str, ...] = (), *, short: bool) -> list[str]:
-    """The steps in C that the wanted names need, less those for the known ones; `short` for lengths below 2²³."""
+    """Return the C statements of the steps that the wanted names need and the known names do not.
+
+    `short` is for lengths below 2²³: a number of degree 2 then takes one word.
+    """
     before = needed(program, known)
     return [_statement(step, _SHORT if short else _LONG) for step in needed(program, wanted) if step not in before]
 
@@ -366,6 +370,7 @@ _SHORT = {
 
 
 def _statement(step: Step, spelling: Mapping[str, str]) -> str:
+    """Return a step as a statement of C, in the types of the spelling."""
     names = tuple(map(str, step.arguments))
     if step.operation == "lt":
         return f"const int {step.name} = {names[0]} < {names[1]};"

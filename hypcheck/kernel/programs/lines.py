@@ -1,4 +1,8 @@
-"""The programs of lines: half planes and half spaces that prove positions of one scene, and what they prove of sweeps.
+"""The programs of lines: half planes and half spaces that prove positions in one scene, also along sweeps.
+
+α, γ are the sizes of the hyperboloid and b, d those of the spheroid; A = (α/b)² and B = (γ/d)². x, y, z is the
+spheroid's centre, seen from the hyperboloid's. A line is named by K and M: it is R = K + M T, with R and T below. R̂ is
+a number as it is computed, R the exact one.
 
 **Half planes.** They are the first stage. In the plane of R = x² + y² and T = z² the exterior positions are the union
 over λ in (0, B) of the half planes
@@ -8,15 +12,15 @@ over λ in (0, B) of the half planes
 the interior ones the union over μ in (0, A) of R < b² (A−μ)(1 − 1/μ) + (b²/d²) (A−μ)/(B+μ) T (docs/mathematics.md, "A
 line is a proof"). So the positions that are *not* exterior form a convex set, an intersection of half planes, and so do
 those that are not interior: a point under the chord of two positions that are not exterior is not exterior, one above
-the chord of two that are not interior is not interior, and where both hold the bodies are in contact. *A chord is a
-proof too*, and contact, which no single λ can show, costs two comparisons a side.
+the chord of two that are not interior is not interior, and where both hold the bodies are in contact. So *a chord is a
+proof too*, and contact, which no single λ can show, costs two comparisons for each side.
 
-Margins (u = 2⁻⁵², which covers every rounding mode). R̂ carries 2 rounding factors, T̂ one, M T̂ two and K + M T̂ three,
-all terms being positive; so a comparison of R̂ with K + M T̂ decides that of R with K + M T where K and M have been moved
-to the safe side by MARGIN = 16u relatively: 16 > 2 + 3 with room for the constants' own roundings, counted below.
-A product that underflows (or is flushed) changes a side by at most 2⁻¹⁰²¹ (1 + M); with K ≥ LEAST_CONSTANT = 2⁻³⁰⁰ and
-M ≤ GREATEST_SLOPE = 2⁴⁰⁰ that is less than uK; the line R ≥ 0, K = M = 0, needs no margin. `reach` is the square of a
-height ≥ 2⁻¹⁵⁰ less a margin, so that it bounds T and not T̂ alone.
+Margins (u = 2⁻⁵², which covers every rounding mode). R̂ carries 2 rounding factors, T̂ one, M T̂ two and K + M T̂
+three, all terms being positive; so a comparison of R̂ with K + M T̂ decides that of R with K + M T where K and M have
+been moved to the safe side by MARGIN = 16u relatively: 16 > 2 + 3 with room for the constants' own roundings, counted
+below. A product that underflows (or is flushed) changes a side by at most 2⁻¹⁰²¹ (1 + M); with K ≥ LEAST_CONSTANT =
+2⁻³⁰⁰ and M ≤ GREATEST_SLOPE = 2⁴⁰⁰ that is less than uK; the line R ≥ 0, K = M = 0, needs no margin. `reach` is the
+square of the greatest height, at least 2⁻¹⁵⁰, for which the chords hold, less a margin: so it bounds T and not only T̂.
 
 Rows whose R + T is not below CAP = 2⁴⁰⁰ are for the next stage: nothing overflows, and no comparison with an infinity,
 NaN, or the largest finite number that an overflow becomes when it is rounded down, passes for a proof. It suffices to
@@ -28,8 +32,8 @@ two thresholds of the same number:
 
     R − M T > K proves exterior, R − M T < K not exterior; likewise on the inner side.
 
-*Any M will do.* A line K' + M' T that proves something for all T in [0, `reach`] proves it beside K + M T too, where K
-is the extreme of K' + (M' − M) T at the two ends. In return each chunk must be looked at once: T ≤ `reach` and R < CAP.
+*Any M is right.* A line K' + M' T that proves something for all T in [0, `reach`] proves it beside K + M T too, where K
+is the extreme of K' + (M' − M) T at the two ends. In return each chunk must first be tested: T ≤ `reach` and R < CAP.
 
 Rounding (u = 2⁻²³, which covers every rounding mode). With V = R − M T, V̂ is computed from x, y, z rounded to float32:
 R̂ carries 4 factors, M T̂ also 4 and the difference one more, so
@@ -38,8 +42,8 @@ R̂ carries 4 factors, M T̂ also 4 and the difference one more, so
 
 since a square that underflows, or is flushed to zero, is off by 2⁻¹²⁴ at most and M ≤ FLOAT32_GREATEST_SLOPE = 2⁴⁰. A
 threshold moved to the safe side by FLOAT32_MARGIN (|K| + 2 M reach) + tiny, FLOAT32_MARGIN = 16u, hence decides about
-the exact V; half of that is for its own rounding to float32. T̂ ≤ FLOAT32_LESS reach, FLOAT32_LESS = 1 − FLOAT32_MARGIN,
-says T ≤ `reach` of the exact T.
+the exact V; half of that is for its own rounding to float32. T̂ ≤ FLOAT32_LESS reach, FLOAT32_LESS = 1 −
+FLOAT32_MARGIN, says T ≤ `reach` of the exact T.
 
 Range. With `reach` and the squares of the sizes in 2^±60, M ≤ 2⁴⁰ and R̂ < FLOAT32_CAP = 2¹⁰⁰ nothing overflows;
 infinities, NaN and the largest float32 are not below it. Scenes outside are left to the lines in float64.
@@ -67,8 +71,8 @@ MARGIN, and so is underflow, where K ≥ LEAST_CONSTANT and a, M ≤ GREATEST_SL
 with sizes in 2^±100 no product overflows then, and NaN is not below it.
 
 **Sweeps.** The centre goes along (x, y, z) + s (u, v, w), 0 ≤ s ≤ 1, and R − M T − K is a quadratic in s there.
-Beside a line that proves exterior positions (side 1, TANGENT_BEYOND) it is to be positive, beside one that proves
-interior positions (side −1, TANGENT_WITHIN and TANGENT_HIGH) negative. PIECE gives three numbers with
+For a line that proves exterior positions (side 1, TANGENT_BEYOND) it must be positive, for one that proves interior
+positions (side −1, TANGENT_WITHIN and TANGENT_HIGH) negative. PIECE computes three numbers with
 
     side (R − M T − K) ≥ here + 2 slope s + bend s²   for all s in [0, 1].
 
@@ -79,8 +83,8 @@ sum carries as well, and the rounding of the last difference, u of the sum at mo
 
 Underflow. What products lose that underflow or are flushed is at most 2⁻¹⁰²¹ (2 + M) for each coefficient, with M ≤
 GREATEST_SLOPE = 2⁴⁰⁰ less than 2⁻⁶¹⁸ for all s in [0, 1]; `here` has 2u |K| ≥ 2⁻³⁵¹ to spare for that, by |K| ≥
-LEAST_CONSTANT. Overflow is excluded: who uses the result asks for `size` < CAP first, which no infinity is, nor NaN,
-nor the largest finite number.
+LEAST_CONSTANT. Overflow is excluded: a caller first tests `size` < CAP, which does not hold for an infinity, NaN or the
+largest finite number.
 
 TANGENT_HIGH is TANGENT_WITHIN for μ < 1, where its K is negative: high up in a hyperboloid whose throat is narrow. K is
 −b² (A − μ)(1 − μ)/μ; the error of A − μ is added there to make K smaller, and taken off M. It carries 7 factors.
@@ -104,11 +108,12 @@ MORE, LESS = 1 + 2 * MARGIN, 1 - 2 * MARGIN
 U_8 = 8 * U
 
 SIDES = {"beyond": ">", "within": "<", "under": "<", "above": ">="}
-"""R > K + M T proves exterior, R < K + M T interior; R < K + M T under a chord, with T ≤ `reach`, that the position is
-not exterior, R ≥ K + M T above one that it is not interior."""
+"""By name of a kind of line, the comparison of R with K + M T that it is about. `beyond` proves exterior and `within`
+interior. With T ≤ `reach`, `under` (a chord) proves that the position is not exterior, `above` that it is not
+interior."""
 
 PLACES = (0, 1, 2)
-"""Line 0 of a side serves a whole scene, or lines 1 and 2 serve its lower and its upper part."""
+"""The numbers of a side's lines: a whole scene has line 0, or lines 1 and 2 for its lower and its upper part."""
 
 LINE_CONSTANTS = tuple(f"{part}_{side}_{place}" for side in SIDES for place in PLACES for part in "KM")
 
@@ -118,7 +123,7 @@ _PLANE = """
     R = xx + yy
     T = z * z
 """
-"""From a centre to its place in the plane of R = x² + y² and T = z²."""
+"""The steps from a centre to its place in the plane of R = x² + y² and T = z²."""
 
 _IN_REACH = f"""
     {_PLANE}
@@ -142,6 +147,7 @@ _LINE_ANSWERS = f"""{_ANSWERS}
 
 
 def _line(side: str, place: int, holds: str) -> str:
+    """Return the steps to `holds`: whether the centre is on the proved side of one line."""
     return f"""
     rise_{side}_{place} = M_{side}_{place} * T
     line_{side}_{place} = K_{side}_{place} + rise_{side}_{place}
@@ -156,7 +162,11 @@ _JOINED = {"beyond": "or", "within": "or", "under": "and", "above": "and"}
 def _one_and_two(
     names: tuple[str, str], inputs: tuple[str, ...], place: str, border: Callable[[str, int, str], str], answers: str
 ) -> tuple[Program, Program]:
-    """The program that tests one border a side, number 0, and the one that tests two, 1 and 2."""
+    """Return the program that tests one border for each side, number 0, and the program that tests two, 1 and 2.
+
+    `place` has the steps from a centre to its place, `border` returns those of the comparison with one border, and
+    `answers` has those from the comparisons to the answer.
+    """
     one = program_of(names[0], inputs, place, *(border(side, 0, holds) for side, holds in _HOLDS.items()), answers)
     two = program_of(
         names[1],
@@ -172,8 +182,9 @@ def _one_and_two(
 ONE_LINE, TWO_LINES = _one_and_two(
     ("one-line", "two-lines"), ("x", "y", "z", "reach", *LINE_CONSTANTS), _IN_REACH, _line, _LINE_ANSWERS
 )
-"""From x, y, z and the scene's constants to `exterior`, `interior` and `decided`, and what settles one side alone
-(`exterior_decided`, `interior_decided`), where R_plus_T < CAP. Two lines are more work a row, and leave fewer rows."""
+"""The programs from x, y, z and the scene's constants to `exterior`, `interior` and `decided`, and to whether a
+one-sided question is decided (`exterior_decided`, `interior_decided`), where R_plus_T < CAP. With two lines a row costs
+more, and fewer rows are left."""
 
 # The constants of a half plane from any λ in (0, B), or any μ in (1, A). `gap` is B − λ in units of 1/d², `across`
 # A ± λ in units of 1/b². Where these are differences they may cancel: their error, at most 3u of their terms, is taken
@@ -247,8 +258,8 @@ TANGENT_HIGH = program_of(
 """,
     _WITHIN_SLOPE,
 )
-"""From sizes and μ in (0, 1) to K = −fall_most and M_least of a half plane R < K + M T that proves interior positions,
-where across_least > 0."""
+"""The program from sizes and μ in (0, 1) to K = −fall_most and M_least of a half plane R < K + M T that proves interior
+positions, where across_least > 0."""
 
 # Whether the line K + M T passes below, or above, the points (T_0, R_0) and (T_1, R_1), hence their chord, with MARGIN
 # to spare: two factors on the left, one on the right.
@@ -312,6 +323,7 @@ _COMPONENTS = """
 
 
 def _plane(side: str, place: int, holds: str) -> str:
+    """Return the steps to `holds`: whether the centre is on the proved side of one plane."""
     return f"""
     part_{side}_{place} = a_{side}_{place} * P2
     place_{side}_{place} = P1 + part_{side}_{place}
@@ -324,7 +336,7 @@ def _plane(side: str, place: int, holds: str) -> str:
 ONE_PLANE, TWO_PLANES = _one_and_two(
     ("one-plane", "two-planes"), ("x", "y", "z", "reach", *BASIS, *PLANE_CONSTANTS), _COMPONENTS, _plane, _ANSWERS
 )
-"""From x, y, z and the scene's constants to `exterior`, `interior` and `decided`, where `distance` < CAP."""
+"""The programs from x, y, z and the scene's constants to `exterior`, `interior`, `decided`, where `distance` < CAP."""
 
 PIECE = program_of(
     "piece",
@@ -368,7 +380,7 @@ PIECE = program_of(
     size = size_ends + size_slope
 """,
 )
-"""From a centre, its change, a line and its side to `here`, `slope` and `bend`, valid where `size` < CAP."""
+"""The program from a centre, its change, a line and its side to `here`, `slope`, `bend`, valid where `size` < CAP."""
 
 
 FLOAT32_U = 2.0**-23
@@ -398,4 +410,4 @@ PARALLEL_LINES = program_of(
     decided = clear or contact
 """,
 )
-"""From there to `exterior`, `interior` and `decided`, where T ≤ LESS reach and R < CAP."""
+"""The program from R and T to `exterior`, `interior`, `decided`, where T ≤ FLOAT32_LESS reach and R < FLOAT32_CAP."""

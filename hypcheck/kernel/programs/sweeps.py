@@ -1,40 +1,42 @@
 """The programs of printed sweeps: what any multiplier proves at a time of a sweep, however both bodies are tilted.
 
 The centre of the spheroid is C(s) = start + s V − c at the time s, V = end − start, c the centre of the hyperboloid.
-With n and v along the axes of the hyperboloid and of the spheroid, lengths in units of b, φ d = F as in tilted.py:
+n and v are vectors along the axes of the hyperboloid and of the spheroid; lengths are in units of b. A multiplier is an
+argument l of the dual function φ. As in tilted.py, F = φ d with
 
     F = l N − (1 + l) d,   N = l E + (p + l)(G − l m),   d = (p + l) k,   k = k0 + l k1 − t l²,
 
-where now no frame is turned, as all that F asks of the directions is
+Here no frame is turned, since F depends on the directions only by
 
     E = (t − 1)(s + p) ((n × v)·C)²/(n² v²),   G = s |n × C|²/n² − p (n·C)²/n²,   m = t C² − (t − 1)(v·C)²/v²,
     h = |n × v|²/(n² v²),   c = (n·v)²/(n² v²)        (the squares of sine and cosine between the axes).
 
-So N is a quadratic form of the centre, and d does not know the centre. **A piece of a sweep.** For one l, and exactly,
+So N is a quadratic form of the centre, and d does not depend on the centre. **A piece of a sweep.** For one l, and
+exactly,
 
     F(s + r) = F + 2 r l N(C, V) + r² l N(V, V),
 
-N(·, ·) being the form's symmetric bilinear one. Where l lies between the poles, F > 0 proves the side of l: the whole
-piece up to the first root of a parabola that is not above this one is proved to be clear. **A time of contact** is
-proved by the tangent of φ, as in tilted.py: φ < 0, and neither what it may rise up to B nor what it may rise up to
-−min(A1, A2) reaches 0. These poles are at most k/(t l) away, for l > 0, as k = t (B − l)(A2 + l), and p + l. Else
-B ≤ s (t h + c)/t, and the magnitude of s (t h + c), a sum without cancellation, is not below that.
+N(·, ·) being the form's symmetric bilinear one. Where l lies between the poles, F > 0 proves the side of l: take a
+parabola that is nowhere above this one; the piece of the sweep up to its first root is proved to be clear. **A time of
+contact** is proved by the tangent of φ, as in tilted.py: φ < 0, and the tangent stays below 0 both up to B and down to
+−min(A1, A2). These poles are at most k/(t l) away, for l > 0, as k = t (B − l)(A2 + l), and p + l. Else B ≤ s (t h +
+c)/t, and the magnitude of s (t h + c), a sum without cancellation, is not below that.
 
 **Clearance.** The spheroid made f times as large is clear if and only if φ > f² − 1 somewhere (docs/mathematics.md).
-So f² − 1, f being the factor by which it touches, is the maximum of φ: not below any φ(l), and not above the tangent.
+So if f is the factor at which it touches, f² − 1 is the maximum of φ: not below any φ(l), and not above a tangent.
 
 Bounds (u = 2⁻⁵², which covers every rounding mode). derivation/rounding.py counts the rounding factors of what is
 bounded and makes the magnitudes M, from the numbers of the row on: the differences of centres and the product with the
 time are steps like all others. Each value is within (count + 3) u·SLACK of M, F within (count + 4): one unit for the
 second order, two for underflow; F has another for what slope and bend lose to F(s + r) by underflow, r being ≤ 1.
 
-Range. Asked for: b in 2^±300, p, s, t in 2^±54, the magnitudes of C²/b² and V²/b² below 2¹⁰⁸, n² and v² in 2^±50
-after the division by LENGTHS, so that n² v² is in 2^±100 as v² alone is in tilted.py, and |l| < 2⁶⁰. What a component
-of an axis loses that underflows there is 2⁻¹⁰²¹ beside 2⁻²⁵. Then all that is said there of overflow and underflow
-holds. Magnitudes are sums of positive numbers: where a coordinate overflows they are not below their limit in any
-rounding mode.
+Range. The program tests that b is in 2^±300, p, s, t in 2^±54, the magnitudes of C²/b² and V²/b² below 2¹⁰⁸, n² and v²
+in 2^±50 after the division by LENGTHS, so that n² v² is in 2^±100 as v² alone is in tilted.py, and |l| < 2⁶⁰. What a
+component of an axis loses that underflows there is 2⁻¹⁰²¹ beside 2⁻²⁵. Then all that tilted.py says of overflow and
+underflow holds. Magnitudes are sums of positive numbers: where a coordinate overflows they are not below their limit in
+any rounding mode.
 
-ROOT makes a number below the first root of here + 2 slope r + bend r², here > 0: here/(√D − slope), D = slope² −
+ROOT computes a number below the first root of here + 2 slope r + bend r², here > 0: here/(√D − slope), D = slope² −
 here·bend. D is off by 3u of its terms' sizes, hence 4u; what underflows in D is below 2⁻¹⁰²⁰, so 2⁻⁵⁰⁰ covers its root,
 and `here` is asked to be above 2⁻⁴⁰². Where D < 0, or √D ≤ slope, there is no root after 0.
 """
@@ -54,8 +56,9 @@ WALL = ("wall_x", "wall_y", "wall_z")
 WALL_AXIS = ("wall_axis_x", "wall_axis_y", "wall_axis_z")
 ROW = (*SIZES, *START, *END, *AXIS, *WALL, *WALL_AXIS)
 LENGTHS = ("axis_size", "wall_axis_size")
-"""A spheroid's sweep beside a hyperboloid anywhere: sizes, both ends, its axis, the other's centre and axis.
-LENGTHS are any numbers by which the axes are divided, so that none is too long or too short."""
+"""ROW has the columns of a spheroid's sweep beside a hyperboloid anywhere: sizes, both ends of the sweep, the
+spheroid's axis, the hyperboloid's centre and axis. LENGTHS are numbers by which the axes are divided, so that neither
+is too long or too short; any numbers > 0 are right."""
 
 _SIZES = f"""
     {tilted.SQUARES}
@@ -79,7 +82,7 @@ _PLACES = "".join(
 
 
 def dot(name: str, left: str, right: str) -> str:
-    """The steps to the scalar product of two vectors, whose components end with _x, _y and _z."""
+    """Return the steps to the scalar product of two vectors, the names of whose components end with _x, _y and _z."""
     return f"""
     {name}_x = {left}_x * {right}_x
     {name}_y = {left}_y * {right}_y
@@ -90,6 +93,7 @@ def dot(name: str, left: str, right: str) -> str:
 
 
 def _cross(name: str, left: str, right: str) -> str:
+    """Return the steps to the vector product of two vectors."""
     steps = ""
     for k, i, j in (("x", "y", "z"), ("y", "z", "x"), ("z", "x", "y")):
         steps += f"""
@@ -101,7 +105,7 @@ def _cross(name: str, left: str, right: str) -> str:
 
 
 def _linear(of: str) -> str:
-    """The linear functions of a vector: components along and across the hyperboloid's axis and along the others."""
+    """Return the steps to the linear functions of a vector: across and along n, along v, and along n × v."""
     return (
         _cross(f"across_{of}", "n", of)
         + dot(f"level_{of}", "n", of)
@@ -111,7 +115,7 @@ def _linear(of: str) -> str:
 
 
 def _form(tag: str, left: str, right: str) -> str:
-    """E, G and m of two vectors, which end with the tag."""
+    """Return the steps to E, G and m of two vectors; their names end with the tag."""
     return f"""
     {dot(f"circle{tag}", f"across_{left}", f"across_{right}")}
     radius{tag} = circle{tag} / nn
@@ -153,7 +157,7 @@ _DIRECTIONS = f"""
 
 
 def _at_slope(tag: str, name: str) -> str:
-    """l N of a form with this tag."""
+    """Return the steps to l N, called `name`, from the E, G and m with this tag."""
     return f"""
     m_l{tag} = m{tag} * l
     g{tag} = G{tag} - m_l{tag}
@@ -167,7 +171,7 @@ def _at_slope(tag: str, name: str) -> str:
 _PLACE = (_SIZES, _PLACES, _DIRECTIONS, _linear("here"), _form("", "here", "here"))
 
 PLACE = program_of("place", (*ROW, *LENGTHS, "at"), *_PLACE)
-"""From a sweep and a time to what F is made of there."""
+"""The program from a sweep and a time `at` to the terms of F there."""
 
 VALUES = program_of(
     "sweep-values",
@@ -180,20 +184,21 @@ VALUES = program_of(
     _at_slope("_1", "F_slope"),
     _at_slope("_2", "F_bend"),
 )
-"""From a sweep, a time and l to F, d, k, p + l, psi, and the slope and bend of F along the sweep."""
+"""The program from a sweep, a time and l to F, d, k, p + l, psi, and to the slope and bend of F along the sweep."""
 
 BOUNDED = {**tilted.BOUNDED, "F_slope": "e_slope", "F_bend": "e_bend"}
-"""The values whose errors are bounded, and the bounds."""
+"""The names whose errors are bounded, each with the name of its bound."""
 
 
 @cache
 def counted() -> ErrorCounts:
-    """The counts of rounding factors, and the magnitudes, of the bounded values."""
+    """Count the rounding factors of the bounded values, and make their magnitudes."""
     return relative_error_counts(VALUES, (*BOUNDED, "distance", "distance_2", "s_along"), positive=(*SIZES, *LENGTHS))
 
 
 COUNTS = {name: counted().counts[name] for name in BOUNDED}
 SPARE = dict.fromkeys(BOUNDED, 3) | {"F": 4}
+"""Of each bounded value, the count of its rounding factors, and the units that its bound has beyond that."""
 
 CONSTANTS = {
     **{f"u_{name}": (COUNTS[name] + SPARE[name]) * U * SLACK for name in BOUNDED},
@@ -207,7 +212,7 @@ CONSTANTS = {
     "greatest_axis": 2.0**50,
     "greatest_l": 2.0**60,
 }
-"""The inputs beside the sweep, the time and l, by name."""
+"""The inputs of SWEEP beside the sweep, the time and l, by name."""
 
 _NEAR = """
     place_near = magnitude_distance < farthest_square
@@ -252,8 +257,9 @@ _DECISION = f"""
 
 
 SWEEP = tilted.certificate("sweep", VALUES, (*ROW, *LENGTHS, "at", "l", *CONSTANTS), counted(), BOUNDED, _DECISION)
-"""From a sweep, a time, any l and CONSTANTS to `exterior`, `interior` and `contact` there, each proved where it holds,
-and to here, slope, bend: the parabola below F from that time on."""
+"""The program from a sweep, a time, any l and CONSTANTS to `exterior`, `interior` and `contact` there, each proved
+where it holds, and to here, slope, bend: the parabola here + 2 slope r + bend r², which is below F from that time
+on."""
 
 ROOT_CONSTANTS = {
     "u_4": 4 * U * SLACK,
@@ -293,4 +299,5 @@ ROOT = program_of(
     reach = large_enough ? reach_before : 0
 """,
 )
-"""From a parabola to how far it is proved to stay above 0: 2 where that is for ever, 0 where nothing is proved."""
+"""The program from a parabola to `reach`, how far it is proved to stay above 0: 2 if it has no root before 2, 0 if
+nothing is proved."""

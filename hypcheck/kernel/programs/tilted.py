@@ -1,27 +1,29 @@
 """The program of the stage that decides tilted spheroids in floats: any multiplier l, and what it proves.
 
-With lengths in units of b and the axis v, the quartic of programs/integers.py is F = φ d at λ = l, where
+A multiplier l is an argument λ of the dual function φ. With lengths in units of b and the axis v, the quartic of
+programs/integers.py, which defines E, G, m, k0 and k1, is F = φ d at λ = l, where
 
     d = (p + l) k,   k = k0 + l k1 − t l²,   φ = l N/d − 1 − l,   N = l E + (p + l)(G − l m),
 
-p, s, t are the squares of α/b, γ/b, d/b, and φ is the dual function: concave between its poles −min(A1, A2) and B, with
+p, s, t are the squares of α/b, γ/b, d/b. The dual function is concave between its poles −min(A1, A2) and B, with
 φ(0) = −1. Where p + l > 0 and k > 0, l lies between them. There φ > 0 proves the side of l. φ < 0 proves contact when
 the tangent of φ at l stays below 0 between the poles, as a concave function lies below its tangents:
 
     φ'(l) = psi/d²,   psi = d (N + l N' − d) − l N d',   B ≤ s along/t,   min(A1, A2) ≤ p,
 
 so |psi| (p + s along/t) < −F d suffices (along = t h + c, with h and c the squares of the axis' sine and cosine; B has
-that value where the spheroid is upright). No step asks whether l is the best choice: a bad one decides less.
+that value where the spheroid is upright). No step relies on l being the best choice: a bad one decides less.
 
 Bounds (u = 2⁻⁵², which covers every rounding mode). derivation/rounding.py counts the rounding factors of p + l, k, d,
 F and psi, and makes their magnitudes M, the sums of their terms' sizes; these steps are part of the program. Each value
 is within (count + 2) u·SLACK of M: one unit for the second order, one for underflow (below); SLACK is the magnitudes'
 own rounding, less than 100 factors each.
 
-Range. Asked for: b in 2^±300, p, s, t in 2^±54, |C|²/b² < 2¹⁰⁸, |v|² in 2^±100, |l| < 2⁶⁰. Then d < 2²³⁰, N < 2²⁸³ and
-psi < 2⁵¹⁷ with their magnitudes, and nothing overflows. M of p + l is at least 2⁻⁵⁴, of k, d, F and psi at least 2⁻¹⁰⁸,
-2⁻¹⁶², 2⁻¹⁶² and 2⁻³²⁴; an underflow, less than 2⁻¹⁰²¹, times what it can be multiplied by, 2⁵¹⁷⁺¹⁰⁰, is below u·M each.
-What overflows before, x/b or |v|², is seen: it is not below its limit in any rounding mode, nor is NaN.
+Range. The program tests that b is in 2^±300, p, s, t in 2^±54, |C|²/b² < 2¹⁰⁸, |v|² in 2^±100, |l| < 2⁶⁰. Then d <
+2²³⁰, N < 2²⁸³ and psi < 2⁵¹⁷ with their magnitudes, and nothing overflows. M of p + l is at least 2⁻⁵⁴, of k, d, F and
+psi at least 2⁻¹⁰⁸, 2⁻¹⁶², 2⁻¹⁶² and 2⁻³²⁴; an underflow, less than 2⁻¹⁰²¹, times what it can be multiplied by,
+2⁵¹⁷⁺¹⁰⁰, is below u·M each. An overflow before, of x/b or |v|², is detected: the number is not below its limit in any
+rounding mode, nor is NaN.
 """
 
 from __future__ import annotations
@@ -44,7 +46,7 @@ SQUARES = """
     d_r = d * r
     t = d_r * d_r
 """
-"""The squares of α, γ and d, the lengths in units of b."""
+"""The steps to p, s, t, the squares of α, γ and d in units of b."""
 
 K1 = """
     t_h = t * h
@@ -55,7 +57,7 @@ K1 = """
     p_across = p * across
     k1 = s_along - p_across
 """
-"""What k has at l, from the squares h and c of the sine and cosine between the axes."""
+"""The steps to k1, from the squares h and c of the sine and cosine of the angle between the axes."""
 
 FORM = f"""
     {SQUARES}
@@ -131,17 +133,17 @@ AT_MULTIPLIER = """
 """
 
 VALUES = program_of("tilted-values", (*ROW, "l"), FORM, AT_MULTIPLIER)
-"""From a row and l to F, d, k, p + l and psi."""
+"""The program from a row and l to F, d, k, p + l and psi."""
 
 BEFORE = tuple(step.name for step in steps_of(FORM))
-"""What is known before a multiplier is chosen."""
+"""The names that are computed before a multiplier is chosen."""
 
 BOUNDED = {"p_l": "e_pl", "k": "e_k", "d_l": "e_d", "F": "e_F", "psi": "e_psi"}
-"""The values whose errors are bounded, and the bounds."""
+"""The names whose errors are bounded, each with the name of its bound."""
 
 
 def counted() -> ErrorCounts:
-    """The counts of rounding factors, and the magnitudes, of the bounded values."""
+    """Count the rounding factors of the bounded values, and make their magnitudes."""
     return relative_error_counts(VALUES, BOUNDED, positive=SIZES)
 
 
@@ -161,14 +163,14 @@ CONSTANTS = {
     "greatest_axis": 2.0**100,
     "greatest_l": 2.0**60,
 }
-"""The inputs beside the row and l, by name."""
+"""The inputs of TILTED beside the row and l, by name."""
 
 
 def in_range(axes: tuple[str, ...], near: str, joined: str, axes_usable: str, is_near: str) -> str:
-    """The steps to `inside`: everything in its range, and l between the poles.
+    """Return the steps to `inside`: every number is in its range, and l is between the poles.
 
-    `axes` are the squares of the axes' lengths; `near` compares the centre with its limit, and `joined` are the steps
-    that lead to `axes_usable` and `is_near`.
+    `axes` names the squares of the axes' lengths. `near` has the steps that compare the centre with its limit, `joined`
+    those that combine comparisons to the names `axes_usable` and `is_near`.
     """
     limits = {"b": ("least_b", "greatest_b"), **dict.fromkeys("pst", ("least_square", "greatest_square"))}
     limits |= dict.fromkeys(axes, ("least_axis", "greatest_axis"))
@@ -238,7 +240,7 @@ _DECISION = f"""
 def certificate(
     name: str, values: Program, inputs: tuple[str, ...], counts: ErrorCounts, bounded: Mapping[str, str], decision: str
 ) -> Program:
-    """The steps of `values`, the magnitudes that are counted, the bounds of the `bounded` values, and the decision."""
+    """Return the program that computes `values`, the counted magnitudes, the bounds of `bounded`, and the decision."""
     magnitudes = {of: str(magnitude) for of, magnitude in counts.magnitudes.items()}
     bounds = [Step(error, "mul", (f"u_{of}", magnitudes[of])) for of, error in bounded.items()]
     before = (*values.steps, *needed(counts.program, tuple(magnitudes.values())), *bounds)
@@ -247,4 +249,4 @@ def certificate(
 
 
 TILTED = certificate("tilted", VALUES, (*ROW, "l", *CONSTANTS), counted(), BOUNDED, _DECISION)
-"""From a row, any l and CONSTANTS to `exterior`, `interior` and `decided`; decided and neither is contact."""
+"""The program from a row, any l and CONSTANTS to `exterior`, `interior`, `decided`; decided and neither is contact."""

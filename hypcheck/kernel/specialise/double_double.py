@@ -1,8 +1,8 @@
 """Arithmetic of double-double as routines: a number is a pair, the sum of two doubles, the second a rest of the first.
 
-Sums and products of doubles are exact as pairs (Knuth; Dekker, who splits a double into halves of 26 bits). The rest is
-from Joldes, Muller and Popescu, ACM TOMS 44, 2017, whose bounds tilted.py counts. What an FMA would leave unrounded,
-and the next step takes apart, is stored.
+The sum and the product of two doubles are exact as pairs (Knuth; Dekker, who splits a double into halves of 26 bits).
+The other algorithms are from Joldes, Muller and Popescu, ACM TOMS 44, 2017; tilted.py uses their error bounds. Where
+an FMA would skip a rounding on which the next step relies, the number is stored, which rounds it.
 """
 
 from __future__ import annotations
@@ -14,12 +14,12 @@ from hypcheck.derivation.routines import Call, Half, Part, Routine, Stored
 
 
 def halves(*pairs: str) -> tuple[Half, ...]:
-    """Both numbers of each pair, called one_high and one_low."""
+    """Return the parts that take each pair apart: a pair called `one` into one_high and one_low."""
     return tuple(Half(f"{pair}_{'low' if low else 'high'}", pair, low) for pair in pairs for low in (False, True))
 
 
 def _quick_sum(name: str, large: str, small: str) -> tuple[Part, ...]:
-    """The sum of two doubles and its rounding error, `name`_high and `name`_low; the first is not the smaller one."""
+    """Return the steps to the sum of two doubles, `name`_high, and its error, `name`_low; `small` is not the larger."""
     return steps_of(
         f"""
         {name}_high = {large} + {small}
@@ -30,7 +30,7 @@ def _quick_sum(name: str, large: str, small: str) -> tuple[Part, ...]:
 
 
 def _exact_sum(name: str, one: str, other: str) -> tuple[Part, ...]:
-    """The exact sum of any two doubles."""
+    """Return the steps to the sum of any two doubles, `name`_high, and its rounding error, `name`_low."""
     return steps_of(
         f"""
         {name}_high = {one} + {other}
@@ -44,7 +44,10 @@ def _exact_sum(name: str, one: str, other: str) -> tuple[Part, ...]:
 
 
 def _split(number: str) -> tuple[Part, ...]:
-    """The 26 leading bits of a double, `number`_top, and the rest, `number`_end; SPLITTER is a constant."""
+    """Return the parts that split a double: `number`_top, its 26 leading bits, and `number`_end, the rest.
+
+    They read the constant `splitter`.
+    """
     return (
         *steps_of(f"{number}_times = splitter * {number}"),
         Stored(f"{number}_spread", f"{number}_times"),
@@ -59,7 +62,7 @@ def _split(number: str) -> tuple[Part, ...]:
 
 
 def _exact_product(name: str, one: str, other: str) -> tuple[Part, ...]:
-    """The product of two doubles that are split, and its rounding error."""
+    """Return the parts to the product of two doubles, `name`_high, and its error, `name`_low; both are split before."""
     return (
         *steps_of(f"{name}_times = {one} * {other}"),
         Stored(f"{name}_high", f"{name}_times"),
@@ -79,7 +82,7 @@ def _exact_product(name: str, one: str, other: str) -> tuple[Part, ...]:
 
 
 def _sum(first: tuple[str, str], second: tuple[str, str]) -> tuple[Part, ...]:
-    """The sum of two double-doubles, `total`."""
+    """Return the steps to the sum of two double-doubles, total_high and total_low."""
     return (
         *_exact_sum("highs", first[0], second[0]),
         *_exact_sum("lows", first[1], second[1]),
@@ -226,11 +229,15 @@ _CALLED = {
 
 
 def in_double_double(program: Program, wanted: tuple[str, ...]) -> tuple[Part, ...]:
-    """The needed steps of a program whose inputs are double-doubles; comparisons are of the first numbers."""
+    """Return the parts that compute the wanted names of a program in double-double, from inputs that are pairs.
+
+    Comparisons compare the first numbers of the pairs.
+    """
     return tuple(part for step in needed(program, wanted) for part in _parts_of(step))
 
 
 def _parts_of(step: Step) -> Iterator[Part]:
+    """Yield the parts that compute a step in double-double; integers become pairs first."""
     if step.operation == "select":
         yield step
         return

@@ -1,13 +1,16 @@
 """The first stages of a specialised kernel: lines of fixed λ, the centre's side, thresholds at a fixed height.
 
-All of them work on R = x² + y² and zz = z², in the kernel's units.
+All of them work on R = x² + y² and Z = z² (`zz` in programs) of the centre (x, y, z), in the kernel's units. A =
+(α/b)², B = (γ/d)², P = R/b² and Q = Z/d². λ is the argument of the dual function, whose poles are −A and B. u is the
+unit roundoff of the format, and δ the relative error of one operation.
 
-The centre's side is all that a clear spheroid, or a one-sided "no", asks for. The centre is outside where
-R > α² + (α²/γ²) Z. Each side carries at most 5 factors (1+δ), |δ| ≤ u, so the answer is that of inputs changed by 5u at
-most; a clear spheroid's centre is a whole radius from the surface.
+The centre's side is all that is left to decide about a clear spheroid, and it is enough for the answer "no" to a
+one-sided question. The centre is outside where R > α² + (α²/γ²) Z. Each side of this comparison carries at most 5
+factors (1+δ), |δ| ≤ u, so the answer is right for inputs changed by 5u at most; the centre of a clear spheroid is a
+whole radius from the surface.
 
-Lines. A fixed λ is a proof of clear for every centre beyond it, at the price of two products and a comparison. With
-R = x² + y² and Z = z², for λ in (0, B)
+Lines. A fixed λ proves "clear" for every centre beyond its line, at the price of two products and a comparison. For λ
+in (0, B)
 
     P/(A+λ) − Q/(B−λ) > 1 + 1/λ   is   R > b² (A+λ)(1 + 1/λ) + (b²/d²) (A+λ)/(B−λ) Z   and proves exterior,
 
@@ -16,10 +19,10 @@ and for μ in (0, A), λ = −μ,
     Q/(B+μ) − P/(A−μ) > 1/μ − 1   is   R < b² (A−μ)(1 − 1/μ) + (b²/d²) (A−μ)/(B+μ) Z   and proves interior
 
 (docs/mathematics.md, "A line is a proof"). The constants are exact rationals, moved by MARGIN to the safe side and
-rounded to that side once. A setting gets the lines that decide most centres of its region, and no more than pay for
-themselves.
+rounded to that side once. A setting gets the lines that decide most centres of its region, and only lines that decide
+enough of them (WORTH).
 
-Why MARGIN covers. Both sides are sums of positive terms (a negative intercept stands on the other side, as a lift).
+Why MARGIN is enough. Both sides are sums of positive terms (a negative intercept stands on the other side, as a lift).
 x, y and z may carry one rounding each, on entry; the square doubles it and adds one, a sum or product adds one: R and Z
 carry at most 4 and 3 factors (1+δ), |δ| ≤ u, R + lift 5, and intercept + slope·Z at most 5. The sides therefore differ
 from what the constants say by less than (1+u)^5/(1−u)^5 < 1 + 11u; MARGIN is 16u. A coordinate whose square underflows
@@ -52,15 +55,15 @@ from hypcheck.kernel import integers
 from hypcheck.kernel.specialise.settings import ScaledSetting
 
 RADIAL, AXIAL = "radial_unit", "axial_unit"
-"""Names of the two powers of two, where a kernel has them."""
+"""Names of the powers of two by which a kernel multiplies x and y, and z, where it scales lengths."""
 
 _ONE = Fraction(1)
 UNSCALED = ScaledSetting(_ONE, _ONE, _ONE, _ONE, _ONE, _ONE)
-"""Some sizes that need no scaling: what is counted of their entry holds for all."""
+"""A setting that needs no scaling. Its `entry` rounds as often as that of any other: powers of two round nothing."""
 
 
 def entry(scaled: ScaledSetting) -> tuple[Program, dict[str, float]]:
-    """The program from x, y, z to R, zz and height = |z|, with the constants that it also needs."""
+    """Return the program from x, y, z to R, zz and height = |z|, and the constants that it also reads."""
     constants = {
         name: float(value) for name, value in ((RADIAL, scaled.radial), (AXIAL, scaled.axial)) if value != _ONE
     }
@@ -89,7 +92,7 @@ CENTRE = program_of(
 
 
 def centre_constants(scaled: ScaledSetting, form: FloatFormat) -> dict[str, float]:
-    """α² and α²/γ² in the kernel's units. Raises OverflowError where one leaves the format."""
+    """Return α² and α²/γ² in the kernel's units. Raises OverflowError if one leaves the format."""
     exact: dict[str, Fraction] = {
         "waist": scaled.A * scaled.bb,
         "opening": scaled.A * scaled.bb / (scaled.B * scaled.dd),
@@ -98,12 +101,15 @@ def centre_constants(scaled: ScaledSetting, form: FloatFormat) -> dict[str, floa
 
 
 MARGIN = 16
-"""Units u by which the constants are moved to the safe side."""
+"""By so many units u the constants of a line are moved to the safe side."""
 
 
 @dataclass(frozen=True)
 class ProvedLine:
-    """A line of one side. The program's inputs are R, zz and the constants' names; its step `holds` is the proof."""
+    """A line that proves the position `side`: where the step `holds` of the program is true.
+
+    `multiplier` is λ. The inputs of `program` are R, zz and the names of the constants.
+    """
 
     side: Position
     multiplier: Fraction
@@ -113,9 +119,10 @@ class ProvedLine:
 
 
 def line_at(multiplier: Fraction, scaled: ScaledSetting, form: FloatFormat, number: int) -> ProvedLine | None:
-    """The line of this λ; None where its constants leave the format, or where no centre is beyond it.
+    """Return the line of this λ; None if its constants leave the format, or if no centre is beyond it.
 
-    Raises ValueError for a λ that is not strictly between the poles, or is 0.
+    `number` ends the names of its steps and constants. Raises ValueError for a λ that is not strictly between the
+    poles, or is 0.
     """
     if not -scaled.A < multiplier < scaled.B or multiplier == 0:
         raise ValueError(f"λ = {multiplier} is not in (−A, 0) or (0, B)")
@@ -139,6 +146,7 @@ def line_at(multiplier: Fraction, scaled: ScaledSetting, form: FloatFormat, numb
 def _constants(
     side: Position, intercept: Fraction, slope: Fraction, form: FloatFormat, number: int
 ) -> dict[str, float]:
+    """Return the intercept, or the lift, and the slope of a line, moved to the safe side and rounded once."""
     more, less = 1 + MARGIN * form.unit, 1 - MARGIN * form.unit
     if side is Position.EXTERIOR:
         values = {"intercept": form.rounded(intercept * more, "up"), "slope": form.rounded(slope * more, "up")}
@@ -152,6 +160,7 @@ def _constants(
 
 
 def _listing(side: Position, constants: dict[str, float], number: int) -> str:
+    """Return the steps of a line's program, for these constants."""
     lines = [f"rise_{number} = slope_{number} * zz"]
     right, left = f"rise_{number}", "R"
     if f"intercept_{number}" in constants:
@@ -170,16 +179,19 @@ def _listing(side: Position, constants: dict[str, float], number: int) -> str:
 
 
 WORTH = 0.05
-"""Share of all centres that a line has to decide, beyond those before it, to be worth its four operations."""
+"""The least share of all centres that a line must decide, without those of earlier lines, to be worth its cost."""
 
 MOST_LINES = 2
-"""Lines a side at most."""
+"""The greatest number of lines for one side."""
 
 
 def lines_for(
     side: Position, scaled: ScaledSetting, form: FloatFormat, R: Floats, zz: Floats, first_number: int
 ) -> tuple[tuple[ProvedLine, ...], Mask]:
-    """The lines of a side for centres with these R and zz, (n,) each, and a mask of the centres they decide."""
+    """Choose the lines of a side for centres with these R and zz, (n,) each.
+
+    Returns the lines, numbered from `first_number`, and a mask of the centres that they decide.
+    """
     decided = np.zeros(len(R), dtype=bool)
     chosen: list[ProvedLine] = []
     while len(chosen) < MOST_LINES:
@@ -196,14 +208,14 @@ def lines_for(
 
 
 def beyond(line: ProvedLine, form: FloatFormat, R: Floats, zz: Floats) -> Mask:
-    """A mask of the centres that the line decides, computed as in the kernel."""
+    """Return a mask of the centres that the line decides, computed as in the kernel."""
     inputs = {"R": R, "zz": zz, **line.constants}
     (mask,) = outputs(line.program, float_arithmetic(form.name), inputs, (line.holds,))
     return np.asarray(mask, dtype=bool)
 
 
 def _candidates(side: Position, scaled: ScaledSetting, form: FloatFormat, number: int) -> Iterator[ProvedLine]:
-    """Lines at λ around √A, and as near to the pole as half of it."""
+    """Yield the lines for λ, or −λ, around √A: √A times powers of two, but at most half of the pole."""
     sign, pole = (1, scaled.B) if side is Position.EXTERIOR else (-1, scaled.A)
     root = _few_bits(Fraction(isqrt(int(scaled.A * 2**64)) or 1, 2**32))
     multipliers = {min(root * Fraction(2) ** power, _few_bits(pole / 2)) for power in range(-6, 7)}
@@ -214,24 +226,28 @@ def _candidates(side: Position, scaled: ScaledSetting, form: FloatFormat, number
 
 
 def _few_bits(value: Fraction) -> Fraction:
-    """The value with four significant bits, rounded down: a number that a person can read."""
+    """Round a value down to four significant bits, so that a person can read it."""
     exponent = value.numerator.bit_length() - value.denominator.bit_length() - 3
     step = Fraction(2) ** exponent
     return value // step * step
 
 
 BACKWARD_BOUND = Fraction(3)
-"""Units u by which inputs may have to change for a threshold's answer to be right (Thresholds)."""
+"""By so many units u x and y may have to change for the answer of a threshold to be right (Thresholds, above)."""
 
 CENTRE_BOUND = Fraction(5)
-"""The same for the centre's side (above)."""
+"""The same for the answer of the centre's side."""
 
 _Test = Callable[[Fraction], bool]
+"""A condition on x."""
 
 
 @dataclass(frozen=True, slots=True)
 class Thresholds:
-    """Exterior where R > `outer`, interior where R < `inner`; `inner` is None where no centre is interior."""
+    """The limits of R at one height: exterior where R > `outer`, interior where R < `inner`, else contact.
+
+    `inner` is None if no centre at this height is interior.
+    """
 
     height: float
     outer: float
@@ -239,7 +255,7 @@ class Thresholds:
 
 
 def thresholds(sizes: Sizes, height: float, scaled: ScaledSetting, form: FloatFormat) -> Thresholds:
-    """The thresholds at a height. Raises OverflowError where one leaves the format."""
+    """Compute the thresholds at a height. Raises OverflowError if one leaves the format."""
 
     def exterior(x: Fraction) -> bool:
         return _position(sizes, x, height) is Position.EXTERIOR
@@ -258,9 +274,9 @@ def thresholds(sizes: Sizes, height: float, scaled: ScaledSetting, form: FloatFo
 
 
 def _first(holds: _Test, start: Fraction, least: Fraction, form: FloatFormat) -> Fraction:
-    """About the least x > 0 from which on it holds, within a relative u/4; it does at some x.
+    """Find the least x > 0 from which on the condition holds, within a relative u/4; it must hold for large x.
 
-    Raises OverflowError where that is below `least`.
+    Raises OverflowError if that x is below `least`.
     """
     high = start
     while not holds(high):
@@ -277,6 +293,6 @@ def _first(holds: _Test, start: Fraction, least: Fraction, form: FloatFormat) ->
 
 
 def _position(sizes: Sizes, x: Fraction, z: float) -> Position:
-    """The exact position at (x, 0, z)."""
+    """Return the exact position of the spheroid with its centre at (x, 0, z)."""
     alpha, gamma, b, d = sizes
     return integers.upright_position(Lengths.of((alpha, gamma, b, d, x, 0.0, z)))

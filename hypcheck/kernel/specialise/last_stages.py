@@ -1,26 +1,32 @@
 """The last stages of a specialised kernel: the Hessian discriminant with a fixed error bound, and the search on φ.
 
+R = x² + y² and Z = z² (`zz` in programs) are those of the centre (x, y, z) in the kernel's units. A = (α/b)², B =
+(γ/d)², P = R/b² and Q = Z/d². c0, c1, c2 are the coefficients of the cubic g in λ, and Δ is its discriminant. u is the
+unit roundoff of the format.
+
 The discriminant of a setting has an error bound that is one number, fixed for a box of centres. With s a power of two
 near (AB)^⅓ and λ = s μ, the cubic is μ³ + (c2/s) μ² + (c1/s²) μ + c0/s³, whose discriminant is Δ/s⁶: the sign stays and
-the magnitudes come near 1. In R and Z (settings.py) its coefficients are
+the magnitudes come near 1. In R and Z its coefficients are
 
     c1/s² = V + VR R − VZ Z,  V = (c0 + A − B)/s²,  VR = B/(b² s²),  VZ = A/(d² s²)
     c2/s  = K − KR R − KZ Z,  K = (A − B + 1)/s,    KR = 1/(b² s),   KZ = 1/(d² s),     c0/s³ = −AB/s³.
 
-Bound. derivation/rounding.py counts k factors for every term of 3Δ/s⁶, the roundings of x, y, z and of the constants
-included, so that |computed − exact| ≤ γ_k M, where M is the sum of the terms' magnitudes. M grows with |x|, |y| and
-|z|: its exact value at the far corner of a box holds in all of it. A computed value beyond that has the sign of Δ.
+Bound. derivation/rounding.py counts k rounding factors for every term of 3Δ/s⁶, the roundings of x, y, z and of the
+constants included, so that |computed − exact| ≤ γ_k M, where M is the sum of the terms' magnitudes. M grows with |x|,
+|y| and |z|: its exact value at the far corner of a box holds in all of it. A computed value beyond that has the sign of
+Δ.
 
 What the sign says. Δ < 0: contact, whatever the sizes. Δ > 0: clear, where a ≥ 1 and c² ≥ a (the pair of roots below
 the largest can then be nowhere but between the poles: docs/mathematics.md), on the side on which the centre is
 (first_stages.py). Elsewhere Δ > 0 decides nothing, and the search follows.
 
-The search finds the sign of the dual function φ at the λ where it is largest, and cannot cancel. F = φ' = (a r/(A+λ))²
-− (c z/(B−λ))² − 1, r² = P, falls from one pole to the other. Its sign at 0 tells on which side of 0 the root lies, its
-sign half way to the pole whether it is nearer to 0 or to the pole; that distance is the unknown, halved first in its
-exponent, then itself, and the two other distances are sums of it (docs/mathematics.md).
+The search finds the sign of the dual function φ at the λ where it is largest; nothing in it cancels. Its slope F = φ' =
+(a r/(A+λ))² − (c z/(B−λ))² − 1, where a = α/b, c = γ/d and here r² = P, z² = Q, falls from one pole to the other. The
+sign of F at 0 tells on which side of 0 its root lies; the sign half way to the pole tells whether the root is nearer to
+0 or to the pole. That distance is the unknown. First its exponent is halved, then the distance; the two other distances
+are sums with it (docs/mathematics.md).
 
-Everything that rounds is one of the programs below; a kernel adds the loop, and which side goes on.
+All operations that round are in the programs below; a kernel adds the loop, and the choice of a half.
 
 Bound. φ is computed as a sum whose terms P λ/(A+λ), Q λ/(B−λ), 1 and λ carry few factors (1+δ), |δ| ≤ u: with k of them
 on the first and second and j on the others, the computed sign is the sign of φ for P and Q changed by at most (k + j)u
@@ -29,16 +35,18 @@ positive at the λ found, that λ is the true maximum for P and Q changed by the
 stationary there, the true maximum is larger by the square of that only, far below one u of the terms. So the answer
 "contact" is right for inputs changed by half of (k + j)u too, up to a share of order √u. `backward_bound` counts.
 
-Range. That holds as long as nothing overflows, which `widest` and `highest` see to: with P and Q so bounded that P, Q
-times 1, A or B, 2⁸ P/A and 2⁸ Q/B stay below M = 2^(greatest − 2), so do the values of F at 0 and beside the other
-pole, and at the λ found the terms, of which one is at most √(P Q B/A) < M, the other √(A P (1 + Q/B)) < 2 M. Towards a
-pole F's own term may overflow: it is then the larger one. What underflows is the square of a coordinate that is nothing
-beside the semi-axes, or a term that is nothing beside 1 + λ: at most 2^least/A or 2^least/B (`_least_square`).
+Range. That holds as long as nothing overflows. The limits `widest` of R and `highest` of Z ensure that: with P and Q so
+bounded that P, Q times 1, A or B, 2⁸ P/A and 2⁸ Q/B stay below M = 2^(greatest − 2), so do the values of F at 0 and
+beside the other pole, and at the λ found the terms, of which one is at most √(P Q B/A) < M, the other √(A P (1 + Q/B))
+< 2 M. Towards a pole F's own term may overflow: it is then the larger one. What underflows is the square of a
+coordinate that is nothing beside the semi-axes, or a term that is nothing beside 1 + λ: at most 2^least/A or 2^least/B
+(`_least_square`).
 
-Beginning. The λ of the maximum can be as near to 0 or to a pole as it likes; the search begins at a distance e > 0 and
-may say e where it is nearer. Next to 0 that is as good where e ≤ 1/(2 + 2 P/A) on the one side and 1/(2 + 2 Q/B) on the
-other: up to there φ ≤ P e/A − 1, or Q e/B + e − 1, is negative, at the maximum too. Next to a pole, λ and with it 1 + λ
-and the other pole's term change by a share of e/A or e/B, which is u/1024, and this pole's term becomes smaller.
+Beginning. The λ of the maximum can be arbitrarily near to 0 or to a pole. The search begins at a distance e > 0, and
+results in e if the maximum is nearer. Next to 0 that is as good where e ≤ 1/(2 + 2 P/A) on the one side and 1/(2 + 2
+Q/B) on the other: up to there φ ≤ P e/A − 1, or Q e/B + e − 1, is negative, at the maximum too. Next to a pole, λ and
+with it 1 + λ and the other pole's term change by a share of e/A or e/B, which is u/1024, and this pole's term becomes
+smaller.
 
 Where a spheroid is tilted, the search is in double-double. Its programs, and what they prove, are in tilted.py; here is
 what it holds: its frame, or the squares of the sizes where each query names an axis. The frame of a fixed axis is made
@@ -76,15 +84,16 @@ COEFFICIENTS = """
 """
 
 SLACK = 1 + Fraction(1, 2**20)
-"""Covers constants that are up to u away from their exact values where M is formed of them."""
+"""Covers that M is computed from rounded constants, each up to a relative u from its exact value."""
 
 
 @dataclass(frozen=True)
 class Discriminant:
-    """`program` takes R, zz and the constants; beyond ± `bound`, its step delta_3 has the sign of Δ for certain.
+    """The stage that decides by the discriminant: beyond ± `bound`, delta_3 certainly has the sign of Δ.
 
-    That holds for centres with R ≤ `widest` and zz ≤ `highest`. `clear_where_positive`: the regime lets Δ > 0 mean
-    clear, on the side on which the centre is.
+    delta_3 is a step of `program`, whose inputs are R = x² + y², zz = z² and the constants. The bound holds for centres
+    with R ≤ `widest` and zz ≤ `highest`. `clear_where_positive`: Δ > 0 means clear for these sizes, on the side of the
+    hyperboloid on which the centre is.
     """
 
     program: Program
@@ -102,9 +111,9 @@ def discriminant(
     entry_constants: dict[str, float],
     corner: tuple[Fraction, Fraction],
 ) -> Discriminant | None:
-    """The stage for centres with |x|, |y| ≤ corner[0] and |z| ≤ corner[1], in the scene's units.
+    """Return the stage for centres with |x|, |y| ≤ corner[0] and |z| ≤ corner[1], in the scene's units.
 
-    None where a constant or a magnitude leaves the format.
+    Returns None if a constant or a magnitude leaves the format.
     """
     try:
         _, exact = exact_constants(scaled)
@@ -123,7 +132,7 @@ def discriminant(
 
 
 def exact_constants(scaled: ScaledSetting) -> tuple[Fraction, dict[str, Fraction]]:
-    """The power of two s, and the constants before they are rounded."""
+    """Return the power of two s, and the constants of the discriminant before they are rounded."""
     A, B, bb, dd = scaled.A, scaled.B, scaled.bb, scaled.dd
     s = power_of_two_near(A * B)
     s = Fraction(2) ** round((s.numerator.bit_length() - s.denominator.bit_length()) / 3)
@@ -139,7 +148,7 @@ def exact_constants(scaled: ScaledSetting) -> tuple[Fraction, dict[str, Fraction
 
 
 def _bound(program: Program, entry: Program, corner: Mapping[str, Fraction], form: FloatFormat) -> Fraction:
-    """γ_k M at the corner; raises OverflowError where an intermediate could overflow."""
+    """Compute γ_k M at the corner. Raises OverflowError if an intermediate number could overflow."""
     whole = Program("stage", _inputs(program, entry), (*entry.steps, *program.steps))
     names = tuple(step.name for step in whole.steps)
     counts = relative_error_counts(whole, names, frozenset(), input_roundings=1)
@@ -151,15 +160,16 @@ def _bound(program: Program, entry: Program, corner: Mapping[str, Fraction], for
 
 
 def _inputs(program: Program, entry: Program) -> tuple[str, ...]:
+    """Return the inputs of the entry, then those of the program that the entry does not compute."""
     made = {step.name for step in entry.steps}
     return tuple(dict.fromkeys((*entry.inputs, *(name for name in program.inputs if name not in made))))
 
 
 GEOMETRIC_STEPS = 15
-"""Halvings of the exponent: the 2040 octaves that a search in float64 can begin with become a tenth of one."""
+"""So often the exponent is halved: the 2040 octaves with which a search in float64 can begin become a tenth of one."""
 
 SPARE = 10
-"""Bits beyond the format's from which on a distance to a pole changes nothing."""
+"""A distance to a pole that is smaller than the pole by so many bits more than the format has changes no answer."""
 
 START = program_of(
     "start",
@@ -188,7 +198,7 @@ FALLS = program_of(
     past = across_squared <= along_side
     """,
 )
-"""Whether F ≤ 0 at A + λ = to_a and B − λ = to_b: then the maximum of φ is at or before λ."""
+"""The program that computes `past`: whether F ≤ 0 at A + λ = to_a, B − λ = to_b. Then φ is largest at or before λ."""
 
 GEOMETRIC = program_of(
     "geometric", ("low", "high"), "root_low = sqrt low\n root_high = sqrt high\n middle = root_low * root_high"
@@ -207,18 +217,20 @@ PLACE = program_of(
     lambda_ = is_inside ? minus_from_zero : from_zero
     """,
 )
-"""From the distance to 0 (near_zero = 1) or to the pole (0) to λ, A + λ and B − λ."""
+"""The program from `distance`, to 0 (near_zero = 1) or to the pole (0), to λ, A + λ and B − λ."""
 
 
 PHI = cut(FORMULAS["dual"].program, ("P", "Q", "lambda_", "A_plus_lambda", "B_minus_lambda"), ("above_zero",))
-"""The dual form from P, Q and the three distances on: the formula's own steps."""
+"""The program from P, Q, λ, A + λ and B − λ to `above_zero`, whether φ > 0: the steps of the formula "dual"."""
 
 
 @dataclass(frozen=True)
 class DualSearch:
-    """The constants of a setting: A and B, products that lead to P, Q, a r and c z, and where the search begins.
+    """The search of an upright setting: its constants, its number of halvings `steps`, and its limits.
 
-    It answers where R ≤ `widest` and zz ≤ `highest`; beyond, something overflows.
+    The constants are A and B, the factors PR, QZ, AR and CZ that lead from R = x² + y², zz = z² and |z| to P, Q, a r
+    and c z, and the distances low_a and low_b where the search begins. It answers where R ≤ `widest` and
+    zz ≤ `highest`; beyond that a number may overflow.
     """
 
     constants: dict[str, float]
@@ -228,9 +240,9 @@ class DualSearch:
 
 
 def search(scaled: ScaledSetting, form: FloatFormat, corner: tuple[Fraction, Fraction]) -> DualSearch:
-    """The stage for a setting whose centres have |x|, |y| ≤ corner[0] and |z| ≤ corner[1], in the scene's units.
+    """Return the search for centres with |x|, |y| ≤ corner[0] and |z| ≤ corner[1], in the scene's units.
 
-    Raises OverflowError where a constant leaves the format, or what is computed of such a centre.
+    Raises OverflowError if a constant leaves the format, or if a number computed for such a centre may leave it.
     """
     A, B, bb, dd = scaled.A, scaled.B, scaled.bb, scaled.dd
     if min(A, B) < _least_square(form):
@@ -254,18 +266,21 @@ def search(scaled: ScaledSetting, form: FloatFormat, corner: tuple[Fraction, Fra
 
 
 def search_begin(pole: Fraction, steepest: Fraction, form: FloatFormat) -> Fraction:
-    """The distance to 0 or to a pole at which the search begins; `steepest` is the largest P/A or Q/B (Beginning)."""
+    """Return the distance to 0 or to the pole at which the search begins (Beginning, above).
+
+    `steepest` is the largest value that P/A, or Q/B, can have.
+    """
     beside_pole: Fraction = pole / Fraction(2) ** (form.bits + SPARE)
     return min(beside_pole, 1 / (2 * (1 + steepest)))
 
 
 def _least_square(form: FloatFormat) -> Fraction:
-    """The lower limit of A and B: compared with it 2^least is far below u, and a search's first distance is normal."""
+    """Return the lower limit of A and B: 2^least is far below u times it, and a search begins at a normal number."""
     return Fraction(2) ** (form.least + form.bits + SPARE + 1)
 
 
 def _farthest(scaled: ScaledSetting, form: FloatFormat) -> tuple[Fraction, Fraction]:
-    """The greatest R and zz of which nothing overflows in a search."""
+    """Return the greatest R = x² + y² and zz = z² at which no number of the search overflows."""
     A, B, bb, dd = scaled.A, scaled.B, scaled.bb, scaled.dd
     most = Fraction(2) ** (form.greatest - 2)
     P, Q = (most / max(Fraction(1), A, B, 2**8 / own) for own in (A, B))
@@ -273,7 +288,7 @@ def _farthest(scaled: ScaledSetting, form: FloatFormat) -> tuple[Fraction, Fract
 
 
 def _root(value: Fraction, form: FloatFormat) -> float:
-    """√value, rounded to the format, with an error of about one unit u at most."""
+    """Compute √value in the format, with an error of about one unit u at most."""
     shift = 2 * (form.bits + 64)
     exponent = (value.denominator.bit_length() - value.numerator.bit_length()) // 2 * 2 + shift
     whole = isqrt(int(value * Fraction(2) ** exponent))
@@ -281,7 +296,7 @@ def _root(value: Fraction, form: FloatFormat) -> float:
 
 
 def backward_bound() -> Fraction:
-    """Units u of backward error that the search can have: half the factors on a term of φ against those on 1 + λ.
+    """Count the units u of backward error that the search can have: half of (k + j) in the section Bound above.
 
     Products by the units of settings.py are by powers of two and round nothing, so the unscaled entry is counted.
     """
@@ -306,15 +321,16 @@ _LEAST_T, _GREATEST_T = Fraction(1, 2**24), Fraction(2**24)
 _LEAST_B, _GREATEST_B = Fraction(1, 2**60), Fraction(2**60)
 _FARTHEST = Fraction(2**40)
 _NOTHING = Fraction(1, 2**620)
-"""Times 2⁴⁰ b, the farthest centre, it is less than tilted.LOST."""
+"""Less than this counts as 0: times 2⁴⁰ b, the farthest centre, it is less than tilted.LOST."""
 
 
 @dataclass(frozen=True)
 class TiltedSearch:
-    """The constants of the stage: the frame of a fixed axis, or p, s, t and b where the axis is free, in double-double.
+    """The search of a setting whose spheroid is tilted: its constants, errors, number of halvings `steps`, and limits.
 
-    `most` is above every number of the rows times b, `omega` the bound of their errors. It answers where R ≤ `widest`
-    and zz ≤ `highest`.
+    The constants are double-doubles: the frame of a fixed axis, or the sizes p, s, t and b if the axis is `free`.
+    `most` is above every number of the frame's rows, and `omega` bounds their relative errors. It answers where
+    R = x² + y² ≤ `widest` and zz = z² ≤ `highest`.
     """
 
     constants: Mapping[str, DoubleDouble]
@@ -327,9 +343,9 @@ class TiltedSearch:
 
 
 def tilted_search(sizes: Sizes, axis: Point | None) -> TiltedSearch:
-    """The stage for a spheroid of these sizes and this axis; None: a free one.
+    """Return the search for a spheroid of these sizes and this axis, which is free if `axis` is None.
 
-    Raises OverflowError where the sizes are too far apart.
+    Raises OverflowError if the sizes are too far apart.
     """
     alpha, gamma, b, d = map(Fraction, sizes)
     p, s, t = (alpha / b) ** 2, (gamma / b) ** 2, (d / b) ** 2
@@ -355,15 +371,16 @@ def tilted_search(sizes: Sizes, axis: Point | None) -> TiltedSearch:
 
 
 def _most(t: Fraction) -> float:
-    """A bound, times b, of every number of the rows at any axis: each row is a column of an inverse square root of M.
+    """Return a bound, times b, of every number of the rows at any axis.
 
+    Each row is a column of an inverse square root of the matrix M of the spheroid:
     |rᵢ|² = r̂ᵀ M r̂ for a unit vector r̂ of M's own metric is at most the greatest eigenvalue of M, 1 or 1/t.
     """
     return 2.0 * float(max(Fraction(1), 1 / t))
 
 
 def frame_of(axis: Point, sizes: Mapping[str, Fraction]) -> dict[str, Fraction]:
-    """The frame of an axis, within 2⁻²⁰⁰ of each of its numbers, or within 2⁻⁴⁰⁰ of 0."""
+    """Compute the frame of an axis: each number within a relative 2⁻²⁰⁰, or within 2⁻⁴⁰⁰ of 0."""
     vx, vy, vz = map(Fraction, axis)
     hx, hy = (vx, vy) if vx or vy else (Fraction(1), Fraction(0))
     values = outputs(
@@ -373,7 +390,7 @@ def frame_of(axis: Point, sizes: Mapping[str, Fraction]) -> dict[str, Fraction]:
 
 
 def split(value: Fraction) -> DoubleDouble:
-    """The double-double next to a number; 0 where it is so small that LOST covers it."""
+    """Return the double-double nearest to a number; 0 if the number is so small that LOST covers it."""
     if abs(value) < _NOTHING:
         return 0.0, 0.0
     high = float(value)
@@ -381,15 +398,17 @@ def split(value: Fraction) -> DoubleDouble:
 
 
 _BITS = 512
+"""The significant bits of numbers in _PRECISE."""
 
 
 def _short(value: Fraction) -> Fraction:
-    """The number with some _BITS significant bits."""
+    """Round a number to about _BITS significant bits."""
     step = Fraction(2) ** (value.numerator.bit_length() - value.denominator.bit_length() - _BITS)
     return round(value / step) * step
 
 
 def _precise_root(value: Fraction) -> Fraction:
+    """Compute a square root to about _BITS significant bits."""
     half = (value.denominator.bit_length() - value.numerator.bit_length()) // 2 + _BITS
     return Fraction(isqrt(int(value * Fraction(4) ** half))) / Fraction(2) ** half
 

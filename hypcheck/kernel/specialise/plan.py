@@ -1,4 +1,4 @@
-"""The plan from which kernels are emitted: what a scene needs, stage by stage, and what it can omit."""
+"""Makes the plan from which kernels are emitted: the stages that a scene needs, and what it can omit."""
 
 from __future__ import annotations
 
@@ -31,24 +31,25 @@ from hypcheck.kernel.specialise.settings import (
 from hypcheck.scene.model import FREE, Point, SceneModel
 
 MOST_SETTINGS = 64
-"""Different pairs of sizes in a plan: a kernel must stay readable."""
+"""The most settings in a plan, so that a kernel stays readable."""
 
 USEFUL = 0.5
-"""Share of the centres left by the lines that the discriminant has to decide to be worth its place."""
+"""The least share of the centres left by the lines that the discriminant must decide; else it is omitted."""
 
 USEFUL_TILTED = 0.2
-"""The same where the spheroid is tilted: what is left then costs more."""
+"""The same for a tilted spheroid, where the stage after it costs more."""
 
 TILTED_FORMAT = "float64"
-"""What kernels for a tilted mover compute in: double-double is made of two of it."""
+"""The format of kernels for a tilted mover: a double-double is two numbers of it."""
 
 AFAR = 2.0**13
-"""How far out a kernel has to answer where the region is open: in waist radii and heights γ."""
+"""Where the region is open, a kernel must answer up to so many times α + b across, and γ + d up."""
 
 SHORT = 2.0**-500
-"""Beside a longer axis, a subnormal part of it is less than tilted.LOST."""
+"""If an axis is at least so long, the share of a subnormal component is less than tilted.LOST."""
 
 ONE_SIDED = ("exterior", "interior")
+"""The questions for one position without contact. The side of the centre can answer them with no."""
 
 SIDES = {
     "position": (Position.EXTERIOR, Position.INTERIOR),
@@ -56,12 +57,12 @@ SIDES = {
     "exterior": (Position.EXTERIOR,),
     "interior": (Position.INTERIOR,),
 }
-"""Which lines a question can use."""
+"""By question: the sides whose lines it can use."""
 
 
 @dataclass(frozen=True, slots=True)
 class Omission:
-    """Something that Table 2, or the whole kernel, has and this one does not; and why the answers stay the same."""
+    """Something that a kernel leaves out, though the paper's Table 2 or the general kernel has it, and why it may."""
 
     what: str
     why: str
@@ -71,11 +72,12 @@ class Omission:
 class Stages:
     """The stages of a setting in order: `entry`, then lines, the centre's side and the discriminant, then `last`.
 
-    `entry` leads from x, y, z to R, zz and height with `entry_constants`; `centre` holds the constants of the side,
-    whose test follows the lines where the question is one-sided. `last` is a search, which answers all that is left;
-    without the stages between it is thresholds, where the height is fixed, or the position that the whole region has.
-    `shares` says how many of the sample's centres each stage decided. `bound_u` is the backward error that an answer
-    can have, in units u.
+    `entry` is the program from x, y, z to R = x² + y², zz = z² and height = |z|, in the kernel's units, with the
+    constants `entry_constants`. `centre` has the constants of the side, which a one-sided question tests after the
+    lines. `last` is a search, which answers all that is left. If the height is fixed, `last` has its thresholds, and if
+    the whole region has one position, `last` is that position; there are no stages between then. `shares` says what
+    share of the sample centres each stage decided. `omitted` lists what is left out. `bound_u` is the greatest backward
+    error of an answer, in units u.
     """
 
     setting: Setting
@@ -106,7 +108,7 @@ class ScenePlan:
 
     @property
     def axis(self) -> Point | Literal["free"] | None:
-        """The axis of a tilted mover, FREE where each query names one; None where it is upright."""
+        """The axis of a tilted mover, FREE if each query names one; None if the mover is upright."""
         return axis_of(self.scene.mover)
 
     @property
@@ -121,9 +123,10 @@ class ScenePlan:
 
 
 def plan_of(scene: SceneModel, precision: str = "float64", most: int = MOST_SETTINGS) -> ScenePlan:
-    """The plan for a scene's own question, with at most `most` settings.
+    """Make the plan for a scene's own question, with at most `most` settings.
 
-    Raises InputError for another format, too many or too extreme sizes, and a region without a hyperboloid's height.
+    Raises InputError for an unknown format, for too many or too extreme sizes, and if no query of the region can reach
+    a hyperboloid.
     """
     form = format_of(precision)
     settings = settings_of(scene)
@@ -142,7 +145,7 @@ def plan_of(scene: SceneModel, precision: str = "float64", most: int = MOST_SETT
 
 
 def _within(setting: Setting, question: str, form: FloatFormat) -> Stages:
-    """The stages of a setting; raises InputError where a number leaves the format."""
+    """Return the stages of a setting. Raises InputError if a number leaves the format."""
     try:
         return _stages(setting, question, form)
     except OverflowError as error:
@@ -151,6 +154,7 @@ def _within(setting: Setting, question: str, form: FloatFormat) -> Stages:
 
 
 def _stages(setting: Setting, question: str, form: FloatFormat) -> Stages:
+    """Return the stages of a setting. Raises OverflowError if a number leaves the format."""
     scale = scaled(setting.sizes, form)
     position = position_of_box(setting)
     if position is not None:
@@ -162,7 +166,7 @@ def _stages(setting: Setting, question: str, form: FloatFormat) -> Stages:
 
 
 def _require_kept(axis: Point) -> None:
-    """Raise OverflowError where flushing subnormal numbers to zero would make another axis of this one."""
+    """Raise OverflowError if flushing subnormal numbers to zero would change the direction of the axis."""
     parts = [abs(part) for part in axis]
     if max(parts) < SHORT and any(0 < part < float_info.min for part in parts):
         raise OverflowError(
@@ -172,7 +176,11 @@ def _require_kept(axis: Point) -> None:
 
 
 def _in_turn(setting: Setting, question: str, form: FloatFormat) -> Stages:
-    """The lines of the ball about a tilted spheroid, the discriminant of the ball in it, the search; or its own."""
+    """Return the stages of a setting that needs tests: lines, perhaps the discriminant, the search.
+
+    For a tilted spheroid the lines are those of the smallest ball about it, and the discriminant is that of the largest
+    ball in it.
+    """
     axis = setting.axis
     fixed = None if axis == FREE else axis
     if fixed is not None:
@@ -202,7 +210,7 @@ def _in_turn(setting: Setting, question: str, form: FloatFormat) -> Stages:
 
 
 def _sample(setting: Setting, first: Program, constants: dict[str, float], form: FloatFormat) -> tuple[Floats, Floats]:
-    """R and zz of the sample's centres, as the kernel computes them."""
+    """Return R and zz of the sample centres, as the kernel computes them."""
     x, y, z = centres(setting)
     values = evaluate(first, float_arithmetic(form.name), {"x": x, "y": y, "z": z, **constants})
     return values["R"], values["zz"]
@@ -211,7 +219,7 @@ def _sample(setting: Setting, first: Program, constants: dict[str, float], form:
 def _lines(
     question: str, scale: ScaledSetting, form: FloatFormat, R: Floats, zz: Floats
 ) -> tuple[tuple[first_stages.ProvedLine, ...], Mask]:
-    """The lines that the question can use, and a mask of the centres that they decide."""
+    """Return the lines that the question can use, and a mask of the centres that they decide."""
     lines: list[first_stages.ProvedLine] = []
     decided = np.zeros(len(R), dtype=bool)
     for side in SIDES[question]:
@@ -222,7 +230,7 @@ def _lines(
 
 
 def _by_centre(question: str, sides: dict[str, float], form: FloatFormat, R: Floats, zz: Floats) -> Mask:
-    """A mask of the centres whose side already answers a one-sided question."""
+    """Return a mask of the centres whose side alone answers a one-sided question."""
     if question not in ONE_SIDED:
         return np.zeros(len(R), dtype=bool)
     (outside,) = outputs(first_stages.CENTRE, float_arithmetic(form.name), {"R": R, "zz": zz, **sides}, ("outside",))
@@ -230,7 +238,10 @@ def _by_centre(question: str, sides: dict[str, float], form: FloatFormat, R: Flo
 
 
 def _shares(by_lines: Mask, by_delta: Mask) -> dict[str, float]:
-    """The share of a sample that each stage decides. `by_delta` is a mask of the centres that no line decides."""
+    """Return the share of the sample that each stage decides.
+
+    `by_lines` is a mask of all centres; `by_delta` has an entry only for those that the lines leave undecided.
+    """
     return {
         "lines": float(by_lines.mean()),
         "discriminant": float(by_delta.sum() / len(by_lines)),
@@ -239,7 +250,7 @@ def _shares(by_lines: Mask, by_delta: Mask) -> dict[str, float]:
 
 
 def decided_by(delta: last_stages.Discriminant, form: FloatFormat, R: Floats, zz: Floats) -> Mask:
-    """The centres that the discriminant decides: within its region, and with an absolute value above its bound."""
+    """Return a mask of the centres that the discriminant decides: in its region, and larger in size than its bound."""
     values = evaluate(delta.program, float_arithmetic(form.name), {"R": R, "zz": zz, **delta.constants})
     inside = (R <= delta.widest) & (zz <= delta.highest)
     beyond = values["delta_3"] < -delta.bound
@@ -249,7 +260,10 @@ def decided_by(delta: last_stages.Discriminant, form: FloatFormat, R: Floats, zz
 
 
 def far_corner(setting: Setting, reach: float = REACH) -> tuple[Fraction, Fraction]:
-    """The far corner of the box; where the box is open, so many times as far as the surface at the waist, or γ."""
+    """Return the greatest |x| or |y|, and the greatest |z|, in the box.
+
+    Where the box is open, they are `reach` times α + b, and γ + d.
+    """
     alpha, gamma, b, d = map(Fraction, setting.sizes)
     x, y, z = setting.box.spans
     across = [Fraction(reach) * (alpha + b) if span is None else Fraction(farthest(span)) for span in (x, y)]
@@ -257,6 +271,7 @@ def far_corner(setting: Setting, reach: float = REACH) -> tuple[Fraction, Fracti
 
 
 def _without_tests(setting: Setting, scale: ScaledSetting, position: Position) -> Stages:
+    """Return the stages of a setting whose whole region has this position."""
     name = position.name.lower()
     why = (
         f"the least favourable corner of the region is {name}, decided exactly, and {name} positions are monotone in "
@@ -268,6 +283,7 @@ def _without_tests(setting: Setting, scale: ScaledSetting, position: Position) -
 
 
 def _at_one_height(setting: Setting, scale: ScaledSetting, limits: first_stages.Thresholds, question: str) -> Stages:
+    """Return the stages of a setting with a fixed height: two thresholds."""
     omitted = [
         Omission(
             "the coefficients, the discriminant and every term in z",
@@ -282,6 +298,7 @@ def _at_one_height(setting: Setting, scale: ScaledSetting, limits: first_stages.
 
 
 def _one_sided(question: str) -> list[Omission]:
+    """Return what a one-sided question leaves out."""
     if question not in ONE_SIDED:
         return []
     other = "interior" if question == "exterior" else "exterior"
@@ -313,6 +330,7 @@ _DISCRIMINANT_OF_BALL = Omission("the discriminant of the largest ball", "it dec
 def _omissions(
     setting: Setting, question: str, delta: last_stages.Discriminant | None, constants: dict[str, float]
 ) -> tuple[Omission, ...]:
+    """Return what the stages of a setting leave out, and why."""
     upright = setting.axis is None
     omitted = [_SIZES_ALONE if upright else _AXIS, *_one_sided(question)]
     if delta is None:

@@ -1,24 +1,25 @@
 """Routines of a whole scene, for movers and hyperboloids of any axis: positions and sweeps, by a loop over a table.
 
-A row of the table is a hyperboloid: sizes, centre, axis, the ends of its height and whether it is solid. Each is asked
-by LOOK or by the routine of sweeps, which count the difference of centres as a step of theirs; ends by bounds:
+A row of the table is a hyperboloid: sizes, centre, axis, the ends of its height and whether it is solid. Each one is
+tested by LOOK or by the routine of sweeps, whose error bounds include the difference of the centres. Bounds decide what
+the ends change:
 
-- beyond an end by more than the mover's longer semi-axis the hyperboloid is not there: the mover is exterior;
-- between the ends by more than that, they do not matter;
-- else what is exterior to the whole hyperboloid is exterior, what is inside an open one is clear of it, on the side of
-  the centre's height, and all else is left open.
+- if the mover is beyond an end by more than its longer semi-axis, it is exterior;
+- if it is between the ends by more than that, the ends do not matter;
+- else what is exterior to the hyperboloid without ends is exterior; what is inside an open one is clear of it, interior
+  or exterior by the height of its centre; and all else is left undecided.
 
-A sweep is asked twice: from when it comes near the height to when it leaves it, where it may be clear of the whole, and
-while it is between the ends, where contact is contact with the wall itself.
+A sweep is tested twice: once from the time when it comes near the heights to the time when it leaves them, where it may
+be clear of the hyperboloid without ends, and once while it is between the ends, where contact is contact with the wall.
 
-The level along the axis, n·(C − c)/|n|, is off by some 20u of the sizes of its terms at most. `loose`, 2⁻⁴⁵ = 128u of
-the sum of the sizes of all that goes into it, ends and semi-axes too, covers that, the sums of ends and reach, and what
-the rounding of a time makes of a level: the times of a window are quotients by a change of the level that is larger
-than `loose`.
+The level is how far a place C lies along the axis n of a hyperboloid with the centre c: n·(C − c)/|n|. Its error is at
+most about 20u of the sizes of its terms. `loose` is 2⁻⁴⁵ = 128u of the sum of the sizes of all its terms, ends and
+semi-axes too. It covers that error, the sums of ends and reach, and what the rounding of a time makes of a level: the
+times of a window are quotients by a change of the level that is larger than `loose`.
 
-Put together as kernel/scene.py does it: contact with any is contact, else inside any is interior, else exterior;
-"cannot say" of one is "cannot say" unless another is in contact. A mover with parts is asked itself: where it has
-contact, its parts are for the caller, and the answer is "cannot say".
+The answers are combined as in kernel/scene.py: contact with any is contact, else inside any is interior, else exterior;
+"cannot say" about one is "cannot say" unless another is in contact. Of a mover with parts only the mover itself is
+tested: where it has contact, the caller must test its parts, and the answer is "cannot say".
 """
 
 from __future__ import annotations
@@ -35,24 +36,27 @@ from hypcheck.kernel.specialise.sweeping import CONTACT, FIRST_OF_SWEEP, LOOK, N
 from hypcheck.scene.model import FREE, Hyperboloid, SceneModel
 
 LOOSE = 2.0**-45
+"""The share of the sizes of its terms by which a level may be off (above)."""
+
 _COLUMNS = ("alpha", "gamma", *sweeps.WALL, *sweeps.WALL_AXIS, "z_min", "z_max", "solid")
 _POSITION_OF = {"exterior": 1, "interior": -1, "contact": 0}
 
 
 def scene_columns(scene: SceneModel, *, sweep: bool) -> tuple[str, ...]:
-    """The columns of a row: the mover's centre, or both ends of its sweep, and its axis if the scene leaves it free."""
+    """Return the columns of a row: the mover's centre, or both ends of its sweep, and its axis if that is free."""
     places = (*sweeps.START, *sweeps.END) if sweep else CENTER
     return (*places, *(AXIS if scene.mover.axis == FREE else ()))
 
 
 def _row(body: Hyperboloid) -> tuple[float, ...]:
+    """Return a hyperboloid's row of the table. Without ends, they are the largest floats, and it counts as open."""
     span = (-float_info.max, float_info.max) if body.height is None else body.height.ends
     ends = (min(max(end, -float_info.max), float_info.max) for end in span)
     return (body.alpha, body.gamma, *body.center, *body.axis, *ends, 1.0 if body.solid and body.height else 0.0)
 
 
 def _level(at: str) -> str:
-    """The level of a place along the hyperboloid's axis, and the sum of the sizes of what it is made of."""
+    """Return the steps to the level of a place, and to the sum of the sizes of the place's coordinates."""
     sizes = "".join(f"\nsize_{at}_{k} = abs {at}_{k}" for k in "xyz")
     return (
         "".join(f"\nfrom_wall_{at}_{k} = {at}_{k} - wall_{k}" for k in "xyz")
@@ -102,6 +106,7 @@ between = above_or_none and below_or_none
 is_solid = solid > 0
 is_open = not is_solid
 """
+"""The steps from the lowest and highest level to whether the mover is, by its reach, beyond the ends or between."""
 
 _OF_PLACE = """
 places_sum = sum_place + sum_place
@@ -118,7 +123,11 @@ highest = rises ? level_end : level_start
 
 
 def _window(name: str, lower: str, upper: str, sign: tuple[str, str]) -> str:
-    """The times between which the level lies between two: beyond the ends by the reach, or within them by that."""
+    """Return the steps to the times `name`_from and `name`_to, between which the level lies within a window.
+
+    The window is from `lower` to `upper`, each moved by the reach: outwards with the signs ("-", "+"), inwards with
+    ("+", "-"). `name`_open says whether there is such a time.
+    """
     return f"""
 {name}_low = {lower} {sign[0]} reach
 {name}_high = {upper} {sign[1]} reach
@@ -189,6 +198,7 @@ touching_now = contact_here ? 1 : touching
 inside_now = inside_here ? 1 : inside
 unknown_now = known ? unknown : 1
 """
+"""The steps from LOOK's result about one hyperboloid to what is kept: touching, inside, unknown."""
 
 _ONE_SWEEP = f"""
 whole_never = first == {NEVER}
@@ -211,14 +221,17 @@ earliest_now = hit_earlier ? time_here : earliest
 known = clear_here or hit_here
 unknown_now = known ? unknown : 1
 """
+"""The steps from the times of first contact with one hyperboloid to what is kept: the earliest time, unknown."""
 
 
 def _arguments(*, sweep: bool) -> tuple[str | int, ...]:
+    """Return the arguments of LOOK or FIRST_OF_SWEEP, without the times."""
     places = (*sweeps.START, *sweeps.END) if sweep else (*CENTER, *CENTER)
     return ("alpha", "gamma", "b", "d", *places, *AXIS, *sweeps.WALL, *sweeps.WALL_AXIS)
 
 
 def _constants(scene: SceneModel) -> dict[str, float]:
+    """Return the numbers that all rounds of the loop read: the mover's sizes, its axis unless free, and limits."""
     mover = scene.mover
     axis = {} if mover.axis == FREE else dict(zip(AXIS, mover.axis, strict=True))
     ends = {"least_end": -float_info.max / 2, "greatest_end": float_info.max / 2}
@@ -227,6 +240,7 @@ def _constants(scene: SceneModel) -> dict[str, float]:
 
 
 def _over(bodies: Iterable[Hyperboloid], kept: tuple[tuple[str, str, str], ...], body: tuple[Part, ...]) -> Loop:
+    """Return the loop over the hyperboloids. Raises InputError if there is none."""
     rows = tuple(map(_row, bodies))
     if not rows:
         raise InputError("no kernel is made: the scene has no hyperboloid")
@@ -234,7 +248,10 @@ def _over(bodies: Iterable[Hyperboloid], kept: tuple[tuple[str, str, str], ...],
 
 
 def position_routine(scene: SceneModel) -> Routine:
-    """The routine of a mover's position in the scene, or of the answer to its question; 2 means "cannot say"."""
+    """Return the routine that computes the mover's position in the scene, or the answer to the scene's question.
+
+    2 means "cannot say". Raises InputError if the scene has no hyperboloid.
+    """
     body: tuple[Part, ...] = (
         *steps_of(_AXIS_SIZES + _level("place") + _OF_PLACE + _ENDS),
         Call("found", LOOK, (*_arguments(sweep=False), 0)),
@@ -273,7 +290,10 @@ def position_routine(scene: SceneModel) -> Routine:
 
 
 def sweep_routine(scene: SceneModel) -> Routine:
-    """The routine that finds the first contact of a sweep in the scene; FIRST_OF_SWEEP does so for one hyperboloid."""
+    """Return the routine that finds the first contact of a sweep in the scene, as FIRST_OF_SWEEP does for one body.
+
+    Raises InputError if the scene has no hyperboloid.
+    """
     arguments = _arguments(sweep=True)
     body: tuple[Part, ...] = (
         *steps_of(_AXIS_SIZES + _level("start") + _level("end") + _OF_SWEEP + _ENDS + _WINDOWS),

@@ -1,8 +1,8 @@
-"""The settings of a scene: one spheroid beside one hyperboloid, its region, sample centres, float format and scale.
+"""The settings of a scene: a setting is one spheroid beside one hyperboloid, and the region of the spheroid's centre.
 
-The region is where the spheroid's centre can be, seen from the hyperboloid's. Sample centres are the same ones every
-time, spread over the region, or around the surface where the region is open. Lengths are scaled by powers of two where
-their squares could leave the format.
+The region says where the spheroid's centre can be, relative to the centre of the hyperboloid. A setting also has sample
+centres, which are the same every time: they are spread over the region or, where it is open, around the surface.
+Lengths are scaled by powers of two where their squares could leave the float format.
 """
 
 from __future__ import annotations
@@ -24,16 +24,17 @@ from hypcheck.kernel import integers
 from hypcheck.scene.model import FREE, Hyperboloid, Mover, MoverPart, Point, Region, SceneModel, Span, is_tilted
 
 SWING = 1 + Fraction(1, 2**40)
-"""What an arm is multiplied by, since its end is computed by a rounded sine and cosine."""
+"""The length of an arm is multiplied by this, since its end is computed with a rounded sine and cosine."""
 
 
 @dataclass(frozen=True, slots=True)
 class Setting:
-    """`sizes` are α, γ, b, d; `box` the region of the centre as seen from the hyperboloid's, `cut` the wall's heights.
+    """One spheroid beside one hyperboloid: their `sizes` α, γ, b, d, and where the spheroid can be.
 
-    `axis` is that of the spheroid's revolution, FREE where each query names one, None where it is upright.
-    `cut` is None unless the box reaches beyond these; every query is compared with it. `uses` names the pairs of
-    the scene that have these sizes.
+    `box` is the region of the spheroid's centre, relative to the hyperboloid's. `cut` is the interval of heights of the
+    wall if the box reaches beyond it, else None; each query is compared with it. `axis` is the spheroid's axis of
+    revolution, FREE if each query names one, None if it is upright. `uses` names the pairs of the scene that have these
+    sizes.
     """
 
     sizes: Sizes
@@ -44,17 +45,17 @@ class Setting:
 
     @property
     def spans(self) -> dict[str, list[float]]:
-        """The ends of each coordinate of the centre that is limited, by name, as JSON has them."""
+        """For each coordinate of the centre that is limited, by name: its least and its greatest value, for JSON."""
         return {name: [span.low, span.high] for name, span in zip("xyz", self.box.spans, strict=True) if span}
 
     @property
     def named_axis(self) -> dict[str, Any]:
-        """The axis by its name, as JSON has it; empty where the spheroid is upright."""
+        """The axis, as the entry "axis" of a JSON object; no entry if the spheroid is upright."""
         return {} if self.axis is None else {"axis": self.axis if self.axis == FREE else list(self.axis)}
 
     @property
     def inner_and_outer(self) -> tuple[Sizes, Sizes]:
-        """The sizes; of a tilted spheroid, with the largest ball in it for it, and with the smallest about it."""
+        """The sizes twice: of a tilted spheroid, with the largest ball in it, and with the smallest ball about it."""
         if self.axis is None:
             return self.sizes, self.sizes
         alpha, gamma, b, d = self.sizes
@@ -62,7 +63,7 @@ class Setting:
 
 
 def settings_of(scene: SceneModel) -> tuple[Setting, ...]:
-    """One setting for each combination of sizes in the scene, in the scene's order; pairs of the same sizes share one.
+    """Return one setting for each combination of sizes in the scene, in its order; pairs of equal sizes share one.
 
     A pair whose heights never meet the region is left out: no query can reach it. Raises InputError where
     a hyperboloid is tilted or has flat ends.
@@ -92,13 +93,13 @@ def _require_printable(scene: SceneModel) -> None:
 
 
 def axis_of(mover: Mover) -> Point | Literal["free"] | None:
-    """The axis that a kernel has to know: None where all is upright, or all are balls, the same along every axis."""
+    """Return the axis that a kernel must know: None if all is upright, or if all are balls, which have no axis."""
     balls = mover.b == mover.d and all(part.b == part.d for part in mover.parts)
     return mover.axis if is_tilted(mover.axis) and not balls else None
 
 
 def position_of_box(setting: Setting) -> Position | None:
-    """The one position that the whole box has, if it has one.
+    """Return the position that all centres in the box have, or None if they may have different ones.
 
     The exterior positions are an up-set when |x| and |y| grow and |z| falls, the interior ones when |x| and |y| fall
     and |z| grows (docs/mathematics.md): one exact decision at the least favourable corner of the box is a proof. Where
@@ -113,20 +114,22 @@ def position_of_box(setting: Setting) -> Position | None:
 
 
 def _at(setting: Setting, centre: tuple[float, float, float]) -> Position:
+    """Return the exact position at a centre; of a tilted spheroid, that of the smallest ball about it."""
     return integers.upright_position(Pair.from_row((*setting.inner_and_outer[1], *centre)).lengths)
 
 
 def _least(span: Span | None) -> float:
-    """The least |v| of a span; 0 where there is none."""
+    """Return the least |v| in a span; 0 if there is no span."""
     return 0.0 if span is None or span.holds(0) else min(abs(span.low), abs(span.high))
 
 
 def farthest(span: Span) -> float:
-    """The greatest |v| of a span."""
+    """Return the greatest |v| in a span."""
     return max(abs(span.low), abs(span.high))
 
 
 def _pairs(scene: SceneModel) -> Iterator[Setting]:
+    """Yield a setting for each hyperboloid and each of the mover and its parts whose heights meet the region."""
     mover = scene.mover
     bodies = {"the mover": MoverPart(mover.b, mover.d, 0.0)}
     bodies.update((f"part {number}", part) for number, part in enumerate(mover.parts, start=1))
@@ -139,7 +142,10 @@ def _pairs(scene: SceneModel) -> Iterator[Setting]:
 
 
 def _box(scene: SceneModel, hyperboloid: Hyperboloid, arm: float) -> tuple[Region | None, Span | None]:
-    """The region seen from the hyperboloid, wider by `arm`, and the height that the kernel must still test."""
+    """Return the region relative to the hyperboloid, wider by `arm`, and the heights that the kernel must test.
+
+    The heights are None if no test is needed. Both are None if no query can reach the hyperboloid.
+    """
     region, centre = scene.region, hyperboloid.center
     x = _moved(region.x, centre[0], arm)
     y = _moved(region.y, centre[1], arm)
@@ -161,7 +167,7 @@ def _box(scene: SceneModel, hyperboloid: Hyperboloid, arm: float) -> tuple[Regio
 
 
 def _moved(span: Span | None, origin: float, arm: float) -> Span | None:
-    """The span from `origin`, as far wider as an arm reaches.
+    """Return the span relative to `origin`, wider by the arm at both ends; None if there is no span.
 
     Rounding is monotone, so a caller's own rounded differences lie in it; SWING covers the roundings of a turned arm.
     """
@@ -174,26 +180,33 @@ def _moved(span: Span | None, origin: float, arm: float) -> Span | None:
 
 
 def _joined(one: Setting, other: Setting) -> Setting:
+    """Return one setting for two settings of the same sizes: its box and its heights hold those of both."""
     x, y, z = (_hull(left, right) for left, right in zip(one.box.spans, other.box.spans, strict=True))
     return Setting(one.sizes, Region(x, y, z), _hull(one.cut, other.cut), (*one.uses, *other.uses), one.axis)
 
 
 def _hull(one: Span | None, other: Span | None) -> Span | None:
+    """Return the shortest span that holds both; None, without limits, if one of them is None."""
     if one is None or other is None:
         return None
     return Span(min(one.low, other.low), max(one.high, other.high))
 
 
 COUNT = 4096
+"""How many sample centres a setting has."""
+
 LARGEST = 2.0**1021
-"""Beyond it no centre lies, whatever the sizes: a span's width is then a number of float64."""
+"""No coordinate of a sample centre is larger, whatever the sizes: so the width of a span is finite in float64."""
 
 REACH = 2.0
-"""How far around the surface centres lie where the region leaves an axis open: in waist radii and heights γ."""
+"""Where the region is open, sample centres lie up to so many times α + b (x, y) or γ + d (z) from the centre."""
 
 
 def centres(setting: Setting) -> tuple[Floats, Floats, Floats]:
-    """x, y, z, (COUNT,) each: a rank-one lattice, which fills the box evenly and needs no random numbers."""
+    """Return x, y, z of the sample centres, (COUNT,) each: a rank-one lattice, which fills the box evenly.
+
+    It needs no random numbers.
+    """
     alpha, gamma, b, d = setting.sizes
     across = Span(-REACH * (alpha + b), REACH * (alpha + b))
     up = Span(-REACH * (gamma + d), REACH * (gamma + d))
@@ -206,6 +219,7 @@ def centres(setting: Setting) -> tuple[Floats, Floats, Floats]:
 
 
 def _held(span: Span) -> Span:
+    """Return the span, with ends that are at most LARGEST in size."""
     return Span(*(max(-LARGEST, min(end, LARGEST)) for end in (span.low, span.high)))
 
 
@@ -214,17 +228,18 @@ FORMATS = ("float32", "float64")
 
 
 def format_of(precision: str) -> FloatFormat:
-    """The format by its name; raises InputError."""
+    """Return the format of this name. Raises InputError for another name than those in FORMATS."""
     if precision not in FORMATS:
         raise InputError(f"the precision is {precision!r}; a kernel computes in {' or '.join(FORMATS)}")
     return FLOAT_FORMATS[precision]
 
 
 ORDINARY = {"float32": Fraction(2) ** 16, "float64": Fraction(2) ** 100}
-"""Semi-axes between this and its reciprocal have squares, and products of squares, well inside the format."""
+"""By format: semi-axes between this and its reciprocal need no scaling; squares and their products stay inside it."""
 
 
 ROOM = 2**10
+"""b and d are so large that a coordinate that is flushed to zero is worth at most u / ROOM of them (`scaled`)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -244,12 +259,12 @@ class ScaledSetting:
 
 
 def scaled(sizes: Sizes, form: FloatFormat) -> ScaledSetting:
-    """The squares of the sizes, scaled where the format asks for it (Theorem 1 allows any two factors).
+    """Return the squares of the sizes, scaled where the format needs it (Theorem 1 allows any two factors).
 
     A program may flush subnormal numbers to zero. A coordinate that is lost then moves the spheroid by less than
-    2^least, which b and d larger by a share u / ROOM hold, as they are 2^least ROOM / u at least. And α and γ are
-    normal numbers, for which no other number is taken. Raises OverflowError where a size is smaller, or a factor is no
-    number of the format.
+    2^least. Since b and d are at least 2^least ROOM / u, the spheroid with b and d larger by a share u / ROOM contains
+    the moved one. α and γ are normal numbers, so they are not flushed. Raises OverflowError if a size is smaller, or if
+    a factor is not a number of the format.
     """
     alpha, gamma, b, d = map(Fraction, sizes)
     limit = ORDINARY[form.name]

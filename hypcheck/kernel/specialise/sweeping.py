@@ -1,14 +1,15 @@
 """The routines of printed sweeps: up to when a sweep is proved clear, and whether it has contact.
 
 From the start on, each round proves that the sweep is clear up to a time: that of the first root of a parabola below F.
-There, and half as far ahead, it looks for a proof of contact, or that the spheroid is on the other side of the
-hyperboloid: between unlike sides is contact. Rounds end where the end of the sweep is reached (no contact), or where a
-step comes to nothing; then it looks ahead in steps that grow. Without a proof of either it cannot say.
+There, and half a step farther, it looks for a proof of contact, or of a position on the other side of the hyperboloid:
+between positions on different sides there is contact. Rounds end at the end of the sweep (no contact), or when a step
+becomes too short; then it looks ahead in steps that grow. Without a proof of either it cannot say.
 
-To look at the spheroid at a time is to find a multiplier by halving, and to see what SWEEP proves by it. The multiplier
-need not be right. At the best one numbers may cancel, where it lies next to a pole; so where nothing is proved, others
-are tried that keep away from the poles (programs/sweeps.py). Printed clearances bound the maximum of the dual function
-by several multipliers in the same manner.
+To look at the spheroid at a time means to find a multiplier by halving, and to compute what SWEEP proves with it. A
+multiplier is an argument l of the dual function; every one proves something, so it need not be the best. Numbers may
+cancel at the best one if it lies next to a pole. If nothing is proved there, other multipliers are tried that keep away
+from the poles (programs/sweeps.py). Printed clearances bound the maximum of the dual function by several multipliers in
+the same way.
 
 Times are numbers of the format, exactly: SWEEP gets exactly that time. A step is shortened by 2⁻⁴⁹, as the sum
 with the time is rounded, by 2⁻⁵² at most. So `now`, up to which the sweep is proved clear, bounds the first contact.
@@ -24,13 +25,17 @@ from hypcheck.geometry.pair import AXIS, CENTER, SIZES, TILTED_COLUMNS
 from hypcheck.kernel.programs import sweeps, tilted
 
 HALVINGS = 52
-"""Of the exponents between 2⁻⁶⁰ and 2⁶⁰: the multiplier's distance from its pole is found within 2⁻⁴⁵ of itself."""
+"""How often the exponents from −60 to 60 are halved: the multiplier's distance from its pole is then found within a
+relative 2⁻⁴⁵."""
 
 WIDEST = 2.0**-60
+"""The least share v from which a multiplier is made (_OF_SHARE); the greatest is its reciprocal."""
+
 TRIES = 3
+"""How many multipliers are tried at a time."""
 
 CONTACT = 8
-"""The value among reaches that means contact."""
+"""The result of LOOK that means contact. All other results are reaches, at most 2 in size."""
 
 _POLES = """
     k1_squared = k1 * k1
@@ -53,18 +58,21 @@ _POLES = """
     minus_A = - A
     pole = outside ? B : minus_A
 """
+"""The steps to the poles B and −A2 of the dual function, and to the pole on the centre's side; A is min(A2, p)."""
 
 _OF_SHARE = """
     one_v = 1 + v
     pole_v = pole * v
     l = pole_v / one_v
 """
+"""The steps from a share v > 0 to the multiplier l = pole · v/(1 + v), between 0 and the pole."""
 
 _HALVE = f"""
     product = low * high
     v = sqrt product
     {_OF_SHARE}
 """
+"""The steps to the middle share, the geometric mean of `low` and `high`, and to its multiplier."""
 
 _MOVE = """
     rises = psi > 0
@@ -72,6 +80,7 @@ _MOVE = """
     new_low = farther ? v : low
     new_high = farther ? high : v
 """
+"""The steps that move one end to v: `low` if the maximum of the dual function lies farther from 0, else `high`."""
 
 _AT_MULTIPLIER = steps_of(tilted.AT_MULTIPLIER)
 _PLACE_STEPS = needed(sweeps.PLACE, ("E", "G", "m", "k0", "k1", "p", "t"))
@@ -114,7 +123,8 @@ REACH = Routine(
 )
 
 
-def _length(of: str) -> str:
+def _largest_component(of: str) -> str:
+    """Return the steps to {of}_size, the largest component of a vector without its sign; vectors are divided by it."""
     return f"""
     size_{of}_x = abs {of}_x
     size_{of}_y = abs {of}_y
@@ -129,7 +139,10 @@ def _length(of: str) -> str:
 def tried(
     kept: tuple[tuple[str, str, str], ...], parts: tuple[Part, ...], until: str | None = None
 ) -> tuple[Part, ...]:
-    """SWEEP at the best multiplier, and at ones that keep away from the poles, where numbers cancel."""
+    """Return parts that run SWEEP at the best multiplier, then at others that keep away from the poles.
+
+    Next to a pole numbers cancel. `parts` follow SWEEP in each round; `kept` and `until` are those of the Loop.
+    """
     body: tuple[Part, ...] = (
         Call("l", MULTIPLIER, (*sweeps.ROW, *sweeps.LENGTHS, "at", "most_share")),
         *sweeps.SWEEP.steps,
@@ -137,7 +150,7 @@ def tried(
         *steps_of("share_next = most_share * shrink"),
     )
     loop = Loop(TRIES, (("most_share", "widest_share", "share_next"), *kept), body, until)
-    return (*steps_of(_length("axis")), *steps_of(_length("wall_axis")), loop)
+    return (*steps_of(_largest_component("axis")), *steps_of(_largest_component("wall_axis")), loop)
 
 
 TRY_CONSTANTS = {**sweeps.CONSTANTS, "zero": 0.0, "widest_share": 1 / WIDEST, "shrink": 2.0**-24}
@@ -167,7 +180,7 @@ LOOK = Routine(
 )
 
 STANDING = (*SIZES, *CENTER, *CENTER, *AXIS, 0, 0, 0, 0, 0, 1)
-"""A spheroid that stays where it is, beside the hyperboloid about the origin: the arguments of a sweep."""
+"""The arguments of a sweep on which the spheroid stays where it is, beside the hyperboloid about the origin."""
 
 
 POSITION = Routine(
@@ -192,7 +205,11 @@ POSITION = Routine(
 
 
 def _bound(name: str, meaning: str, bound: str, at_first: str) -> Routine:
-    """A bound of the clearance: the best of those at several multipliers."""
+    """Return a routine for a bound of the clearance: the best of the bounds at several multipliers.
+
+    `bound` has the steps to the bound at one multiplier, with `valid` where it holds. `at_first` names the constant
+    that is the result if no bound holds.
+    """
     more = "bound > best" if at_first == "nothing_least" else "bound < best"
     routine = Routine(
         f"{name}_at",
@@ -227,6 +244,7 @@ _QUOTIENT = """
     quotient = {value} / divisor
     size_quotient = abs quotient
 """
+"""The steps to `quotient`, a bound of φ = F/d: `value` bounds F; `positive` or `negative`, by its sign, bounds d."""
 
 _FACTOR = """
     usable_square = square_bound > 0
@@ -236,6 +254,7 @@ _FACTOR = """
     factor_sizes = 1 + factor
     last_unsure = unsure_u * factor_sizes
 """
+"""The steps from a bound of the square of a factor of size to `rough`, the clearance, and to its rounding error."""
 
 LOWER = _bound(
     "lower_of",
@@ -277,9 +296,10 @@ UPPER = _bound(
 
 ROUNDS = 96
 LOOKS = 14
+"""How many rounds a sweep has at most, and at how many times it looks ahead after them."""
 
 NEVER, UNKNOWN = 2, 3
-"""The values among times that mean a sweep without contact, and "cannot say"."""
+"""The results in place of a time that mean a sweep without contact, and "cannot say"."""
 
 _LOOK_AT = sweeps.ROW
 
@@ -304,6 +324,8 @@ _STEP = """
     ahead_before = beyond_end ? to_time : ahead_unbounded
     ahead = moves ? ahead_before : next
 """
+"""The steps of a round from `found`, LOOK's result at `now`, to `next`, up to which the sweep is proved clear, and to
+`ahead`, half a step farther."""
 
 _SEEN = """
     next_contact = next_found == contact_code
@@ -322,6 +344,8 @@ _SEEN = """
     state_new = open_after ? 0 : done_clear
     stops = state_new > 0
 """
+"""The steps of a round from LOOK's results at `next` and `ahead` to `hit_seen`, 1 if contact is proved, and to
+`state_new`: 0 goes on, 1 stops undecided, 2 has reached the end of the sweep."""
 
 _SWEPT: tuple[Part, ...] = (
     Call("start_found", LOOK, (*_LOOK_AT, "from_time")),
@@ -405,8 +429,8 @@ FIRST_OF_SWEEP = Routine(
     "first",
     constants={"zero": 0.0, "contact_code": float(CONTACT), "shortest": 2.0**-46, "margin": 2.0**-49},
 )
-"""Between two times of the sweep. A contact is proved before anything is said to be one; `first` is NEVER only where
-every piece is proved clear."""
+"""Asked between two times of the sweep. The result is a time only if a contact is proved, and NEVER only if every piece
+is proved clear."""
 
 SWEEP_COLUMNS = (*SIZES, *sweeps.START, *sweeps.END, *AXIS)
 """The columns of a sweep: those of geometry/pair.py, by names that no language has taken."""

@@ -1,17 +1,20 @@
 """The last stage of a kernel for a tilted spheroid: the dual function in double-double, and what it proves.
 
 **The frame.** With v the spheroid's axis, lengths in units of b, and p, s, t the squares of α/b, γ/b, d/b, the matrices
-of both bodies are diagonal in three directions: e′ across the plane of the two axes, and two within it. The poles of
-the dual function are A1 = p, and A2 and B from l² − 2 q1 l − p s/t = 0: with h and c the squares of the sine and cosine
-of the axis' angle from the vertical, q1 = (s (t h + c) − p (t c + h))/(2t), root² = q1² + p s/t, B = q1 + root,
-A2 = root − q1. The components of the centre C are linear: c1 = e′·C, c2 = r2·C, c3 = r3·C with
+of both bodies are diagonal in three directions, which are the frame: e′ across the plane of the two axes, and two
+within it. The dual function φ has the poles −A1, −A2 and B. A1 = p, and A2 and B follow from l² − 2 q1 l − p s/t = 0:
+with h and c the squares of the sine and cosine of the axis' angle from the vertical,
+q1 = (s (t h + c) − p (t c + h))/(2t), root² = q1² + p s/t, B = q1 + root, A2 = root − q1. The components of the centre
+C are linear: c1 = e′·C, c2 = r2·C, c3 = r3·C with
 
     r2 = f2 (m/p e + off/s e_z),   m = (t h + c)/t + A2/s,   f2² = A2 p s/(2 root m)
     r3 = f3 (off/p e + n/s e_z),   n = (t c + h)/t + B/p,    f3² = B p s/(2 root n)
 
-e the horizontal direction of v and off = (1 − t)/t times its sine and cosine. Each is the null vector of M + λD at a
-pole, made of length 1 by its own eigenvalue equation, so that nothing but q1 and 1 − t is a difference. An upright axis
-has no e; any horizontal one will do. FRAME is that program. Then (../../../docs/mathematics.md, "General position")
+where e is the horizontal direction of v, e_z the vertical one, and off = (1 − t)/t times the sine and cosine of the
+angle. Each of r2 and r3 is the null vector of M + λD at a pole (M and D are the matrices of the spheroid and of the
+hyperboloid), scaled to length 1 by its own eigenvalue equation, so that only q1 and 1 − t are differences. An upright
+axis has no e; any horizontal direction will do. FRAME is that program. Then (../../../docs/mathematics.md, "General
+position")
 
     φ(λ) = λ (c1²/(A1+λ) + c2²/(A2+λ) − c3²/(B−λ)) − 1 − λ,   concave between −min(A1, A2) and B,
 
@@ -22,14 +25,15 @@ at λ < 0 interior.
 the exact ones, u = 2⁻⁵³ (Joldes, Muller and Popescu, ACM TOMS 44, 2017: 3 u² for sums, 8 u² for products, 15 u² for
 quotients; the root is one step of Newton's method, whose own error is the square of half a unit, after a product).
 
-OMEGA bounds the relative error of each number of a frame, and of all operations of COMPONENTS and PHI together, of
-which a value passes 12 at most, 2⁻⁹⁸. A fixed axis' frame is made in rational numbers, and only rounded: 2⁻⁹⁶. A free
-one passes 40 operations, 40·2⁻¹⁰² < 2⁻⁹⁶, and its q1 alone may cancel. Where it does, s (t h + c) and p (t c + h) are
-within a factor of 2 of each other, and so their sum is at most 2.2 root times (d/b + b/d)/2 times t: the error of root,
-A2 and B is 2.2·2¹² times that of the terms at most, as d/b lies in 2^±12. So 2⁻⁸².
+OMEGA bounds the relative error of each number of a frame, and of all operations of COMPONENTS and PHI together. A value
+passes at most 12 of these operations: 2⁻⁹⁸. The frame of a fixed axis is computed in rational numbers, and only
+rounded: 2⁻⁹⁶. The frame of a free axis passes 40 operations, 40·2⁻¹⁰² < 2⁻⁹⁶, and only its q1 may cancel. Where it
+does, s (t h + c) and p (t c + h) are within a factor of 2 of each other, and so their sum is at most 2.2 root times
+(d/b + b/d)/2 times t: the error of root, A2 and B is 2.2·2¹² times that of the terms at most, as d/b lies in 2^±12. So
+2⁻⁸².
 
-**What proves.** An λ found by a search that nobody needs to trust. E = 4 OMEGA (|x|+|y|+|z|) most is above the error of
-each component, `most` being above every number of the three rows. At λ, as computed and exact by definition, each
+**What proves.** A search finds λ; no proof rests on λ being the best. E = 4 OMEGA (|x|+|y|+|z|) most is above the error
+of each component, `most` being above every number of the three rows. At λ, as computed and exact by definition, each
 distance to a pole is known within 2 OMEGA (A + |λ|), hence φ within `error` (DECISION; its leading 2 covers the
 rounding of the error itself, E² and second order). Then
 
@@ -39,10 +43,9 @@ rounding of the error itself, E² and second order). Then
                      changed its sign there, and else nearer than the pole.
 
 The slope φ′ = A1 c1²/(A1+λ)² + A2 c2²/(A2+λ)² − B c3²/(B−λ)² − 1 is taken in doubles between bounds: components E
-larger or smaller, and each side moved by 2⁻⁴⁸, where it rounds 12 times at most. The step is
-one at which it changes by more than its bounds are apart, and so small that the tangent gains nothing by it.
-Whatever satisfies neither is answered
-"cannot say", and so is a number that left the format: no comparison holds for NaN.
+larger or smaller, and each side moved by 2⁻⁴⁸, where it rounds 12 times at most. The step is one at which it changes by
+more than its bounds are apart, and so small that the tangent gains nothing by it. Where neither holds, the answer is
+"cannot say"; so it is where a number left the format, as no comparison holds for NaN.
 
 **Range.** p and s in 2^±40, t in 2^±24, b in 2^±60 and the centre within 2⁴⁰ b: no product leaves float64. What
 underflows, in the axis or in the centre, changes a component by less than LOST.
@@ -55,12 +58,13 @@ from fractions import Fraction
 from hypcheck.derivation.program import program_of
 
 SIZE_NAMES = ("A1", "s", "t", "b")
-"""What a free axis' frame is made of, beside the axis."""
+"""The numbers from which the frame of a free axis is computed, beside the axis: p, s, t and b."""
 
 ROWS = ("r1x", "r1y", "r2x", "r2y", "r2z", "r3x", "r3y", "r3z")
 POLES = ("A1", "A2", "B", "least", "gap1", "gap2")
 FRAME_NAMES = (*ROWS, *POLES)
-"""The rows, the poles, the lesser of A1 and A2, and how far each is above it."""
+"""The numbers of a frame: the rows r1, r2, r3 divided by b, the poles A1, A2, B, the lesser of A1 and A2 (`least`), and
+how far A1 and A2 are above it (gap1, gap2)."""
 
 FRAME = program_of(
     "frame",
@@ -145,7 +149,7 @@ FRAME = program_of(
     r3z = r3u / b
     """,
 )
-"""From an axis (vx, vy, vz), its horizontal direction (hx, hy), the squares A1 = p, s, t and b to the frame."""
+"""The program from an axis (vx, vy, vz), its horizontal direction (hx, hy), A1 = p, s, t and b to the frame."""
 
 COMPONENTS = program_of(
     "components",
@@ -200,7 +204,7 @@ FALLS = program_of(
     ),
     "gain = slope_1 + slope_2\n loss = slope_3 + 1\n past = gain <= loss",
 )
-"""Whether φ′ ≤ 0, in doubles, at these distances to the poles."""
+"""The program that computes in doubles whether φ′ ≤ 0 at these distances to the poles."""
 
 FROM_POLE = """
     is_near_zero = near_zero > 0
@@ -209,7 +213,7 @@ FROM_POLE = """
     to_pole = is_near_zero ? complement : distance
     from_zero = is_near_zero ? distance : complement
 """
-"""From the distance to 0 (near_zero = 1) or to the pole (0) to both."""
+"""The steps from `distance`, to 0 (near_zero = 1) or to the pole (near_zero = 0), to both distances."""
 
 PLACE = program_of(
     "place",
@@ -226,12 +230,15 @@ PLACE = program_of(
     to_b = is_inside ? inside_b : to_pole
     """,
 )
-"""From the distance to 0 (near_zero = 1) or to the pole (0) to those to all poles, in doubles.
+"""The program from `distance`, to 0 (near_zero = 1) or to the pole (0), to the distances to all poles, in doubles.
 
 λ itself is a step of last_stages.PLACE, in double-double."""
 
 OMEGA = {"fixed": 2.0**-96, "free": 2.0**-82}
+"""The bound of the relative errors, for a fixed axis and for a free one (above)."""
+
 LOST = 2.0**-400
+"""More than a component of the centre can change by underflow (Range, above)."""
 
 DECISION_CONSTANTS = {
     "lost": LOST,
@@ -243,7 +250,10 @@ DECISION_CONSTANTS = {
 
 
 def _slopes(end: str, shift: str) -> str:
-    """Bounds of both sides of φ′ at λ moved by a step up ("+"), down ("-") or not at all ("")."""
+    """Return the steps to bounds of both sides of φ′, gain and loss, at λ moved by a step.
+
+    `shift` is "+" for a step up, "-" for a step down, and "" for no step. `end` ends the names of the steps.
+    """
     text = ""
     for i, to, pole in _SIDES:
         moved = f"to_{to}"
@@ -268,6 +278,7 @@ def _slopes(end: str, shift: str) -> str:
 
 
 def _errors() -> str:
+    """Return the steps to bounds of each component's size, and to the error of its term of φ."""
     return "".join(
         f"""
         size_{i} = abs c{i}
@@ -361,13 +372,13 @@ DECISION = program_of(
     contact = both_fit and has_room
     """,
 )
-"""In doubles: from what was computed at λ to `clear` and `contact`; neither is "cannot say"."""
+"""The program, in doubles, from the numbers computed at λ to `clear` and `contact`; if neither holds: "cannot say"."""
 
 BOUND_U = Fraction(1)
-"""What b and d may have to change by for an answer "contact" to be right, in units u."""
+"""By so many units u b and d may have to change for an answer "contact" to be right."""
 
 GEOMETRIC_STEPS, ARITHMETIC_STEPS = 8, 46
-"""Halvings of the exponent: 2⁶² becomes a quarter of an octave; then of the distance."""
+"""First the exponent of the distance is halved, until 62 octaves are a quarter of an octave; then the distance."""
 
 START = 2.0**-62
-"""The first distance to 0 or to a pole, over the pole."""
+"""The least distance to 0 or to a pole at which the search looks, as a share of the pole."""

@@ -1,10 +1,10 @@
-"""The searches for the maximum of the dual function as routines, by halving, and what they prove.
+"""The routines that search by halving for the maximum of the dual function, and say what its value there proves.
 
-**An upright spheroid**: the maximum and its sign there. The steps are the programs of last_stages.py. The distance to
-0, or to the pole, is halved in its exponent first, then in itself.
+**An upright spheroid**: the answer is the sign of the maximum. The steps are the programs of last_stages.py. The
+unknown is the distance to 0 or to the pole, whichever is nearer. First its exponent is halved, then the distance.
 
-**A tilted one**: the frame of a free axis too. The steps are the programs of tilted.py, those of the frame and of the
-value at the maximum in double-double.
+**A tilted spheroid**: the steps are the programs of tilted.py; the value at the maximum is computed in double-double.
+If each query names an axis, so is the frame: the directions in which both matrices are diagonal.
 """
 
 from __future__ import annotations
@@ -53,9 +53,10 @@ _IS_PAST = Call("beyond", PAST_MAXIMUM, ("ar", "cz", "pole", "other", "middle", 
 
 
 def halving(times: int, mean: Program, low: tuple[str, str], high: tuple[str, str], is_past: Call = _IS_PAST) -> Loop:
-    """`times` halvings between `low` and `high`, each the name of an end and its initial value.
+    """Return a loop of `times` halvings between `low` and `high`, each the name of an end and its initial value.
 
-    `mean` makes `middle` of them, `is_past` makes `beyond` of that, which is compared with `beyond_half`.
+    `mean` computes `middle` from the ends. `is_past` computes from that the truth value `beyond`; where it differs from
+    `beyond_half`, the low end becomes the middle, else the high end.
     """
     body: tuple[Part, ...] = (
         *renamed(mean.steps, {"low": low[0], "high": high[0]}),
@@ -72,7 +73,7 @@ def halving(times: int, mean: Program, low: tuple[str, str], high: tuple[str, st
 
 
 def search_of(steps: int) -> Routine:
-    """The search with that total number of halvings."""
+    """Return the search for an upright spheroid, with this total number of halvings."""
     parts: tuple[Part, ...] = (
         *(step for step in last_stages.START.steps),
         Call("is_interior", FALLS, ("ar", "cz", "A", "B")),
@@ -136,20 +137,23 @@ PROVED = Routine(
 
 
 def _highs(*pairs: str) -> tuple[str, ...]:
+    """Return the names that `_nearly` gives to the first numbers of these pairs."""
     return tuple(f"nearly_{pair}" for pair in pairs)
 
 
 def _nearly(*pairs: str) -> tuple[Half, ...]:
-    """The first numbers of pairs: their values rounded to doubles."""
+    """Return the parts that take the first numbers of pairs: their values rounded to doubles."""
     return tuple(Half(high, pair) for high, pair in zip(_highs(*pairs), pairs, strict=True))
 
 
 def _halving(times: int, mean: Program, low: tuple[str, str], high: tuple[str, str]) -> Loop:
+    """Return the loop of halvings for a tilted spheroid, with the arguments that PAST_PEAK needs."""
     known = (*_highs(*_COMPONENTS, *_POLES, *_GAPS), "nearly_pole")
     return halving(times, mean, low, high, Call("beyond", PAST_PEAK, (*known, "middle", "near_zero", "inside")))
 
 
 def _search() -> tuple[Part, ...]:
+    """Return the parts of the search for a tilted spheroid, from the centre and the frame to what is proved."""
     nearly = _highs(*_COMPONENTS, *_POLES)
     return (
         *(Call(name, WHOLE, (argument,)) for name, argument in zip("xyz", CENTRE, strict=True)),
@@ -168,7 +172,7 @@ def _search() -> tuple[Part, ...]:
 
 
 def _parts_at_the_maximum() -> tuple[Part, ...]:
-    """The dual function where the search ends, as wide as a double-double, and what it proves."""
+    """Return the parts that compute the dual function where the search ends, in double-double, and what it proves."""
     at = {"distance": "far", "near_zero": "near_zero", "inside": "inside"}
     values = ("lambda_", *_PLACES, "phi")
     return (
@@ -191,7 +195,7 @@ SEARCH = Routine(
     {"start": tilted.START},
     "frame",
 )
-"""Of one axis, whose frame is a record of constants."""
+"""The search for one fixed axis, whose frame is a record of constants."""
 
 _ANY = replace(SEARCH, inputs=(*CENTRE, *SEARCH.record), record=())
 
@@ -219,7 +223,7 @@ POWER_FOR = Routine(
     "power",
     constants={"first": 1.0, "small": 2.0**-100, "large": 2.0**100, "up": 2.0**200, "down": 2.0**-200},
 )
-"""Five times 200 octaves are all that float64 has on a side."""
+"""Five factors of 2^±200 are enough for every float64."""
 
 _LARGEST = steps_of(
     """
@@ -232,7 +236,7 @@ _LARGEST = steps_of(
     largest = z_is_longer ? size_z : flat_size
     """
 )
-"""The largest part of an axis, and the larger of the two across, without their signs."""
+"""The steps to the largest component of an axis, and to the larger one of x and y, without their signs."""
 
 FREE_SEARCH = Routine(
     "tilted_search_free",
@@ -307,4 +311,4 @@ HAS_DIRECTION = Routine(
     "has_direction",
     constants={"least": 2.0**-1022, "scale": 2.0**522},
 )
-"""What is lost of an axis so long, where subnormal numbers are 0, is nothing."""
+"""Flushing subnormal components to 0 does not matter for an axis longer than 2^-500."""
