@@ -32,13 +32,17 @@ BITS = 10
 """A lattice has 2^BITS points."""
 
 GENERATOR = (1, 125, 265, 357, 593, 397, 473, 757, 417, 55)
-"""Of the lattice; the best powers found for the distance of its points in any two of the first nine coordinates."""
+"""The vector that generates the lattice: its points are i · GENERATOR / 2^BITS modulo 1, for i below 2^BITS.
+
+The numbers are the powers of 125. Of all bases, 125 was found to keep the points farthest apart in any two of the
+first nine coordinates.
+"""
 
 HIGHEST = 2.0
 """|z|/γ of the centre is below it."""
 
 RATIO_OCTAVES = 10
-"""c/a and d/b are from 2^−RATIO_OCTAVES to 2^RATIO_OCTAVES."""
+"""c/a and d/b, with a = α/b and c = γ/d, are from 2^−RATIO_OCTAVES to 2^RATIO_OCTAVES."""
 
 STRATA_NEAREST, STRATA_FARTHEST = -40, -30
 """Rows are from 2^STRATA_NEAREST to 2^STRATA_FARTHEST radii off contact."""
@@ -50,7 +54,7 @@ _HALVINGS = 54
 
 
 def lattice(draw: Draw, n: int) -> NDArray[np.float64]:
-    """The points of a shifted lattice in [0, 1)^10, (10, n); the first 2^k of them are spread evenly too."""
+    """Return n points of a lattice in [0, 1)^10 with a random shift, (10, n); the first 2^k are spread evenly too."""
     places = np.arange(n, dtype=np.int64)
     turned = np.zeros(n, dtype=np.int64)
     for bit in range(BITS):
@@ -61,14 +65,14 @@ def lattice(draw: Draw, n: int) -> NDArray[np.float64]:
 
 
 def octaves(share: Floats, low: int, high: int) -> Floats:
-    """Numbers from 2^low to 2^high for shares in [0, 1): evenly over octaves, and evenly within each octave."""
+    """Map numbers in [0, 1) to 2^low … 2^high: evenly over the octaves, and evenly within each octave."""
     octave = share * (high - low)
     whole = np.floor(octave)
     return ldexp(1 + (octave - whole), low + whole)
 
 
 def _around(share: Floats) -> tuple[Floats, Floats]:
-    """Directions all around, nearly evenly."""
+    """Map numbers in [0, 1) to directions all around, nearly evenly; return their cosines and sines."""
     quarter = np.floor(share * 4)
     cosine, sine = circle_at(_EIGHTH * (2 * (share * 4 - quarter) - 1))
     return (
@@ -78,13 +82,14 @@ def _around(share: Floats) -> tuple[Floats, Floats]:
 
 
 def _near(points: NDArray[np.float64]) -> Floats:
-    """The distances of a lattice's rows from contact, in radii; negative numbers are in contact."""
+    """Return the distances of a lattice's rows from contact, in radii; negative ones mean contact."""
     side, distance = points[5:7]
     outwards = np.where(np.floor(side * 4) % 2 == 0, 1.0, -1.0)
     return np.asarray(outwards * octaves(distance, STRATA_NEAREST, STRATA_FARTHEST))
 
 
 def _made(points: NDArray[np.float64], axis: Vectors, off: Floats) -> Rows:
+    """Make the rows of these points of a lattice, with these axes, `off` radii from contact, (n, 10)."""
     height, slope, shape, waist, azimuth, side, _, unit = points[:8]
     a, b = octaves(waist, -3, 7), octaves(unit, -1, 1)
     d = b * octaves(shape, -RATIO_OCTAVES, RATIO_OCTAVES)
@@ -97,14 +102,17 @@ def _made(points: NDArray[np.float64], axis: Vectors, off: Floats) -> Rows:
 
 
 def _centred(*lengths: Floats) -> Sizes:
-    """The sizes in units such that the greatest is about as far above 1 as the least is below it: none is extreme."""
+    """Scale α, γ, b, d of each row by one power of two: the greatest is about as far above 1 as the least is below."""
     octaves = np.stack([exponent(length) for length in lengths])
     shift = -((octaves.max(axis=0) + octaves.min(axis=0)) // 2)
     return Sizes(*(ldexp(length, shift) for length in lengths))
 
 
 def _foot(size: Sizes, level: Floats, axis: Vectors, outward: Floats) -> Floats:
-    """The height in γ of a point on the surface such that a centre that touches it is at `level`, in γ too."""
+    """Find the point of the surface that a spheroid with its centre at height `level` touches; return its height.
+
+    Both heights are in γ. `outward` is 1 for a spheroid outside the surface, −1 for one inside.
+    """
     ahead = (np.ones(len(level)), np.zeros(len(level)))
     reach = np.maximum(size.b, size.d) / size.gamma
     low, high = level - reach, level + reach
@@ -116,7 +124,7 @@ def _foot(size: Sizes, level: Floats, axis: Vectors, outward: Floats) -> Floats:
 
 
 def _turned(rows: Rows, to: tuple[Floats, Floats]) -> Rows:
-    """The rows, turned about the hyperboloid's axis until the centres are in these directions."""
+    """Turn each row about the hyperboloid's axis until its centre is in the direction `to` (cosine, sine)."""
     x, y = rows[:, 4].copy(), rows[:, 5].copy()
     radius = np.sqrt(x * x + y * y)
     there = radius > 0
@@ -129,25 +137,25 @@ def _turned(rows: Rows, to: tuple[Floats, Floats]) -> Rows:
 
 
 def upright(draw: Draw, n: int) -> Rows:
-    """Rows from 2⁻⁴⁰ to 2⁻³⁰ radii off contact, to either side of it, outside and inside; |z| below 2γ."""
+    """Make rows 2⁻⁴⁰ to 2⁻³⁰ radii off contact, to either side of it, outside and inside; |z| is below 2γ."""
     points = lattice(draw, n)
     return upright_at(points, _near(points))
 
 
 def upright_at(points: NDArray[np.float64], off: Floats) -> Rows:
-    """The rows of these points of a lattice, (10, n), `off` radii from contact."""
+    """Make the rows of these points of a lattice, (10, n), `off` radii from contact."""
     zero = np.zeros(len(off))
     return np.ascontiguousarray(_made(points, (zero, zero, np.ones(len(off))), off)[:, :7])
 
 
 def tilted(draw: Draw, n: int) -> Rows:
-    """The same for tilted spheroids, with axes in all directions."""
+    """Make rows as `upright` does, of tilted spheroids with axes in all directions."""
     points = lattice(draw, n)
     return tilted_at(points, _near(points))
 
 
 def tilted_at(points: NDArray[np.float64], off: Floats) -> Rows:
-    """The rows with axes of these points of a lattice, `off` radii from contact."""
+    """Make the rows with axes of these points of a lattice, `off` radii from contact."""
     up = points[8]
     across = np.sqrt(1 - up * up)
     cosine, sine = _around(points[9])
@@ -156,7 +164,7 @@ def tilted_at(points: NDArray[np.float64], off: Floats) -> Rows:
 
 RUNGS_ON_A_SIDE = 64
 RUNGS = 2 * RUNGS_ON_A_SIDE
-"""Rungs of a line: first those that are clear, then those in contact, each from the border outwards."""
+"""The number of rungs of a line: first the clear ones, then those in contact, on each side the nearest first."""
 
 NEAREST_OCTAVE, FARTHEST_OCTAVE = -48, 0
 """The size of a rung differs by 2^NEAREST_OCTAVE to 2^FARTHEST_OCTAVE of itself from that which touches."""
@@ -173,7 +181,7 @@ class LineFamily(Family):
     """A family whose rows are the rungs of all lines of a seed, line after line."""
 
     def rungs(self, seed: int, lattice: int, lines: Integers, rungs: Integers) -> Rows:
-        """The rows of these lines of a lattice, (n,), at these rungs, (n,)."""
+        """Return the rows of these lines of a lattice, (n,), at these rungs, (n,)."""
         rows, jitter = _lines(self.name, self.version, seed, lattice)
         return _resized(rows[lines], _changes(rungs, jitter[lines]))
 
@@ -187,6 +195,7 @@ class LineFamily(Family):
 
 
 def _not_alone(draw: Draw, n: int) -> Rows:
+    """Raise an error: a LineFamily makes its rows line by line, and needs no generator."""
     raise NotImplementedError(f"{n} rows of {draw} are made line by line")
 
 
@@ -199,14 +208,14 @@ SEARCHED = {
 
 @lru_cache(8)
 def _lines(name: str, version: int, seed: int, number: int) -> tuple[Rows, Floats]:
-    """The lines of a lattice: rows that are just clear, and the share of a rung by which their rungs are shifted."""
+    """Return the lines of a lattice: rows that are just clear, and the part of a rung by which rungs are shifted."""
     points = lattice(Draw(name, version, seed, number), LINES)
     rows = (tilted_at if "axis" in SEARCHED[name].groups else upright_at)(points, np.zeros(LINES))
     return _resized(rows, _touch(rows) - 1), points[6]
 
 
 def _touch(rows: Rows) -> Floats:
-    """The largest factor of each spheroid's size at which it is clear, (n,)."""
+    """Find the largest factor by which each spheroid can be multiplied and still is clear, (n,)."""
     # Bisection of bit patterns bisects the logarithm at first, and the factor itself at the end.
     below, above = (np.full(len(rows), factor).view(np.int64) for factor in (_LEAST, _MOST))
     while (above - below).max(initial=0) > 1:
@@ -217,26 +226,27 @@ def _touch(rows: Rows) -> Floats:
 
 
 def _resized(rows: Rows, change: Floats) -> Rows:
-    """The rows with spheroids enlarged by this share of their sizes."""
+    """Multiply b and d of each row by 1 + `change`."""
     resized = rows.copy()
     resized[:, 2:4] += rows[:, 2:4] * change[:, None]
     return resized
 
 
 def _changes(rungs: Integers, jitter: Floats) -> Floats:
-    """The relative difference between the size at these rungs and the size that touches."""
+    """Return the relative difference between the size at these rungs and the size that touches, (n,)."""
     change = octaves(_share(rungs, jitter), NEAREST_OCTAVE, FARTHEST_OCTAVE)
     return np.asarray(np.where(rungs < RUNGS_ON_A_SIDE, -change, change))
 
 
 def _share(rungs: Integers, jitter: Floats) -> Floats:
+    """Return the place of each rung on its side of the line: from 0, nearest to the border, to 1."""
     return np.asarray((rungs % RUNGS_ON_A_SIDE + jitter) / RUNGS_ON_A_SIDE)
 
 
 def octaves_of(name: str, seed: int, lines: Integers, rungs: Integers) -> Floats:
-    """The distances of these rungs of these lines of a searched family from contact, (n,).
+    """Return the distances from contact of these rungs of these lines of a searched family, (n,).
 
-    As a share of the octaves from NEAREST_OCTAVE to FARTHEST_OCTAVE.
+    The unit is the whole range of octaves: 0 means 2^NEAREST_OCTAVE, 1 means 2^FARTHEST_OCTAVE.
     """
     family, shares = SEARCHED[name], np.empty(len(lines))
     for lattice in sorted({*(lines // LINES).tolist()}):

@@ -48,7 +48,8 @@ class CancellationSearch:
     """A search for rows, in contact or not, on which a formula errs in a format; its first rows are from `stratum`.
 
     With `contact` the search looks for rows in contact that the formula calls clear, the dangerous mistake; without it
-    mostly for clear rows that it calls contact.
+    mostly for clear rows that it calls contact. `precision` is the name of the format, `beginning` the number of the
+    block of the stratum that has the first rows.
     """
 
     formula: str
@@ -60,14 +61,14 @@ class CancellationSearch:
 
 @dataclass(frozen=True, slots=True)
 class Found:
-    """A row and the backward error of the formula's answer about it."""
+    """A row, and `error`, the backward error of the formula's answer about it."""
 
     row: Row
     error: float
 
 
 def searches() -> tuple[CancellationSearch, ...]:
-    """Every search that contributes to the file, in order."""
+    """Return every search that contributes to the file, in order."""
     return tuple(
         CancellationSearch(formula, precision, contact, stratum, beginning)
         for formula, precision in DEFEATED
@@ -78,13 +79,13 @@ def searches() -> tuple[CancellationSearch, ...]:
 
 
 def worst_rows() -> Rows:
-    """The rows that all the searches find, float64 (n, 7)."""
+    """Run all the searches and return the rows that they find, float64 (n, 7)."""
     candidates = (worst_row(search) for search in searches())
     return rows_of([candidate.row for candidate in candidates if candidate is not None])
 
 
 def worst_row(search: CancellationSearch) -> Found | None:
-    """The worst row that a search finds; None if its error is at most TOLERANCE_U units."""
+    """Run a search and return the worst row that it finds; None if its error is at most TOLERANCE_U units."""
     draw = Draw(WORST_CANCELLATION, VERSION, SEED, *astuple(search))
     best = _worst(FAMILIES[search.stratum].block(SEED, search.beginning), search, [])
     for _ in range(ROUNDS if best else 0):
@@ -95,7 +96,7 @@ def worst_row(search: CancellationSearch) -> Found | None:
 
 
 def _worst(rows: Rows, search: CancellationSearch, before: Sequence[Found]) -> list[Found]:
-    """The BEAM worst rows among these and the earlier ones, each once."""
+    """Return the BEAM worst rows among these and the earlier ones (`before`), each once, the worst first."""
     overflow, underflow = leaves_range(search.formula, search.precision, rows)
     rows = rows[in_range(rows, search.precision) & within(rows) & ~(overflow | underflow)]
     positions = float_filter.positions(rows)
@@ -114,7 +115,7 @@ def _worst(rows: Rows, search: CancellationSearch, before: Sequence[Found]) -> l
 
 
 def _highest_exponent_first(wrong: Mapping[int, tuple[Row, Position]]) -> list[int]:
-    """Up to EXAMINED of the places, by the octave of the backward error, then in order."""
+    """Sort the places by the octave of the backward error, the highest first, and return at most EXAMINED of them."""
     octaves = []
     for place, (row, excuse) in wrong.items():
         pair = Pair.from_row(row)
@@ -123,12 +124,13 @@ def _highest_exponent_first(wrong: Mapping[int, tuple[Row, Position]]) -> list[i
 
 
 def _error(row: Row, excuse: Position) -> float:
+    """Estimate the backward error of a wrong answer about a row; `excuse` is a position for which it would be right."""
     pair = Pair.from_row(row)
     return backward_error.estimate(pair, exact.decide(pair.lengths), excuse)
 
 
 def _changed(draw: Draw, rows: Rows) -> Rows:
-    """Each row with a random one of its lengths changed, or with up to all of them, in one of four ways."""
+    """Return a copy of each row in which one or more random lengths are changed, in one of four ways."""
     n, width = rows.shape
     kind = draw.integers(n, 0, 3)[:, None]
     share = draw.integers(n, 0, 2)[:, None]  # the share of lengths to change: about all, a half, a quarter

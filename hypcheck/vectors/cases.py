@@ -1,7 +1,7 @@
 """Vector files: the content of cases with answers; whole files are read strictly, and written.
 
-Cases are about positions, of upright spheroids or of tilted ones, or about sweeps. format.py has the other parts of a
-file, and invalid_rows.py has the rows that must be refused.
+Cases are about positions, of upright spheroids or of tilted ones, or about sweeps. format.py reads and writes the other
+parts of a file, and invalid_rows.py the rows that must be refused.
 """
 
 from __future__ import annotations
@@ -91,12 +91,12 @@ class Vector:
 
     @property
     def position(self) -> Position:
-        """The answer about a pair."""
+        """The answer about a pair: its position."""
         return Position(self.answer)
 
     @property
     def hit(self) -> bool:
-        """The answer about a sweep."""
+        """The answer about a sweep: whether there is contact on it."""
         return bool(self.answer)
 
     @property
@@ -118,25 +118,25 @@ class Vector:
 
 
 def row_at(row: Row, time: Fraction) -> ExactRow:
-    """The pair at a time of a sweep, in ten numbers."""
+    """Return the pair at a time of a sweep, 0 to 1, in ten exact numbers."""
     here = place(row, time)
     return (*here.row, *here.axis)
 
 
 def units_of(row: ExactRow) -> Offset:
-    """The units of the three parts of an offset: b, b, d in a row of seven numbers, else b."""
+    """Return the units of the three parts of an offset: b, b, d in a row of seven numbers, else b, b, b."""
     b, d = Fraction(row[2]), Fraction(row[3])
     return b, b, b if PAIRS.has_axis(row) else d
 
 
 def point_at(row: ExactRow, offset: Offset) -> Offset:
-    """The point with this offset from the centre."""
+    """Return the point with this offset from the centre."""
     x, y, z = (Fraction(start) + unit * part for start, unit, part in zip(row[4:7], units_of(row), offset, strict=True))
     return x, y, z
 
 
 def offset_to(row: ExactRow, point: Offset) -> Offset:
-    """The offset of a point from the centre."""
+    """Return the offset of a point from the centre, in the units of units_of."""
     s, t, w = (
         (part - Fraction(start)) / unit for start, unit, part in zip(row[4:7], units_of(row), point, strict=True)
     )
@@ -149,7 +149,7 @@ _KINDS = {kind.value: kind for kind in Kind}
 
 
 def case_fields(content: Content) -> tuple[str, ...]:
-    """The names of the fields that each case has in a file with this content, in order."""
+    """Return the names of the fields that each case has in a file with this content, in order."""
     head = ("id", "row", "hex")
     if content.about_sweeps:
         return (*head, "hit", "first", "first_hex", *(() if content.ended else ("certificate", "flags")))
@@ -160,15 +160,15 @@ def case_fields(content: Content) -> tuple[str, ...]:
 
 
 def read_cases(path: str, content: Content | None = None) -> CaseFile:
-    """The vector file at `path`, with that content, if one is given.
+    """Read the vector file at `path`.
 
-    Raises InputError if it does not conform to the schema.
+    Raises InputError if it does not conform to the schema, or is of another content than `content`, if that is given.
     """
     return cases_of(read_document(path), content)
 
 
 def cases_of(document: JsonDocument, content: Content | None = None) -> CaseFile:
-    """The vector file that a document is, as read_cases reads it. Raises InputError."""
+    """Read a document as a vector file, as read_cases does. Raises InputError."""
     actual = content_of(document)
     if content is not None and content is not actual:
         wanted = f"{content.name!r}, rows of {len(content.columns)} numbers"
@@ -179,6 +179,7 @@ def cases_of(document: JsonDocument, content: Content | None = None) -> CaseFile
 
 
 def _case(name: str, table: StrictTable, content: Content, flags: Mapping[str, FlagFacts]) -> Vector:
+    """Read the fields of a case, each by its check. Raises InputError."""
     fields = case_fields(content)
     labels = {key: table.required(key, check) for key, check in _CHECKS.items() if key in fields}
     for key, (other, derived) in _DERIVED.items():
@@ -218,11 +219,12 @@ _number_or_inf = strict.or_word("inf", a_number)
 
 
 def _measure(value: object) -> float:
-    """A number, or inf."""
+    """Return the value if it is a number or inf. Raises ValueError."""
     return float(_number_or_inf(value))
 
 
 def _first(value: object) -> Bounds | None:
+    """Read the bounds of the time of first contact; None if there is no contact. Raises ValueError."""
     if value is None:
         return None
     wanted = "null, or two times from 0 to 1, the lower first"
@@ -246,11 +248,11 @@ _DERIVED: Mapping[str, tuple[str, Callable[[Any], object]]] = {
     "hit": ("first", lambda first: first is not None),
     "first_hex": ("first", lambda first: None if first is None else list(map(hex_of, first))),
 }
-"""The fields that follow from another: which one, and how."""
+"""The fields that follow from another field: the name of that one, and the function that derives the value."""
 
 
 def _equal_to(right: object, other: str) -> Check[object]:
-    """A check for what follows from another field."""
+    """Return the check of a value that follows from the field `other`, and must be `right`."""
 
     def check(value: object) -> object:
         if value != right or type(value) is not type(right):
@@ -261,12 +263,14 @@ def _equal_to(right: object, other: str) -> Check[object]:
 
 
 def _flips(table: StrictTable, position: Position, read: Check[Bracket]) -> Mapping[Position, Bracket]:
+    """Read the distance to each position other than `position`. Raises InputError."""
     others = [other for other in Position if other is not position]
     flips = table.required_table("flips", [other.label for other in others])
     return {other: flips.required(other.label, read) for other in others}
 
 
 def _distance(value: object) -> Bracket:
+    """Read one number as a bracket whose ends are equal. Raises ValueError."""
     distance = _measure(value)
     if not (0 <= distance <= 1 or distance == float("inf")):
         raise ValueError('from 0 to 1, or "inf"')
@@ -274,6 +278,7 @@ def _distance(value: object) -> Bracket:
 
 
 def _bracket(value: object) -> Bracket:
+    """Read the two ends of a bracket. Raises ValueError."""
     wanted = 'a list of 2 numbers from 0 to 1, the lower first, or of "inf" twice'
     lower, upper = strict.list_of(_measure, wanted, 2, 2)(value)
     if not (0 <= lower <= upper <= 1 or lower == upper == float("inf")):
@@ -282,6 +287,7 @@ def _bracket(value: object) -> Bracket:
 
 
 def _certificate(table: StrictTable, *, ended: bool) -> StoredCertificate:
+    """Read the certificate of a pair, which has exactly one part. Raises InputError."""
     keys = (*_CERTIFICATES, "pieces", "rule") if ended else _CERTIFICATES
     proof = table.required_table("certificate", keys)
     if len(proof) != 1:
@@ -300,7 +306,7 @@ def _piece(value: object) -> Piece:
 
 
 def _bound(infinite: str) -> Check[Fraction | None]:
-    """A check for a fraction, or the word for no bound, of which it makes None."""
+    """Return a check that reads a fraction, or the word `infinite` as None, which means no bound."""
     bound = strict.or_word(infinite, a_rational)
 
     def check(value: object) -> Fraction | None:
@@ -311,7 +317,7 @@ def _bound(infinite: str) -> Check[Fraction | None]:
 
 
 _PIECE = (_bound("-inf"), _bound("inf"), a_rational, a_rational)
-"""The checks of the ends of a piece, of its multiplier and its plane."""
+"""The checks of the four members of a piece: its two ends, its multiplier and its plane."""
 
 
 def _offset(value: object) -> Offset:
@@ -320,6 +326,7 @@ def _offset(value: object) -> Offset:
 
 
 def _passage(table: StrictTable) -> StoredCertificate:
+    """Read the certificate of a sweep. Raises InputError."""
     proof = table.required_table("certificate", _PASSAGE_FIELDS)
     steps = proof.required("pieces", strict.list_of(_step, "a list of pieces"))
     time, root = (proof.required(name, _rational_or_null) for name in ("time", "double_root"))
@@ -339,12 +346,12 @@ def _rational_or_null(value: object) -> Fraction | None:
 
 
 def cases_text(file: CaseFile) -> str:
-    """The whole document."""
+    """Return the text of the whole document."""
     return document_text(file, (case_text(case, file.content) for case in file.cases))
 
 
 def case_text(case: Vector | InvalidRow, content: Content) -> str:
-    """One case of a file with that content, an object on one line."""
+    """Return the text of one case of a file with that content, an object on one line."""
     if isinstance(case, InvalidRow):
         return invalid_row_text(case)
     return object_text({name: _TEXTS[name](case, content) for name in case_fields(content)})
@@ -387,6 +394,7 @@ def _piece_members(piece: Piece) -> list[str]:
 
 
 def _derived_text(name: str) -> Callable[[Any, Content], str]:
+    """Return the function that makes the text of a field that follows from another."""
     other, derived = _DERIVED[name]
     return lambda case, _: json_text(derived(getattr(case, other)))
 

@@ -53,7 +53,7 @@ class LabelFault:
 
 
 def faults_of(file: CaseFile) -> list[LabelFault]:
-    """Every wrong label of a file of cases, in order; for rows to refuse, each wrong claim about the faulty columns."""
+    """Find every wrong label of a file of cases, in order; of rows to refuse, each wrong claim about faulty columns."""
     sentences_of_cases: Iterable[Iterator[str]]
     if file.content.refused:
         sentences_of_cases = (_wrong_columns(case, file.content.columns) for case in file.cases)
@@ -67,6 +67,7 @@ def faults_of(file: CaseFile) -> list[LabelFault]:
 
 
 def _wrong_columns(case: InvalidRow, columns: tuple[str, ...]) -> Iterator[str]:
+    """Yield a sentence if the columns that a refused row names are not those at fault."""
     actual = columns_at_fault(case.row, columns)
     if actual != case.columns:
         claim = f"columns {', '.join(case.columns)} are said to be at fault"
@@ -74,6 +75,7 @@ def _wrong_columns(case: InvalidRow, columns: tuple[str, ...]) -> Iterator[str]:
 
 
 def _of_positions(file: CaseFile) -> Iterator[Iterator[str]]:
+    """Yield for each case of a file of pairs the sentences about its wrong labels."""
     content, cases = file.content, file.cases
     pairs = [Pair.from_row(case.row) for case in cases]
     truths = [exact.decide(pair.lengths) for pair in pairs]
@@ -85,7 +87,7 @@ def _of_positions(file: CaseFile) -> Iterator[Iterator[str]]:
 
 
 def _unproved(case: Vector, pair: Pair, _truth: Decision) -> Iterator[str]:
-    """A sentence for each of position and tangency that the certificate does not prove."""
+    """Yield a sentence if the certificate does not prove the position, or the tangency."""
     contact = case.position is Position.CONTACT
     claim = f"{case.position.label}, tangent" if case.tangent else case.position.label
     if not check_certificate(pair, case.certificate):
@@ -97,7 +99,11 @@ def _unproved(case: Vector, pair: Pair, _truth: Decision) -> Iterator[str]:
 
 
 def _unproved_by_rule(case: Vector, pair: Pair, truth: Decision) -> Iterator[str]:
-    """As _unproved if the hyperboloid ends: a touch rests on the exact rule; the least value must not contradict it."""
+    """Yield sentences as _unproved does, for a hyperboloid that ends.
+
+    A contact may have no certificate. Then the exact decision must confirm it. The least value of truth/least.py must
+    not contradict any position.
+    """
     other = least.position(pair)
     claim = f"{case.position.label}, tangent" if case.tangent else case.position.label
     by_rule = case.witness == StoredCertificate() and case.position is Position.CONTACT
@@ -112,7 +118,10 @@ def _unproved_by_rule(case: Vector, pair: Pair, truth: Decision) -> Iterator[str
 def _wrong_measures(
     case: Vector, content: Content, pair: Pair, truth: Decision, proved: set[Position], flags: Sequence[str]
 ) -> Iterator[str]:
-    """A sentence for each wrong one of the kind, the clearance, the flips and the flags that the case has."""
+    """Yield a sentence for each measure of the case that is wrong: kind, clearance, flips, flags.
+
+    `proved` are the positions whose lower bound of the flip is proved already; `flags` are the right flags.
+    """
     if not content.tilted and (kind := classify_by_roots(pair).kind) is not case.kind:
         was, now = (named.value if named else None for named in (case.kind, kind))
         yield f"kind is {was}; the roots say {now}"
@@ -126,6 +135,7 @@ def _wrong_measures(
 
 
 def _wrong_flips(case: Vector, content: Content, pair: Pair, truth: Decision) -> Iterator[str]:
+    """Yield a sentence for each wrong flip distance of an upright pair."""
     for position, distance in flips(content, pair, truth).items():
         stated, right = case.flips[position].upper, distance.upper
         if stated != right:
@@ -133,6 +143,7 @@ def _wrong_flips(case: Vector, content: Content, pair: Pair, truth: Decision) ->
 
 
 def _wrong_brackets(case: Vector, pair: Pair, truth: Decision, proved: set[Position]) -> Iterator[str]:
+    """Yield a sentence for each flip of a tilted pair whose bracket cannot be proved again."""
     for other, ends in case.flips.items():
         if not is_bracket(pair, truth, other, ends, cuts=0, lower_holds=other in proved):
             bracket_text = f"{decimal_of(ends.lower)} … {decimal_of(ends.upper)}"
@@ -140,7 +151,10 @@ def _wrong_brackets(case: Vector, pair: Pair, truth: Decision, proved: set[Posit
 
 
 def _proved_lower_ends(cases: Sequence[Vector]) -> list[set[Position]]:
-    """For each case the other positions whose lower bound float64 proves. All cases together take little time."""
+    """Prove lower bounds of flips in float64, of all cases together, which is fast.
+
+    Returns for each case the positions to which the lower bound is proved.
+    """
     proved: list[set[Position]] = [set() for _ in cases]
     brackets = [
         (index, other, ends.lower)
@@ -161,10 +175,12 @@ def _proved_lower_ends(cases: Sequence[Vector]) -> list[set[Position]]:
 
 
 def _of_sweeps(file: CaseFile) -> Iterator[Iterator[str]]:
+    """Yield for each case of a file of sweeps the sentences about its wrong labels."""
     return map(_ended_sweep_sentences if file.content.ended else _sweep_sentences, file.cases)
 
 
 def _sweep_sentences(case: Vector) -> Iterator[str]:
+    """Yield a sentence for each wrong label of a sweep beside a hyperboloid without ends."""
     if not check_passage(case.row, case.passage_certificate, case.first):
         if case.first is None:
             yield "the certificate does not prove that the sweep is clear"
@@ -177,14 +193,17 @@ def _sweep_sentences(case: Vector) -> Iterator[str]:
 
 
 _TIMES = 16
-"""Pieces of a sweep beside a hyperboloid that ends, at whose ends the least value looks for contact."""
+"""Number of pieces into which a sweep beside a hyperboloid that ends is cut; the least value is asked at their ends."""
 
 _SLACK = 2.0**-30
 """The test uses a spheroid that is smaller or larger by this part, so that a rounded centre does not matter."""
 
 
 def _ended_sweep_sentences(case: Vector) -> Iterator[str]:
-    """For a sweep if the hyperboloid ends: compare with a new exact decision and with the least value."""
+    """Yield a sentence for each wrong label of a sweep beside a hyperboloid that ends.
+
+    Compare with a new exact decision, and at some times with the least value.
+    """
     truth = passage_of_row(case.row)
     first = (truth.first_lower, truth.first_upper) if truth.hit else None
     if first != case.first:
@@ -203,18 +222,20 @@ def _bounds_text(first: tuple[float, float] | None) -> str:
 
 
 def _least_at(row: Row, time: float, scale: float) -> Position | None:
+    """Return the position at a time of a sweep with b and d scaled, by the least value; None if it is undecided."""
     alpha, gamma, b, d, *others = row
     centre = [start + time * (end - start) for start, end in zip(others[:3], others[3:6], strict=True)]
     return least.position(Pair.from_row((alpha, gamma, b * scale, d * scale, *centre, *others[6:])))
 
 
 def _wrong_flags(case: Vector, flags: Sequence[str]) -> Iterator[str]:
+    """Yield a sentence if the flags of the case are not the right ones."""
     if set(flags) != set(case.flags):
         yield f"flags are {', '.join(case.flags) or 'none'}; they are {', '.join(flags) or 'none'}"
 
 
 def wrong_description(head: Metadata) -> Iterator[str]:
-    """A sentence for each wrong description of a known family in a file; the command that made it is not compared."""
+    """Yield a sentence for each wrong description of a known family in a file; `made_by` is not compared."""
     known = frozen.head_of(head.name) if head.name in frozen.ALL_NAMES else None
     if known is None or head.version < known.version:
         return
@@ -223,14 +244,14 @@ def wrong_description(head: Metadata) -> Iterator[str]:
 
 
 def wrong_meanings(flags: Mapping[str, FlagFacts], known: Mapping[str, FlagFacts]) -> Iterator[str]:
-    """A sentence for each flag that a file describes otherwise than the checked meaning."""
+    """Yield a sentence for each flag that a file describes in other words than `known`."""
     for flag, facts in flags.items():
         for name, stated, right in _differences(facts, known[flag]):
             yield f"the {name} of the flag {flag} is {stated}; it is {right}"
 
 
 def _differences(there: Metadata | FlagFacts, known: Metadata | FlagFacts) -> Iterator[tuple[str, str, str]]:
-    """The names of differing fields, each with the file's text, cut if it is long, and the right text in full."""
+    """Yield the name of each differing field, with the file's text, cut if it is long, and the right text in full."""
     for field in fields(known):
         stated, right = getattr(there, field.name), getattr(known, field.name)
         if stated != right:
@@ -256,12 +277,12 @@ class MetadataFault:
 
 
 def shipped_files() -> list[str]:
-    """The paths of the frozen files; every file must exist."""
+    """Return the paths of all frozen files, which must exist."""
     return [str(frozen.path_of(name)) for name in frozen.ALL_NAMES]
 
 
 def examine(paths: Iterable[str]) -> Iterator[FileReport]:
-    """A report on each file in turn.
+    """Check each file in turn and yield its report.
 
     Raises InputError if a file does not conform to its schema, NothingJudgedError if it has no cases.
     """

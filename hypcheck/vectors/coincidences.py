@@ -3,6 +3,12 @@
 Next to tangencies there are rows at tiny distances, and ladders of ulps: every power of two from 1 to 2⁴⁰, on both
 sides, one after the other. On the ring Δ = 0, but nothing touches; if c² = a, the sphere has the same curvature as the
 groove. The borders are those of regimes, planes and lines of symmetry, and vanishing coefficients.
+
+The letters below: a = α/b, c = γ/d. In a formula x, y are in units of b, and z in units of d, as in the space of
+Theorem 1, where the spheroid is the unit ball; r = √(x² + y²). The cubic is g(λ) = λ³ + c2 λ² + c1 λ + c0, c0 = −a²c²
+(docs/mathematics.md), and Δ its discriminant. With a < 1 the ball is wider than the throat, the hole at the waist; with
+c² < a it is too round for the groove, the hollow around the waist. A regime is one of the four combinations of a < 1 or
+not with c² < a or not.
 """
 
 from __future__ import annotations
@@ -30,14 +36,15 @@ from hypcheck.vectors.draw import Draw, Integers, Maker, exponent, in_turn, ldex
 
 
 def exact_maker(construction: Callable[[Draw, int], tuple[Rows, Mask]]) -> Maker:
-    """The generator for a construction that returns rows and a mask of the usable ones."""
+    """Return the generator of the usable rows of a construction, which returns rows and a mask of the usable ones."""
     return lambda draw, n: in_metres(draw, gather(draw, n, construction))
 
 
 def reach(rows: Rows) -> Integers:
-    """The exponent of the longest of α/b, |x|/b, |y|/b and |z|/d: the factor from a relative change to radii.
+    """Return the e for which the largest of α/b, |x|/b, |y|/b and |z|/d is from 2^e to 2^(e + 1), (n,).
 
-    γ is left out, because it moves the surface by no more than r and α together.
+    So a relative change δ of one of these lengths moves spheroid and surface by at most about 2^(e + 1) δ radii. γ is
+    left out, because it moves the surface by no more than r and α together.
     """
     alpha, _, b, d, x, y, z = np.abs(rows).T
     return np.maximum(exponent(np.maximum(np.maximum(alpha, x), y) / b), exponent(z / d))
@@ -46,7 +53,7 @@ def reach(rows: Rows) -> Integers:
 def _touching(
     construction: Callable[[Draw, int], DoubleRoots], *, outer: bool, tangent: bool = True, farthest: float = np.inf
 ) -> Maker:
-    """The generator of double roots that are tangencies or not, outer or not, with a `reach` of at most `farthest`."""
+    """Return the generator of double roots, tangencies or not, outer or not, with a `reach` of at most `farthest`."""
 
     def attempt(draw: Draw, n: int) -> tuple[Rows, Mask]:
         tangencies = construction(draw, n)
@@ -78,7 +85,7 @@ degenerate_crossing = in_turn(
 
 
 def ulps_away(draw: Draw, rows: Rows) -> Rows:
-    """The rows with one length each, any but a zero, moved by 1, 2, 4 … or 2^ULPS ulp to either side.
+    """Move one nonzero length of each row by 1, 2, 4 … or 2^ULPS ulp to either side.
 
     The steps are fewer if they would exceed about 2⁻⁸ radii, so that no row is moved through the whole surface.
     """
@@ -88,7 +95,10 @@ def ulps_away(draw: Draw, rows: Rows) -> Rows:
 
 
 def near_tangent(*, outer: bool) -> Maker:
-    """Tangencies from one side: half are moved by ulps, half along the normal by 2⁻⁵⁰ to 2⁻⁹ radii, out or in."""
+    """Return the generator of rows near tangencies from one side.
+
+    Half of the tangencies are moved by ulps, half along the normal by 2⁻⁵⁰ to 2⁻⁹ radii, out or in.
+    """
 
     def beside(construction: Callable[[Draw, int], DoubleRoots]) -> Maker:
         def attempt(draw: Draw, n: int) -> tuple[Rows, Mask]:
@@ -105,11 +115,15 @@ def near_tangent(*, outer: bool) -> Maker:
 
 
 def _small(draw: Draw, n: int) -> Floats:
+    """Return steps from 2⁻⁵⁰ to 2⁻⁹ radii, of either sign."""
     return draw.signed(n, -50, -9)
 
 
 def _along_the_normal(rows: Rows, sine: Floats, step: Floats, *, outer: bool) -> Rows:
-    """The rows with the centre moved by `step` radii away from the touched point; its radius and height are ≥ 0."""
+    """Move each centre, which has z ≥ 0, by `step` radii away from the point that it touches.
+
+    The normal there is (√(1 − sine²), −sine), across the axis and along it. `outer`: the spheroid is outside.
+    """
     _, _, b, d, x, y, z = rows.T
     cosine = np.sqrt(1 - sine * sine)
     away = step if outer else -step
@@ -123,13 +137,13 @@ def _along_the_normal(rows: Rows, sine: Floats, step: Floats, *, outer: bool) ->
 
 
 def degenerate_neighbourhood(draw: Draw, n: int) -> Rows:
-    """Degenerate crossings moved by ulps: contact on both sides, though Δ changes its sign."""
+    """Move degenerate crossings by ulps: both sides are in contact, though Δ changes its sign."""
     return ulps_away(draw, degenerate_crossing(draw, n))
 
 
 @exact_maker
 def on_surface(draw: Draw, n: int) -> tuple[Rows, Mask]:
-    """Centres on the surface: r/α and z/γ are hypotenuse/leg and other leg/leg of one Pythagorean triple."""
+    """Put centres on the surface: r/a and z/c are hypotenuse/leg and other leg/leg of one Pythagorean triple."""
     leg, other, hypotenuse = triples(draw, n, 12)
     x, y, turn = turned(draw, n)
     unit, tall = big_integers_of_any_length(draw, n, 12), big_integers_of_any_length(draw, n, 12)
@@ -141,7 +155,7 @@ def on_surface(draw: Draw, n: int) -> tuple[Rows, Mask]:
 
 
 RUNGS = 2 * (ULPS + 1)
-"""Consecutive rows of one tangency: 1 ulp up, 1 down, 2 up, 2 down … 2^ULPS up, 2^ULPS down."""
+"""The number of consecutive rows of one tangency: 1 ulp up, 1 down, 2 up, 2 down … 2^ULPS up, 2^ULPS down."""
 
 FARTHEST = 52 - 8 - 1 - ULPS
 """The exponent of the longest ratio of a length to b or d at which 2^ULPS ulps of it are within about 2⁻⁸ radii."""
@@ -156,7 +170,7 @@ _starts = in_turn(
 
 
 def ladder(draw: Draw, n: int) -> Rows:
-    """For each tangency RUNGS consecutive rows, each with one nonzero length moved."""
+    """Make RUNGS consecutive rows of each tangency; one nonzero length is moved by a different step in each of them."""
     count = -(-n // RUNGS)
     start = _starts(draw, count)
     chosen = draw.integers(count, 0, start.shape[1] - 1)
@@ -178,7 +192,7 @@ ring = in_turn(
 
 
 def ring_neighbourhood(draw: Draw, n: int) -> Rows:
-    """Rows up to 2⁻⁴⁰ … 2⁻⁶ radii from the ring, in its plane or out of it; every fourth has the tower's ratios."""
+    """Make rows 2⁻⁴⁰ … 2⁻⁶ radii from the ring, in its plane or out of it; every fourth has the tower's a and c."""
     tower = turns(n, True, False, False, False)
     a = np.where(tower, 8.0, draw.log_uniform(n, -3, 10))
     c = np.where(tower, 17.8 / 0.15, np.sqrt(a) * draw.log_uniform(n, 1, 8))
@@ -191,10 +205,10 @@ def ring_neighbourhood(draw: Draw, n: int) -> Rows:
 
 
 def osculation(draw: Draw, n: int) -> Rows:
-    """Rows with c² = a (1 ± 2⁻⁵⁰ … 2⁻³) and centres near r = a + 1 in or near the plane of the waist.
+    """Make rows with c² = a (1 ± 2⁻⁵⁰ … 2⁻³) and centres near r = a + 1 in or near the plane of the waist.
 
-    Half of the centres are in or above the plane at random; half are one radius, changed a little, from the groove's
-    bottom.
+    Half of the centres have r near a + 1 and any small height; half are nearly one radius away from a point of the
+    surface near the waist.
     """
     a = draw.log_uniform(n, -3, 12)
     c = np.sqrt(a * (1 + draw.signed(n, -50, -3)))
@@ -209,7 +223,7 @@ def osculation(draw: Draw, n: int) -> Rows:
 
 
 def near_axis(draw: Draw, n: int) -> Rows:
-    """a = 1 ± 2⁻⁵⁰ … 2⁻³, r and z as small as a − 1 and √|a − 1|, or 0: the ball nearly fills the throat."""
+    """Make rows with |a − 1| from 2⁻⁵⁰ to 2⁻³, r about |a − 1| or 0, z about √|a − 1| or 0: the ball fits tightly."""
     gap = draw.log_uniform(n, -50, -3)
     a = 1 + np.where(turns(n, True, False), gap, -gap)
     c = draw.log_uniform(n, -2, 7)
@@ -219,7 +233,7 @@ def near_axis(draw: Draw, n: int) -> Rows:
 
 
 def axis(draw: Draw, n: int) -> Rows:
-    """Rows with x = y = 0: at the origin, at heights near the height from which the ball fits, and at any height."""
+    """Make rows with x = y = 0: at the origin, near the height from which on the ball fits in, and at any height."""
     a, c = random_pairs.all_regimes(draw, n)
     fits = np.sqrt(np.maximum((a * a + c * c) * (1 - a * a), 0)) / a
     hair = 1 + draw.signed(n, -50, -1)
@@ -229,7 +243,7 @@ def axis(draw: Draw, n: int) -> Rows:
 
 
 def waist(draw: Draw, n: int) -> Rows:
-    """z = 0: near r = a − 1, a + 1 and the radius where a sphere too round for the groove leaves it, or anywhere."""
+    """Make rows with z = 0: r is near |a − 1|, a + 1 or the r at which a ball leaves the groove's two sides, or any."""
     a, c = random_pairs.all_regimes(draw, n)
     both_flanks = np.sqrt((a * a + c * c) * (1 + 1 / (c * c)))
     hair = draw.signed(n, -50, -1)
@@ -240,7 +254,7 @@ def waist(draw: Draw, n: int) -> Rows:
 
 
 def regime_borders(draw: Draw, n: int) -> Rows:
-    """Rows with a = 1 and c² = a, exactly or one ulp of a size to either side, centres all around the surface."""
+    """Make rows with a = 1 or c² = a, exactly or one ulp of a size to either side, centres all around the surface."""
     aim = turns(n, True, False)
     b = draw.log_uniform(n, *random_pairs.UNITS)
     top, bottom = draw.integers(n, 1, 4095).astype(np.float64), draw.integers(n, 1, 4095).astype(np.float64)
@@ -261,12 +275,12 @@ def regime_borders(draw: Draw, n: int) -> Rows:
 
 
 def out_of_regime(draw: Draw, n: int) -> Rows:
-    """a < 1 or c² < a or both: spheres stuck in the throat, spheres on both flanks of the groove, and clear ones."""
+    """Make rows with a < 1 or c² < a or both: balls stuck in the throat or in the groove, and clear ones."""
     return in_turn(_throat, _groove, _neither_condition)(draw, n)
 
 
 def _throat(draw: Draw, n: int) -> Rows:
-    """a < 1: centres up to 1.2 times as far out, and twice as high, as those of a sphere stuck in the throat."""
+    """Make rows with a < 1: r up to 1.2 |1 − a|, heights up to twice that of a ball that is stuck in the throat."""
     a, c = draw.log_uniform(n, -5, 0) * 0.999, draw.log_uniform(n, -4, 3)
     stuck = np.sqrt((a * a + c * c) * (1 - a * a)) / a
     radius = np.abs(1 - a) * draw.between(n, 0, 1.2)
@@ -274,7 +288,7 @@ def _throat(draw: Draw, n: int) -> Rows:
 
 
 def _groove(draw: Draw, n: int) -> Rows:
-    """c² < a: from the bottom of the groove to a little beyond where the sphere leaves its flanks."""
+    """Make rows with c² < a: r from the groove's bottom to a little beyond where the ball leaves both its sides."""
     a = draw.log_uniform(n, -3, 8)
     c = np.sqrt(a * draw.log_uniform(n, -8, 0) * 0.99)
     leaves = np.sqrt((a * a + c * c) * (1 + 1 / (c * c)))
@@ -284,14 +298,17 @@ def _groove(draw: Draw, n: int) -> Rows:
 
 
 def _neither_condition(draw: Draw, n: int) -> Rows:
-    """a < 1 and c² < a, centres all around the surface."""
+    """Make rows with a < 1 and c² < a, centres all around the surface."""
     a = draw.log_uniform(n, -5, 0) * 0.999
     return random_pairs.around(draw, random_pairs.sizes(draw, a, np.sqrt(a * draw.log_uniform(n, -6, 0) * 0.99)))
 
 
 @exact_maker
 def second_coefficient_zero(draw: Draw, n: int) -> tuple[Rows, Mask]:
-    """c2 = 0: (a − x)(a + x) = c² + y² + z² − 1; the two factors are a random τ and the right side over τ."""
+    """Make rows with c2 = 0, which is (a − x)(a + x) = c² + y² + z² − 1.
+
+    The first factor is a random rational number, the other one the right side divided by it.
+    """
     unit, t = big_integers(draw, n, 1, 40), big_integers(draw, n, 1, 40)
     c, y, z = big_integers(draw, n, 1, 200), big_integers(draw, n, 0, 60), big_integers(draw, n, 0, 200)
     y, z = np.where(turns(n, True, False), 0, y), np.where(turns(n, True, True, False), z, 0)
@@ -304,7 +321,10 @@ def second_coefficient_zero(draw: Draw, n: int) -> tuple[Rows, Mask]:
 
 @exact_maker
 def first_coefficient_zero(draw: Draw, n: int) -> tuple[Rows, Mask]:
-    """c1 = 0: x² + y² = a² e² + 1 with c² e² = c² + z² − 1; both are split into two factors as for c2 = 0."""
+    """Make rows with c1 = 0, which is x² + y² = (a e)² + 1 for the number e with (c e)² = c² + z² − 1.
+
+    Both equations are solved as in second_coefficient_zero: (c e − z)(c e + z) = c² − 1, and likewise for a e and x.
+    """
     c, unit, t = big_integers(draw, n, 1, 60), big_integers(draw, n, 1, 60), big_integers(draw, n, 1, 60)
     f = unit * unit - c * c - t * t  # c e = f/(2 unit t)
     y, u, s = big_integers(draw, n, 0, 60), big_integers(draw, n, 1, 60), big_integers(draw, n, 1, 60)
@@ -322,7 +342,7 @@ def first_coefficient_zero(draw: Draw, n: int) -> tuple[Rows, Mask]:
 
 @exact_maker
 def first_coefficient_zero_for_any_waist(draw: Draw, n: int) -> tuple[Rows, Mask]:
-    """c1 = 0 for every a: x² + y² = 1 and c² + z² = 1, the case e = 0 of first_coefficient_zero."""
+    """Make rows with c1 = 0 whatever a is: x² + y² = 1 and c² + z² = 1, the case e = 0 of first_coefficient_zero."""
     alpha, b = big_integers_of_any_length(draw, n, 20), big_integers_of_any_length(draw, n, 10)
     alpha = np.where(turns(n, True, True, False), alpha + b, alpha)
     x, y, turn = turned(draw, n)
@@ -336,7 +356,7 @@ def first_coefficient_zero_for_any_waist(draw: Draw, n: int) -> tuple[Rows, Mask
 
 @exact_maker
 def both_coefficients_zero(draw: Draw, n: int) -> tuple[Rows, Mask]:
-    """c1 = c2 = 0, g = λ³ − a²c²: c² = a, z = 0 and x² + y² = (c² − 1)² + c²; always contact."""
+    """Make rows with c1 = c2 = 0: c² = a, z = 0, x² + y² = (c² − 1)² + c². All are in contact, and g = λ³ − a²c²."""
     c, unit = big_integers_of_any_length(draw, n, 12), big_integers_of_any_length(draw, n, 12)
     zero = np.zeros(n, dtype=object)
     return to_rows(radial=(c * c, unit * unit, abs(c * c - unit * unit), c * unit), axial=(c, unit, zero))
@@ -348,7 +368,7 @@ coefficient_zero = in_turn(
 
 
 def _little(draw: Draw, n: int) -> Floats:
-    """Shares from 2⁻¹⁰⁰⁰ to 2⁻²⁰ of either sign, half of them above 2⁻⁶⁰, as rounding errors of an angle are."""
+    """Return numbers ±2⁻¹⁰⁰⁰ … ±2⁻²⁰, half of them beyond ±2⁻⁶⁰, where rounding errors of an angle lie."""
     deep = draw.signs(n) > 0
     return draw.signs(n) * np.where(deep, draw.log_uniform(n, -1000, -60), draw.log_uniform(n, -60, -20))
 
@@ -357,7 +377,7 @@ NEARLY_ZERO = ("x", "y", "z", "xz", "yz", "xy")
 
 
 def nearly_zero(draw: Draw, n: int) -> Rows:
-    """Pairs of which one or two coordinates, those of NEARLY_ZERO in turn, are nearly zero beside the sizes."""
+    """Make pairs with one or two coordinates, those of NEARLY_ZERO in turn, nearly zero compared with the sizes."""
     x_is, y_is, z_is = (turns(n, *(axis in axes for axes in NEARLY_ZERO)) for axis in "xyz")
     a, c = random_pairs.all_regimes(draw, n)
     a = np.where(x_is & y_is, 1 + draw.signed(n, -20, -1), a)

@@ -64,7 +64,7 @@ FACTORS: Mapping[str, tuple[tuple[str, ...], ...]] = {
 """The factors of each family, and the values of each factor."""
 
 CANDIDATES = 64
-"""For each row; about one row in a hundred finds none on its side."""
+"""Candidates that are drawn for each row; for about one row in a hundred none is on the side that it must have."""
 
 
 NEVER = (
@@ -79,24 +79,27 @@ NEVER = (
     {MOTIONS: "still", SIDES: "exterior", ENDS: "contact at the end"},
     {MOTIONS: "still", SIDES: "interior", ENDS: "contact at the end"},
 )
-"""Values that no row has together: on the axis and on the cone a centre is inside; as wide as the waist, a spheroid
-does not fit there, nor farther up between the cone and the surface; what stays ends as it begins."""
+"""Values that no row has together.
+
+A centre on the axis or on the cone is inside the hyperboloid. A spheroid as wide as the waist has no room there, nor
+farther up between the cone and the surface. A spheroid that does not move ends as it begins.
+"""
 
 
 def goes_together(values: Mapping[tuple[str, ...], str]) -> bool:
-    """Whether some row has all these values, by factor."""
+    """Decide whether a row can have all these values; `values` has a value for each factor."""
     return not any(all(values.get(factor) == value for factor, value in never.items()) for never in NEVER)
 
 
 @cache
 def design(name: str) -> NDArray[np.int64]:
-    """The combinations of a family: for each, the place of each factor's value, (combinations, factors)."""
+    """Read the combinations of a family: the index of each factor's value, (combinations, factors)."""
     lines = toml.shipped("hypcheck.vectors", "crossed.toml")[name]["combinations"].split()
     return np.asarray([[int(letter, 16) for letter in line] for line in lines], dtype=np.int64)
 
 
 def asked(name: str, count: int, strength: int) -> tuple[int, int]:
-    """The number of combinations of `strength` values in the first `count` rows, and of all compatible ones."""
+    """Count the combinations of `strength` values in the first `count` rows, and all compatible combinations."""
     factors, rows = FACTORS[name], design(name)[:count].tolist()
     met = {
         tuple((place, row[place]) for place in places)
@@ -108,7 +111,7 @@ def asked(name: str, count: int, strength: int) -> tuple[int, int]:
 
 @cache
 def possible(name: str, strength: int) -> frozenset[tuple[tuple[int, int], ...]]:
-    """All compatible combinations of `strength` values of a family's factors, as (factor, value) places."""
+    """Return all compatible combinations of `strength` values of a family's factors, as (factor, value) indices."""
     factors = FACTORS[name]
     chosen: list[tuple[tuple[int, int], ...]] = [()]
     for number, factor in enumerate(factors):
@@ -121,7 +124,7 @@ def possible(name: str, strength: int) -> frozenset[tuple[tuple[int, int], ...]]
 
 
 def crossed(name: str) -> Maker:
-    """The generator of the family of that name."""
+    """Return the generator of the family of that name."""
     factors = FACTORS[name]
 
     def make(draw: Draw, n: int) -> Rows:
@@ -135,7 +138,7 @@ def crossed(name: str) -> Maker:
 
 
 def _candidates(draw: Draw, n: int, values: Mapping[tuple[str, ...], NDArray[Any]]) -> tuple[Rows, Mask]:
-    """A row for each combination of values, and a mask of the rows on the combination's side."""
+    """Draw a row for each combination of values; return the rows and a mask of those on the combination's side."""
     size = _sizes(draw, n, values)
     centre = _centre(draw, size, values)
     free = [draw.integers(n, 1, 5) * draw.signs(n) for _ in range(3)]
@@ -154,15 +157,17 @@ def _candidates(draw: Draw, n: int, values: Mapping[tuple[str, ...], NDArray[Any
 
 
 def _side(rows: Rows) -> NDArray[np.int8]:
+    """Return the position of each row, int8 (n,)."""
     return np.asarray(classify(rows))
 
 
 def _code(sides: NDArray[Any]) -> Integers:
+    """Turn the values of SIDES into the numbers of positions."""
     return np.select([sides == "exterior", sides == "interior"], [1, -1], 0)
 
 
 def _sizes(draw: Draw, n: int, values: Mapping[tuple[str, ...], NDArray[Any]]) -> list[Floats]:
-    """α, γ, b, d: whole numbers, or quarters of them."""
+    """Draw α, γ, b, d that have the wanted coincidences: whole numbers, or quarters of them."""
     kind = values[SIZES]
     alpha, gamma = (draw.integers(n, 1, 12).astype(np.float64) for _ in range(2))
     b, d = (ldexp(draw.integers(n, 1, 12), -2 * draw.integers(n, 0, 1)) for _ in range(2))
@@ -174,7 +179,7 @@ def _sizes(draw: Draw, n: int, values: Mapping[tuple[str, ...], NDArray[Any]]) -
 
 
 def _centre(draw: Draw, size: list[Floats], values: Mapping[tuple[str, ...], NDArray[Any]]) -> list[Floats]:
-    """x, y, z."""
+    """Draw x, y, z that have the wanted coincidences."""
     n, (alpha, gamma, _, _) = len(size[0]), size
     place, height = values[PLACES], values[HEIGHTS]
     x, y, z = (draw.integers(n, 1, high) * draw.signs(n) for high in (14, 14, 30))
@@ -199,7 +204,7 @@ def _centre(draw: Draw, size: list[Floats], values: Mapping[tuple[str, ...], NDA
 
 
 def _motion(motion: NDArray[Any], centre: list[Floats], free: list[Floats]) -> list[Floats]:
-    """The vectors from the start to the end."""
+    """Make the vectors from the start to the end, out of the centre and three random whole numbers."""
     x, y, z = centre
     i, j, k = free
     zero = np.zeros(len(x))
@@ -218,7 +223,7 @@ def _motion(motion: NDArray[Any], centre: list[Floats], free: list[Floats]) -> l
 
 
 def _axis(kind: NDArray[Any], centre: list[Floats], free: list[Floats], motion: list[Floats] | None) -> list[Floats]:
-    """A vector along the spheroid's axis; along x if the vector to which it should be parallel is 0."""
+    """Make a vector along the spheroid's axis; it is along x if the vector to which it should be parallel is 0."""
     x, y, z = centre
     i, j, k = free
     zero, one = np.zeros(len(x)), np.ones(len(x))
@@ -251,6 +256,6 @@ def _axis(kind: NDArray[Any], centre: list[Floats], free: list[Floats], motion: 
 
 
 def _selected(kind: NDArray[Any], known: Mapping[str, Any], otherwise: tuple[Floats, Floats, Floats]) -> list[Floats]:
-    """The vector of each row's kind among `known`; `otherwise` for other kinds."""
+    """Select for each row the vector that `known` has for its kind, or `otherwise`."""
     which = [kind == name for name in known]
     return [np.select(which, [vector[part] for vector in known.values()], otherwise[part]) for part in range(3)]

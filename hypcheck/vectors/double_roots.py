@@ -1,14 +1,15 @@
 """Rational constructions of pairs whose g has a double root m, as rows that float64 holds exactly.
 
-They are tangencies, and crossings with a node, an isolated point or a cusp. In the space of Theorem 1 let
-g(λ) = (λ − m)²(λ − n). The roots' product a²c² gives n = a²c²/m², and then g(−a²) = −a² r² (a² + c²) and
+They are tangencies, and crossings with a node, an isolated point or a cusp. In the space of Theorem 1 the spheroid is
+the unit ball, the hyperboloid has the semi-axes a = α/b and c = γ/d, and the centre is (x, y, z) with r² = x² + y².
+There let g(λ) = (λ − m)²(λ − n). The roots' product a²c² gives n = a²c²/m², and then g(−a²) = −a² r² (a² + c²) and
 g(c²) = −c² z² (a² + c²) (docs/mathematics.md, "Where the roots are") give the centre:
 
     r² = (a² + m)² (m² + c²) / (m² (a² + c²)),   z² = (c² − m)² (a² − m²) / (m² (a² + c²)).
 
-With sin² = (a² − m²)/(a² + c²), z = sin · (c² − m)/m; (cos, −sin) is the normal of the surface at the root's point, and
-a² cos² − c² sin² = m². It is a tangency if −a² ≤ m ≤ c², except on the ring; for other m the sphere crosses the surface
-elsewhere, but g still has the double root.
+Let sin² = (a² − m²)/(a² + c²). Then z = sin · (c² − m)/m, and a² cos² − c² sin² = m². The normal of the surface at the
+root's point is (cos, −sin), across the axis and along it. The pair is a tangency if −a² ≤ m ≤ c², except on the ring;
+for other m the sphere crosses the surface elsewhere, but g still has the double root.
 
 m² + c² and a² + c² are sums of two squares, so r² is one: it has rational x and y for any rational a, c and m, whether
 r is rational or not. The only condition is that (a² − m²)(a² + c²) is a square; for any a and c it is a square for
@@ -38,29 +39,29 @@ BigIntegers = NDArray[np.object_]
 RADIAL_COLUMNS = [0, 2, 4, 5]
 AXIAL_COLUMNS = [1, 3, 6]
 ULPS = 40
-"""Neighbours of what is exact lie 1, 2, 4 … 2^ULPS ulp away."""
+"""Rows near to exact ones have a number that is moved by 1, 2, 4 … 2^ULPS ulp."""
 
 ATTEMPTS = 1000
-"""The rarest rows wanted are 1 in 50, which takes some dozens of attempts for a block."""
+"""Attempts after which `gather` gives up. The rarest rows are 1 in 50, which takes some dozens of attempts a block."""
 
 
 def big_integers(draw: Draw, n: int, low: int, high: int) -> BigIntegers:
-    """Python integers from low to high, both included."""
+    """Draw Python integers from low to high, both included."""
     return draw.integers(n, low, high).astype(object)
 
 
 def big_integers_of_any_length(draw: Draw, n: int, bits: int) -> BigIntegers:
-    """Python integers ≥ 1 of at most `bits` bits; every number of bits is equally likely."""
+    """Draw Python integers ≥ 1 of at most `bits` bits; every number of bits is equally likely."""
     return np.floor(draw.log_uniform(n, 0, bits)).astype(np.int64).astype(object)
 
 
 def roots(values: BigIntegers) -> BigIntegers:
-    """⌊√value⌋ of each integer ≥ 0."""
+    """Return ⌊√value⌋ of each integer ≥ 0."""
     return np.asarray(np.frompyfunc(math.isqrt, 1, 1)(values), dtype=object)
 
 
 def triples(draw: Draw, n: int, most: int) -> tuple[BigIntegers, BigIntegers, BigIntegers]:
-    """Pythagorean triples (leg, other leg, hypotenuse) from generators up to 2·most."""
+    """Draw Pythagorean triples (leg, other leg, hypotenuse): i² − j² and 2ij in either order, i² + j²; i ≤ 2·most."""
     j = big_integers(draw, n, 1, most)
     i = j + big_integers(draw, n, 1, most)
     one, other = i * i - j * j, 2 * i * j
@@ -69,20 +70,23 @@ def triples(draw: Draw, n: int, most: int) -> tuple[BigIntegers, BigIntegers, Bi
 
 
 def turned(draw: Draw, n: int) -> tuple[BigIntegers, BigIntegers, BigIntegers]:
-    """x, y and √(x² + y²), all integers: half of them on an axis, half anywhere."""
+    """Draw x, y and √(x² + y²), all integers: a direction, for half of the rows that of the x axis."""
     x, y, radius = triples(draw, n, 4)
     on_axis = draw.signs(n) < 0
     return np.where(on_axis, 1, x), np.where(on_axis, 0, y), np.where(on_axis, 1, radius)
 
 
 def in_lowest_terms(numbers: Sequence[BigIntegers]) -> list[BigIntegers]:
-    """The numbers of each row without their common factors."""
+    """Divide the numbers of each row by their greatest common divisor."""
     shared = np.maximum(reduce(np.gcd, numbers), 1)
     return [number // shared for number in numbers]
 
 
 def to_rows(radial: Sequence[BigIntegers], axial: Sequence[BigIntegers]) -> tuple[Rows, Mask]:
-    """The rows of α, b, x, y and γ, d, z without common factors, and which of them are exact, with sizes > 0."""
+    """Make rows of `radial` α, b, x, y and `axial` γ, d, z, each group divided by its greatest common divisor.
+
+    Returns a mask, too, of the rows that float64 holds exactly and whose sizes are > 0.
+    """
     rows = np.empty((len(radial[0]), 7))
     exact = np.ones(len(rows), dtype=np.bool_)
     for columns, lengths in ((RADIAL_COLUMNS, radial), (AXIAL_COLUMNS, axial)):
@@ -93,7 +97,7 @@ def to_rows(radial: Sequence[BigIntegers], axial: Sequence[BigIntegers]) -> tupl
 
 
 def gather(draw: Draw, n: int, attempt: Callable[[Draw, int], tuple[Rows, Mask]]) -> Rows:
-    """n rows from as many attempts as needed; each attempt returns rows and a mask of the wanted ones."""
+    """Gather n rows in as many attempts as needed; each attempt returns rows and a mask of the wanted ones."""
     parts: list[Rows] = []
     missing = n
     for _ in range(ATTEMPTS):
@@ -106,12 +110,12 @@ def gather(draw: Draw, n: int, attempt: Callable[[Draw, int], tuple[Rows, Mask]]
 
 
 def gathered(attempt: Callable[[Draw, int], tuple[Rows, Mask]]) -> Maker:
-    """The generator that gathers the wanted rows of a construction (`gather`)."""
+    """Return the generator that gathers the wanted rows of a construction, as `gather` does."""
     return lambda draw, n: gather(draw, n, attempt)
 
 
 def in_metres(draw: Draw, rows: Rows) -> Rows:
-    """The same pairs in other coordinates: any signs, x and y swapped or not, both groups of lengths about 1."""
+    """Write the same pairs in other coordinates: any signs, x and y swapped or not, both groups of lengths about 1."""
     n = len(rows)
     rows = rows.copy()
     for column in (4, 5, 6):
@@ -128,7 +132,7 @@ def in_metres(draw: Draw, rows: Rows) -> Rows:
 
 
 def one_moved(draw: Draw, rows: Rows, steps: Integers) -> Rows:
-    """The rows, each with one nonzero number moved by `steps` ulps, (n,)."""
+    """Move one nonzero number of each row by `steps` ulps, (n,)."""
     n = len(rows)
     chosen, index = draw.integers(n, 0, rows.shape[1] - 1), np.arange(n)
     chosen = np.where(rows[index, chosen] == 0, chosen % 4, chosen)
@@ -139,9 +143,10 @@ def one_moved(draw: Draw, rows: Rows, steps: Integers) -> Rows:
 
 @dataclass(frozen=True, slots=True)
 class DoubleRoots:
-    """n exact rows with a double root m: `outer` says m > 0, `tangent` −a² ≤ m ≤ c², `usable` that the row is valid.
+    """n rows with a double root m, and masks (n,) of them.
 
-    `sine` is the normal's, in floats; the centre's radius and height are ≥ 0 where it is a tangency.
+    `usable`: the row is valid and exact. `outer`: m > 0, so that the spheroid is outside if it touches. `tangent`: it
+    touches, which is −a² ≤ m ≤ c². `sine` is sin of the module's docstring, in floats. In a tangency z is ≥ 0.
     """
 
     rows: Rows
@@ -152,8 +157,9 @@ class DoubleRoots:
 
 
 def by_ratios(draw: Draw, n: int, most: int = 12) -> DoubleRoots:
-    """Any rational a and c with terms up to `most`: m = a (e − τ²)/(e + τ²), sin = 2aτ/(e + τ²), e = a² + c².
+    """Make double roots for any rational a and c with terms up to `most`, and a rational τ.
 
+    With e = a² + c²: m = a (e − τ²)/(e + τ²), sin = 2aτ/(e + τ²) and, with i² = −1,
     x + i y = (a² + m)(m + i c)(a + i c)/(m e).
     """
     a_top, a_bottom, c_top, c_bottom, t_top, t_bottom = (big_integers(draw, n, 1, most) for _ in range(6))
@@ -184,10 +190,11 @@ def by_ratios(draw: Draw, n: int, most: int = 12) -> DoubleRoots:
 
 
 def by_angle(draw: Draw, n: int, bits: int = 7) -> DoubleRoots:
-    """As by_ratios, with a rational normal too, so that the centre's distance from the axis is rational.
+    """Make double roots as by_ratios does, with a rational normal too: the centre's distance from the axis is rational.
 
-    m = ±i/j, a cos + c sin = v/w and a cos − c sin = m² w/v (or with ± c), all of them rational: any four such numbers
-    give a pair. The point of the surface is (a² cos, c² sin)/|m|, and the centre one normal away from it.
+    Any whole numbers i, j, v, w and any rational (cos, sin) give a pair: m = ±i/j, a cos + c sin = v/w and
+    a cos − c sin = m² w/v, or the same with −c for c. The point of the surface is (a² cos, c² sin)/|m|, across the axis
+    and along it, and the centre is one normal away from it.
     """
     f, h, hypotenuse = triples(draw, n, 4)  # cos and sin over the hypotenuse
     i, j = big_integers(draw, n, 1, 9), big_integers(draw, n, 1, 9)
@@ -213,9 +220,10 @@ def by_angle(draw: Draw, n: int, bits: int = 7) -> DoubleRoots:
 
 
 def cusps(draw: Draw, n: int) -> tuple[Rows, Mask]:
-    """Triple roots m = w² above c²: a = w² t, c = w/t with t² − 1 = σ² and w² t⁴ + 1 = η² rational squares.
+    """Make rows with a triple root m = w² above c², for rational w and t such that σ and η are rational.
 
-    Then x + i y = (1 + i w t)³/η and z = w σ³/(t η); t = hypotenuse/leg of one triple, w t² = leg/other leg of another.
+    σ² = t² − 1 and η² = w² t⁴ + 1. So t is hypotenuse/leg of one Pythagorean triple, and w t² is leg/other leg of
+    another. Then a = w² t, c = w/t, x + i y = (1 + i w t)³/η with i² = −1, and z = w σ³/(t η).
     """
     leg, other, hypotenuse = triples(draw, n, 7)
     p, q, g = triples(draw, n, 7)
@@ -232,7 +240,7 @@ def cusps(draw: Draw, n: int) -> tuple[Rows, Mask]:
 
 
 def throat_circles(draw: Draw, n: int) -> tuple[Rows, Mask]:
-    """On the axis, touching along a circle (m = −a²): z² = (a² + c²)(1 − a²)/a², both factors made squares.
+    """Make rows on the axis that touch along a circle (m = −a²): z² = (a² + c²)(1 − a²)/a², both factors squares.
 
     A quarter of the rows has a = 1 and the centre in the waist.
     """
@@ -252,7 +260,7 @@ def throat_circles(draw: Draw, n: int) -> tuple[Rows, Mask]:
 
 
 def waist_points(draw: Draw, n: int) -> tuple[Rows, Mask]:
-    """In the plane of the waist, touching its circle: r = a + 1 with c² > a, or r = a − 1 with a > 1, in turn."""
+    """Make rows that touch the circle of the waist, z = 0: r = a + 1 with c² > a, or r = a − 1 with a ≥ 1, in turn."""
     alpha, b, d = (big_integers_of_any_length(draw, n, 26) for _ in range(3))
     outer = np.arange(n) % 2 == 0
     alpha, b = np.where(outer, alpha, np.maximum(alpha, b)), np.where(outer, b, np.minimum(alpha, b))
@@ -263,7 +271,7 @@ def waist_points(draw: Draw, n: int) -> tuple[Rows, Mask]:
 
 
 def osculations(draw: Draw, n: int) -> tuple[Rows, Mask]:
-    """c² = a and r = a + 1 in the plane of the waist: the sphere and the groove have one curvature there."""
+    """Make rows with c² = a, z = 0 and r = a + 1: the ball and the surface have the same curvature where they touch."""
     top, bottom = big_integers_of_any_length(draw, n, 13), big_integers_of_any_length(draw, n, 13)
     x, y, turn = turned(draw, n)
     p, q = top * top, bottom * bottom
@@ -273,10 +281,10 @@ def osculations(draw: Draw, n: int) -> tuple[Rows, Mask]:
 
 
 def waist_roots(draw: Draw, n: int, *, ring: bool) -> tuple[Rows, Mask]:
-    """z = 0 and m = c², for any rational a and c.
+    """Make rows with z = 0 and m = c², for any rational a and c.
 
     x² + y² = (c² + 1)(a² + c²)/c² = ((c² − a)/c)² + (a + 1)² = ((c² + a)/c)² + (a − 1)².
-    The ring has c² > a, and the sphere is clear; otherwise c² < a, and it touches at two points.
+    With `ring`, c² > a and the ball is clear; otherwise c² < a and it touches at two points.
     """
     a_top, a_bottom, c_top, c_bottom = (big_integers_of_any_length(draw, n, 16) for _ in range(4))
     other = np.asarray(c_top**2 * a_bottom < a_top * c_bottom**2) == ring  # then 1/a and 1/c are on the right side
@@ -298,7 +306,7 @@ def waist_roots(draw: Draw, n: int, *, ring: bool) -> tuple[Rows, Mask]:
 
 
 def waist_roots_on_an_axis(draw: Draw, n: int, *, ring: bool) -> tuple[Rows, Mask]:
-    """As waist_roots, with a rational radius: c² + 1 and (a² + c²)/c² are squares, so the centre is (r, 0, 0)."""
+    """Make rows as waist_roots does, centre (r, 0, 0): c² + 1 and (a² + c²)/c² are squares, so r is rational."""
     leg, other, hypotenuse = triples(draw, n, 8)  # c = leg/other
     near, far, beyond = triples(draw, n, 8)  # a/c = far/near
     zero = np.zeros(n, dtype=object)

@@ -26,7 +26,7 @@ from hypcheck.geometry.rows import Floats, Layout, Rows, columns_with, layout_wi
 Integers = NDArray[np.int64]
 Row = tuple[float, ...]
 Maker = Callable[["Draw", int], Rows]
-"""What a generator is: from a draw and a number n, n valid rows."""
+"""The type of a generator: it makes n valid rows of a Draw and the number n."""
 
 _HIGHEST = np.uint64(1 << 63)
 
@@ -63,7 +63,7 @@ class Draw:
         return draw
 
     def words(self, n: int) -> NDArray[np.uint64]:
-        """Raw 64-bit words."""
+        """Draw raw 64-bit words."""
         share, rest = divmod(n, len(self._streams))
         if rest:
             raise ValueError(f"{n} words cannot be shared by {len(self._streams)} blocks")
@@ -73,43 +73,43 @@ class Draw:
         return words
 
     def places(self, n: int) -> Integers:
-        """The place of each row in its block: 0, 1, 2 …; draws no random words."""
+        """Return the index of each row in its block: 0, 1, 2 …; draws no random words."""
         return np.tile(np.arange(n // len(self._streams)), len(self._streams))
 
     def integers(self, n: int, low: int, high: int) -> Integers:
-        """Integers from low to high, both included; 0 ≤ high − low < 2⁴⁰, so no value is favoured by more than 2⁻²⁴."""
+        """Draw integers from low to high, both included; 0 ≤ high − low < 2⁴⁰: none is favoured by more than 2⁻²⁴."""
         words, span = self.words(n), np.uint64(high - low + 1)
         words -= words // span * span  # numpy's % with a scalar takes ten times as long
         return low + words.astype(np.int64)
 
     def unit(self, n: int) -> Floats:
-        """Multiples of 2⁻⁵³ in [0, 1)."""
+        """Draw multiples of 2⁻⁵³, uniform in [0, 1)."""
         return unit_of(self.words(n))
 
     def between(self, n: int, low: ArrayLike, high: ArrayLike) -> Floats:
-        """Uniform from low to high (numbers or arrays)."""
+        """Draw numbers uniform from low to high, which are numbers or arrays (n,)."""
         low, high = np.asarray(low, dtype=np.float64), np.asarray(high, dtype=np.float64)
         return np.asarray(low + (high - low) * self.unit(n))
 
     def mantissas(self, n: int) -> Floats:
-        """Uniform in [1, 2), multiples of 2⁻⁵²."""
+        """Draw multiples of 2⁻⁵², uniform in [1, 2)."""
         return 1.0 + (self.words(n) >> np.uint64(12)).astype(np.float64) * 2.0**-52
 
     def log_uniform(self, n: int, low: int, high: int) -> Floats:
-        """m 2^e with e an integer, low ≤ e < high, and m uniform in [1, 2); takes 2n words."""
+        """Draw m 2^e with e an integer, low ≤ e < high, and m uniform in [1, 2); takes 2n words."""
         exponents = self.integers(n, low, high - 1)
         return ldexp(self.mantissas(n), exponents)
 
     def signs(self, n: int) -> Floats:
-        """Each 1 or −1."""
+        """Draw signs, each 1 or −1."""
         return 1.0 - 2.0 * (self.words(n) >> np.uint64(63)).astype(np.float64)
 
     def signed(self, n: int, low: int, high: int) -> Floats:
-        """As log_uniform, of either sign; takes 3n words."""
+        """Draw numbers as log_uniform does, of either sign; takes 3n words."""
         return self.signs(n) * self.log_uniform(n, low, high)
 
     def circle(self, n: int) -> tuple[Floats, Floats]:
-        """Points (cosine, sine) of the unit circle in all quadrants, a quarter of them on the axes; takes 2n words."""
+        """Draw points (cosine, sine) of the unit circle in all quadrants, a quarter on the axes; takes 2n words."""
         words, half = self.words(n), self.unit(n)
         cosine, sine = circle_at(_chosen(words >> np.uint64(62) != 0, half, np.zeros(n)))
         swapped = words & np.uint64(1) != 0
@@ -118,57 +118,58 @@ class Draw:
 
 
 def unit_of(words: NDArray[np.uint64]) -> Floats:
-    """Multiples of 2⁻⁵³ in [0, 1), of the high bits of words."""
+    """Turn words into multiples of 2⁻⁵³ in [0, 1), by their high bits."""
     return (words >> np.uint64(11)).astype(np.float64) * 2.0**-53
 
 
 def _stream(name: Sequence[object]) -> np.random.Philox:
+    """Return the stream of 64-bit words that belongs to this name."""
     key = cast("np.random.SeedSequence", _Key("/".join(map(str, name))))  # numpy's types leave its interface out
     return np.random.Philox(key)
 
 
 def _chosen(which: NDArray[np.bool_], first: Floats, second: Floats) -> Floats:
-    """np.where without its branches, which processors cannot predict if `which` is random."""
+    """Do as np.where does, without its branches, which processors cannot predict if `which` is random."""
     one, other = first.view(np.uint64), second.view(np.uint64)
     all_or_none = np.uint64(0) - which.astype(np.uint64)
     return np.asarray(other ^ ((one ^ other) & all_or_none)).view(np.float64)
 
 
 def _signed(values: Floats, words: NDArray[np.uint64]) -> Floats:
-    """The values, their sign turned where the words' highest bit is set."""
+    """Turn the sign of the values where the words' highest bit is set."""
     return np.asarray(values.view(np.uint64) ^ (words & _HIGHEST)).view(np.float64)
 
 
 def circle_at(half: Floats) -> tuple[Floats, Floats]:
-    """(cosine, sine) of the angle whose half has the tangent `half`."""
+    """Return (cosine, sine) of the angle whose half has the tangent `half`."""
     square = half * half
     return (1 - square) / (1 + square), 2 * half / (1 + square)
 
 
 def ldexp(values: ArrayLike, exponents: ArrayLike) -> Floats:
-    """values · 2^exponents, rounded once where the result is subnormal; the exponents are integers."""
+    """Return values · 2^exponents, rounded once where the result is subnormal; the exponents are integers."""
     return np.ldexp(np.asarray(values, dtype=np.float64), np.asarray(exponents).astype(np.int32))
 
 
 def exponent(values: Floats) -> Integers:
-    """The e of values = m 2^e with 1 ≤ |m| < 2, and −1 for a zero."""
+    """Return the e of each value m 2^e with 1 ≤ |m| < 2, and −1 for a zero."""
     return np.frexp(values)[1].astype(np.int64) - 1
 
 
 def stepped(values: Floats, steps: Integers) -> Floats:
-    """The floats `steps` ulps away from each value, outward from 0 for positive steps; a zero stays 0."""
+    """Move each value by `steps` ulps, away from 0 for positive steps; a zero stays 0."""
     moved: Integers = np.ascontiguousarray(values).view(np.int64) + np.where(values == 0, 0, steps)
     return moved.view(np.float64)
 
 
 def to_bits(values: Floats, bits: int) -> Floats:
-    """The values rounded to `bits` significant bits."""
+    """Round the values to `bits` significant bits."""
     mantissas, exponents = np.frexp(values)
     return ldexp(np.rint(ldexp(mantissas, np.full(values.shape, bits))), exponents - bits)
 
 
 def in_turn(*makers: Maker) -> Maker:
-    """The generator that takes rows from the makers in turn."""
+    """Return the generator that takes rows from these generators in turn."""
 
     def make(draw: Draw, n: int) -> Rows:
         parts = [maker(draw, len(range(turn, n, len(makers)))) for turn, maker in enumerate(makers)]
@@ -181,7 +182,7 @@ def in_turn(*makers: Maker) -> Maker:
 
 
 def turns(n: int, *values: Any) -> NDArray[Any]:  # noqa: ANN401 - strings or numbers alike
-    """The values in turn, n in all."""
+    """Repeat the values in turn until there are n."""
     return np.tile(np.asarray(values), -(-n // len(values)))[:n]
 
 
@@ -189,10 +190,10 @@ MARK = "@"
 """The prefix before the sizes in the name of a family for fixed sizes."""
 
 BLOCK = 1024
-"""Rows with a random stream of their own, so that any block can be made alone and in any order."""
+"""The number of rows that have a random stream of their own, so that a block can be made without the others."""
 
 TOGETHER = 16
-"""Blocks that a generator makes at one go, where it can: numpy's overhead is shared, and all still fits the cache."""
+"""The number of blocks that a `by_place` generator makes in one call: less overhead, and all fits the cache."""
 
 
 @dataclass(frozen=True)
@@ -265,5 +266,5 @@ class Family:
 
 
 def rows_of(rows: list[Row]) -> Rows:
-    """The rows as one array, float64 (n, 7)."""
+    """Return the rows as one array, float64 (n, 7)."""
     return np.asarray(rows, dtype=np.float64).reshape(len(rows), len(COLUMNS))

@@ -2,7 +2,8 @@
 
 Every other row has a solid body. Most rows are made for the upper end, and half of these are mirrored at z = 0. A rim
 at height w has the radius r = α √(1 + w²/γ²); a spheroid whose centre is X + Σ N/√(NᵀΣN), Σ its matrix of squared
-semi-axes, touches the plane through X across N, and so the rim if X lies on it and N points away from the wall there.
+semi-axes, touches the plane through X at right angles to N, and so the rim if X lies on it and N points away from the
+wall there.
 Exact touches have w/γ, the direction of N and the azimuth from Pythagorean triples. A sweep goes through the centre of
 such a pair, ends at it, or begins there; beside exact touches its ends are whole numbers times one power of two, too.
 """
@@ -26,7 +27,10 @@ _ALONG = np.array([(3, 4, 5), (4, 3, 5), (5, 12, 13), (12, 5, 13), (0, 1, 1), (-
 
 
 def _rows(draw: Draw, rows: Rows, low: Floats, high: Floats, *, solid: Integers | None = None) -> Rows:
-    """The rows with these ends, and with an axis if they have none; every other row is solid, and half are mirrored."""
+    """Give the rows the ends `low` and `high`, and an axis if they have none.
+
+    Every other row is solid, unless `solid` says which, and half are mirrored at z = 0.
+    """
     n, rows = len(rows), with_axis(rows)
     heights = np.stack([low, high, turns(n, 0, 1) if solid is None else solid], axis=1)
     ended_rows = np.concatenate([rows, heights], axis=1)
@@ -39,25 +43,25 @@ def _rows(draw: Draw, rows: Rows, low: Floats, high: Floats, *, solid: Integers 
 
 
 def _lower(draw: Draw, high: Floats, unit: Floats) -> Floats:
-    """A lower end some units below the upper one, or no lower end."""
+    """Draw lower ends, 2⁻³ to 2⁶ units below the upper ones, or −∞ for no lower end."""
     n = len(high)
     return np.asarray(np.where(turns(n, True, False, False), -np.inf, high - unit * draw.log_uniform(n, -3, 6)))
 
 
 def _ordinary(draw: Draw, n: int) -> tuple[Sizes, Floats]:
-    """Sizes of every regime, and heights of a rim in γ."""
+    """Draw sizes of every regime, and heights of a rim in γ."""
     return sizes_of_all_regimes(draw, n), draw.signed(n, -6, 1)
 
 
-def _hair(draw: Draw, n: int) -> Floats:
-    """Factors of 1, or a little more or less."""
+def _near_1(draw: Draw, n: int) -> Floats:
+    """Draw factors that differ from 1 by 2⁻⁵⁰ to 2⁻³, up or down."""
     return np.asarray(1 + draw.signed(n, -50, -3))
 
 
 def uniform(beside: Maker = random_pairs.uniform, sizes: Sequence[int] = (3,)) -> Maker:
-    """Rows in all regimes and places, with the upper end within one and a half radii of the centre's height.
+    """Return the generator of rows whose upper end is within one and a half radii of the centre's height.
 
-    A radius is the largest of the numbers in these places of a row.
+    `beside` makes the pairs. A radius is the largest number of a row's columns `sizes`.
     """
 
     def make(draw: Draw, n: int) -> Rows:
@@ -70,19 +74,19 @@ def uniform(beside: Maker = random_pairs.uniform, sizes: Sequence[int] = (3,)) -
 
 
 def _at_rim(draw: Draw, size: Sizes, height: Floats, axis: Vectors) -> Rows:
-    """Rows near contact with a rim at this height in γ, above it, outside or inside."""
+    """Make rows near contact with a rim at this height in γ: the spheroid is above the rim, outside or inside."""
     n = len(height)
     cosine, sine = draw.circle(n)
     out, up = draw.circle(n)
     radius, up = size.alpha * np.sqrt(1 + height * height), np.abs(up)
     point = (radius * cosine, radius * sine, size.gamma * height)
-    rows = tilted.touching(size, axis, point, (out * cosine, out * sine, up), _hair(draw, n))
+    rows = tilted.touching(size, axis, point, (out * cosine, out * sine, up), _near_1(draw, n))
     high = size.gamma * height
     return _rows(draw, rows, _lower(draw, high, size.d), high)
 
 
 def rim(axes: Axes = vertical) -> Maker:
-    """Rows 2⁻⁵⁰ to 2⁻³ radii from contact with a rim: above, beside and within it."""
+    """Return the generator of rows 2⁻⁵⁰ to 2⁻³ radii from contact with a rim: above, beside and within it."""
 
     def make(draw: Draw, n: int) -> Rows:
         size, height = _ordinary(draw, n)
@@ -96,14 +100,14 @@ CHANGED = (0, 1, 2, 3, 4, 5, 6, 10, 11, 12)
 
 
 def one_number_changed(draw: Draw, n: int) -> Rows:
-    """As in random_pairs, near contact with a rim; the two heights and `solid` change too."""
+    """Make rows as in random_pairs, near contact with a rim; the two heights and `solid` change too."""
     pairs = -(-n // (2 * len(CHANGED)))
     size, height = _ordinary(draw, pairs)
     return with_one_number_changed(draw, _at_rim(draw, size, height, vertical(draw, pairs)), CHANGED, n)
 
 
 def with_one_number_changed(draw: Draw, pairs: Rows, columns: Sequence[int], n: int) -> Rows:
-    """n rows: each pair repeated, with one number changed from row to row; infinite ends are made finite before."""
+    """Repeat each pair, and change one number from row to row, n rows in all; infinite ends are made finite before."""
     rows = repeated(pairs, columns, n, centres=pairs.shape[1] - 10)
     low, high, solid = rows[:, -3:].T
     low = np.where(low == -np.inf, high - 4 * rows[:, 3], low)
@@ -115,13 +119,13 @@ def with_one_number_changed(draw: Draw, pairs: Rows, columns: Sequence[int], n: 
 
 
 def stiff(draw: Draw, n: int) -> Rows:
-    """Rows near contact with a rim, with ratios of sizes up to 2²⁷."""
+    """Make rows near contact with a rim, with α/b and γ/d from 2⁻¹³ to 2¹³."""
     size = sizes(draw, draw.log_uniform(n, -13, 13), draw.log_uniform(n, -13, 13), units=(-12, 12))
     return _at_rim(draw, size, draw.signed(n, -18, 3), vertical(draw, n))
 
 
 def rim_tangent(draw: Draw, n: int) -> Rows:
-    """The rim touched exactly: whole numbers times one power of two."""
+    """Make rows that touch the rim exactly: whole numbers times one power of two."""
     rise, leg, hypotenuse = TRIPLES[draw.integers(n, 0, len(TRIPLES) - 1)].T
     out, up, radius = _ALONG[draw.integers(n, 0, len(_ALONG) - 1)].T
     p, q, turn = TRIPLES[draw.integers(n, 0, len(TRIPLES) - 1)].T
@@ -135,7 +139,7 @@ def rim_tangent(draw: Draw, n: int) -> Rows:
 
 
 def rim_neighbourhood(draw: Draw, n: int) -> Rows:
-    """Exact touches of a rim, one number moved by one to four ulps."""
+    """Make rows that touch a rim exactly, and move one number of each by one to four ulps."""
     rows = rim_tangent(draw, n)
     column = np.asarray([0, 1, 2, 3, 4, 5, 6, 11])[draw.integers(n, 0, 7)]
     here = np.arange(n)
@@ -146,7 +150,7 @@ def rim_neighbourhood(draw: Draw, n: int) -> Rows:
 
 
 def opening(draw: Draw, n: int) -> Rows:
-    """Spheroids narrower than the opening, at several heights in it: the side changes, with contact or without."""
+    """Make rows at several heights in an opening wider than the spheroid: clear on either side, or in contact."""
     size = sizes(draw, draw.log_uniform(n, 0, 4), draw.log_uniform(n, -2, 5))
     height = draw.log_uniform(n, -4, 1)
     radius = size.alpha * np.sqrt(1 + height * height)
@@ -159,7 +163,7 @@ def opening(draw: Draw, n: int) -> Rows:
 
 
 def thin(beside: Maker = random_pairs.uniform) -> Maker:
-    """Rows near contact with the surface, of which only a thin slab within the spheroid's reach is left."""
+    """Return the generator of rows of `beside` whose surface is only a thin slab near the height of the centre."""
 
     def make(draw: Draw, n: int) -> Rows:
         rows, shift = beside(draw, n), draw.between(n, -1.2, 1.2)
@@ -172,7 +176,7 @@ def thin(beside: Maker = random_pairs.uniform) -> Maker:
 
 
 def swallowed(draw: Draw, n: int) -> Rows:
-    """A thin wall that lies completely or almost completely within the spheroid."""
+    """Make rows with a low wall that lies completely or almost completely within the spheroid."""
     size = sizes(draw, draw.log_uniform(n, -6, 0), draw.log_uniform(n, -6, 2))
     cosine, sine = draw.circle(n)
     across, z = size.b * draw.between(n, 0, 1.2), size.d * draw.between(n, -1, 1)
@@ -182,25 +186,30 @@ def swallowed(draw: Draw, n: int) -> Rows:
 
 
 def disc(axes: Axes = vertical) -> Maker:
-    """Spheroids above an end, with the lowest point nearly or exactly at it, over the opening or the flat end."""
+    """Return the generator of spheroids that stand on the plane of an end, over the opening or over the flat end.
+
+    The lowest point is at the height of the end, up to roundings, or up to 2⁻³ of the spheroid's half height off it.
+    """
 
     def make(draw: Draw, n: int) -> Rows:
         size, height = _ordinary(draw, n)
         axis, (cosine, sine) = axes(draw, n), draw.circle(n)
         across = size.alpha * np.sqrt(1 + height * height) * draw.between(n, 0, 1.05)
         high = size.gamma * height
-        share = np.where(turns(n, True, False, False), 1.0, _hair(draw, n))
+        factor = np.where(turns(n, True, False, False), 1.0, _near_1(draw, n))
         point = (across * cosine, across * sine, high)
-        rows = tilted.touching(size, axis, point, (np.zeros(n), np.zeros(n), np.ones(n)), share)
+        rows = tilted.touching(size, axis, point, (np.zeros(n), np.zeros(n), np.ones(n)), factor)
         return _rows(draw, rows, _lower(draw, high, size.d), high, solid=turns(n, 1, 1, 0))
 
     return make
 
 
 def groove(draw: Draw, n: int) -> Rows:
-    """Spheres that nearly rest on both flanks of the groove, of which the ends leave one, both or none.
+    """Make balls in the plane of the waist that nearly touch both sides of the groove, the hollow about the waist.
 
-    The normal at height ζ of the hyperboloid a, c meets the plane of the waist at c² times the normal's length.
+    The ends leave both, one or none of the places that the ball touches. Here a and c are the semi-axes of a
+    hyperboloid in any unit. From its point at height ζ the normal (ρ/a², −ζ/c²), ρ the radius there, reaches the plane
+    of the waist after c² times its length.
     """
     a, c, zeta = draw.log_uniform(n, 0, 4), draw.log_uniform(n, -3, 0), draw.log_uniform(n, -4, 1)
     flank = a * np.sqrt(1 + (zeta / c) * (zeta / c))
@@ -208,24 +217,24 @@ def groove(draw: Draw, n: int) -> Rows:
     ball = c * c * np.sqrt(out * out + up * up)
     size = sizes(draw, a / ball, c / ball)
     cosine, sine = draw.circle(n)
-    across = size.b * (flank + c * c * flank / (a * a)) / ball * _hair(draw, n)
+    across = size.b * (flank + c * c * flank / (a * a)) / ball * _near_1(draw, n)
     rows = random_pairs.stack(size, across * cosine, across * sine, np.zeros(n))
     shares = [np.asarray(turns(n, *values)) for values in ((0.5, 1.0, 2.0, 0.9, np.inf), (2.0, 0.5, 1.0))]
-    high, low = (size.d * zeta / ball * share * _hair(draw, n) for share in shares)
+    high, low = (size.d * zeta / ball * share * _near_1(draw, n) for share in shares)
     return _rows(draw, rows, -low, high)
 
 
 def waist(draw: Draw, n: int) -> Rows:
-    """An end exactly at the waist, or very near to it."""
+    """Make rows near contact with a rim that is exactly at the waist, or very near to it."""
     size, _ = _ordinary(draw, n)
     height = np.where(turns(n, True, False), 0.0, draw.signed(n, -40, -8))
     return _at_rim(draw, size, height, vertical(draw, n))
 
 
 def far(draw: Draw, n: int) -> Rows:
-    """Rows near contact, with ends so far away or infinite that they do not matter."""
+    """Make rows near contact whose ends are infinite, or so far away that they do not matter."""
     size, _ = _ordinary(draw, n)
-    rows = random_pairs.beside(draw, size, random_pairs.heights(draw, size.c), draw.signs(n) * _hair(draw, n))
+    rows = random_pairs.beside(draw, size, random_pairs.heights(draw, size.c), draw.signs(n) * _near_1(draw, n))
     unit = rows[:, 1] + np.maximum(rows[:, 2], rows[:, 3])
     reach = unit * draw.log_uniform(n, 5, 40)
     low = np.where(turns(n, True, False, False, False), -np.inf, rows[:, 6] - reach)
@@ -234,7 +243,10 @@ def far(draw: Draw, n: int) -> Rows:
 
 
 def integers(width: int = len(COLUMNS)) -> Maker:
-    """Whole numbers as a person types them, the axis too if the rows, `width` numbers before the ends, have one."""
+    """Return the generator of rows of whole numbers, as a person types them.
+
+    `width` is how many numbers are before the ends, 7 without an axis, 10 with one.
+    """
 
     def make(draw: Draw, n: int) -> Rows:
         rows = tilted.small_integers(draw, n)[:, :width]
@@ -246,25 +258,25 @@ def integers(width: int = len(COLUMNS)) -> Maker:
 
 
 def _through(draw: Draw, rows: Rows, step: Rows) -> Rows:
-    """Sweeps through the centres of rows; a centre can be anywhere on its sweep."""
+    """Make sweeps by these steps through the centres of rows; a centre can be anywhere on its sweep."""
     share, centre = draw.between(len(rows), 0, 1)[:, None], rows[:, CENTRE]
     return between(rows, centre + (1 - share) * step, centre - share * step)
 
 
 def _any_step(draw: Draw, rows: Rows) -> Rows:
-    """Steps in every direction, 2⁻³ to 2⁴ times as long as the spheroid's size."""
+    """Draw steps in every direction, up to 2⁻³ … 2⁴ times the semi-axes long."""
     n, length = len(rows), draw.log_uniform(len(rows), -3, 4)
     parts = [rows[:, column] * length * draw.between(n, -1, 1) for column in (2, 2, 3)]
     return np.stack(parts, axis=1)
 
 
 def _around(rows: Rows) -> Rows:
-    """Horizontal directions at right angles to that of the axis: along the rim."""
+    """Return horizontal directions along the rim: at right angles to that from the hyperboloid's axis to the centre."""
     return np.stack([-rows[:, 5], rows[:, 4], np.zeros(len(rows))], axis=1)
 
 
 def sweeps_about(rows_of: Maker) -> Maker:
-    """Both ends anywhere about the end of a hyperboloid of any regime."""
+    """Return the generator of sweeps in any direction from the centres of rows, which lie near an end."""
 
     def make(draw: Draw, n: int) -> Rows:
         rows = rows_of(draw, n)
@@ -274,7 +286,7 @@ def sweeps_about(rows_of: Maker) -> Maker:
 
 
 def sweeps_over(rows_of: Maker) -> Maker:
-    """Sweeps through a place near a rim, 2⁻⁵⁰ to 2⁻³ radii off contact: along the rim, across it, or anywhere."""
+    """Return the generator of sweeps through the centres of rows: along the rim, across it, or in any direction."""
 
     def make(draw: Draw, n: int) -> Rows:
         rows = rows_of(draw, n)
@@ -290,7 +302,7 @@ def sweeps_over(rows_of: Maker) -> Maker:
 
 
 def sweeps_landing(rows_of: Maker) -> Maker:
-    """Straight down, or up from below, to a place that is nearly in contact with a rim, a flat end or an opening.
+    """Return the generator of vertical sweeps to the centres of rows, which are near contact with an end.
 
     A sweep begins outside the end that is nearer to the spheroid; every third sweep goes on beyond the row's centre.
     """
@@ -312,13 +324,13 @@ SWEEP_CHANGED = (*range(10), 13, 14, 15)
 
 
 def sweeps_with_one_number_changed(draw: Draw, n: int) -> Rows:
-    """As in random_pairs, of sweeps to a place nearly in contact with a rim, or with a flat end or an opening."""
+    """Make vertical sweeps to places near contact with a rim or a flat end, and change one number from row to row."""
     pairs = in_turn(sweeps_landing(rim()), sweeps_landing(disc()))(draw, -(-n // (2 * len(SWEEP_CHANGED))))
     return with_one_number_changed(draw, pairs, SWEEP_CHANGED, n)
 
 
 def sweeps_through_opening(draw: Draw, n: int) -> Rows:
-    """Sweeps out through an opening or in, without contact if the body is open."""
+    """Make sweeps out through an opening or in; many are without contact if the body is open."""
     rows = opening(draw, n)
     step = _any_step(draw, rows) * draw.log_uniform(n, -8, 0)[:, None]
     step[:, 2] = rows[:, 3] * draw.signed(n, -1, 3)
@@ -326,13 +338,13 @@ def sweeps_through_opening(draw: Draw, n: int) -> Rows:
 
 
 def sweeps_through_thin(draw: Draw, n: int) -> Rows:
-    """Sweeps through a place near contact with a surface of which only a thin slab exists."""
+    """Make sweeps through a place near contact with a surface of which only a thin slab exists."""
     rows = thin()(draw, n)
     return _through(draw, rows, _any_step(draw, rows))
 
 
 def sweeps_touching(draw: Draw, n: int) -> Rows:
-    """Sweeps through an exact touch of a rim: along the rim, away from it, or upwards; or sweeps that end there."""
+    """Make sweeps through a place that touches a rim exactly, or from it: along the rim, away from it, or upwards."""
     rows = rim_tangent(draw, n)
     away = np.where(turns(n, True, False)[:, None], [[0.0, 0.0, 1.0]], rows[:, CENTRE] * [1, 1, 0])
     step = np.where(turns(n, True, True, False)[:, None], _around(rows), away)
@@ -342,7 +354,7 @@ def sweeps_touching(draw: Draw, n: int) -> Rows:
 
 
 def _beside_ends(rows: Rows, level: Floats, draw: Draw) -> Rows:
-    """The rows, with an axis, beside hyperboloids of which one end is within one and a half radii of the level.
+    """Give the rows, which have an axis, a hyperboloid with an end within one and a half radii of the height `level`.
 
     One end in eight is exactly at the level. A third of the bodies have one end, half of all are solid; both are drawn,
     since the rows may come in turns.
@@ -357,7 +369,7 @@ def _beside_ends(rows: Rows, level: Floats, draw: Draw) -> Rows:
 
 
 def given_ends(rows_of: Maker) -> Maker:
-    """Pairs beside an end that is near the height of the centre."""
+    """Return the generator of pairs beside an end that is near the height of the centre."""
 
     def make(draw: Draw, n: int) -> Rows:
         rows = with_axis(rows_of(draw, n))
@@ -367,7 +379,7 @@ def given_ends(rows_of: Maker) -> Maker:
 
 
 def sweeps_given_ends(rows_of: Maker) -> Maker:
-    """Sweeps beside an end that is near the height of the start, of the middle or of the end of the sweep."""
+    """Return the generator of sweeps beside an end near the height of the start, the middle or the end of the sweep."""
 
     def make(draw: Draw, n: int) -> Rows:
         rows = with_axis(rows_of(draw, n), SWEEPS)

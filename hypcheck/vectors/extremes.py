@@ -5,13 +5,14 @@
   these.
 - The ends of the float formats: an intermediate of the paper's Table 2 overflows or underflows.
 
-For the last, with a = α/b and c = γ/d about 2^k (one of them, or both) the intermediates grow like these powers of 2^k:
+For the last, let a = α/b or c = γ/d, or both, be about 2^k. Then the intermediates, named as in Table 2, grow like
+these powers of 2^k:
 
     one ratio    A, B, c0, c1, c2: 2 · c1 c2, c2², c0²: 4 · c2³, c1³, c2 c1 c0: 6 · c2³ c0, (c2 c1)²: 8
     both         A, B, c2: 2 · c0, c1: 4 · c2³: 6 · c0²: 8 · c2 c1 c0, c2³ c0: 10 · (c2 c1)², c1³: 12
 
-and b², x0², y0² like the square of the common unit whatever the ratios are. So the rows have k near limit/power, within
-a few exponents, for every power and both limits of the format.
+and b², x0², y0² grow like the square of the unit of b, x, y, whatever the ratios are. So the rows have k near
+limit/power, within a few exponents, for every power and both limits of the format.
 """
 
 from __future__ import annotations
@@ -36,7 +37,10 @@ PLAIN = (-2, 6)
 
 
 def stiff(*, radial: bool, axial: bool) -> Maker:
-    """Log-uniform ratios; half of the centres within 2.5 radii of the surface, half nearly one radius from it."""
+    """Return the generator of log-uniform ratios, long ones of the radial lengths, of the axial lengths or of both.
+
+    Half of the centres are within 2.5 radii of the surface, half nearly one radius from it.
+    """
 
     def make(draw: Draw, n: int) -> Rows:
         a = draw.log_uniform(n, *(STIFF_RATIOS if radial else PLAIN))
@@ -50,13 +54,13 @@ def stiff(*, radial: bool, axial: bool) -> Maker:
 
 
 def _split(draw: Draw, ratio: Floats) -> tuple[Floats, Floats]:
-    """Two lengths with this ratio, equally far from 1 metre on a logarithmic scale."""
+    """Draw two lengths with this ratio, about equally far from 1 metre on a logarithmic scale."""
     short = ldexp(draw.log_uniform(len(ratio), -1, 1), -(exponent(ratio) // 2))
     return ratio * short, short
 
 
 LENGTHS, DOMAIN_RATIOS = 20, 27
-"""Exponents of 2: semi-axes from 2⁻²⁰ to 2²⁰, ratios from 2⁻²⁷ to 2²⁷; what of them is beyond the ends is left out."""
+"""Exponents of 2: semi-axes from 2⁻²⁰ to 2²⁰, ratios from 2⁻²⁷ to 2²⁷; rows beyond the ordinary ranges are left out."""
 
 TENS = np.asarray([1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6])
 """The powers of ten in the ordinary range, both ends among them, as a person types them."""
@@ -64,7 +68,7 @@ TENS = np.asarray([1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1e0, 1e1, 1e2, 1e3, 1e4, 
 
 @gathered
 def whole_domain(draw: Draw, n: int) -> tuple[Rows, Mask]:
-    """Ratios and sizes log-uniform over the ordinary ranges, centres all around the surface or a hair off contact.
+    """Make rows with ratios and sizes log-uniform over the ordinary ranges, all around the surface or near contact.
 
     Half of the second ratios are independent of the first, the others are within 2⁴ of it.
     """
@@ -82,7 +86,7 @@ def whole_domain(draw: Draw, n: int) -> tuple[Rows, Mask]:
 
 @gathered
 def tilted_whole_domain(draw: Draw, n: int) -> tuple[Rows, Mask]:
-    """As whole_domain, of tilted spheroids: ratios, sizes and heights are those of its rows."""
+    """Make rows of tilted spheroids with the ratios, sizes and heights of rows of whole_domain."""
     upright = whole_domain(draw, n)
     size = Sizes(*upright[:, :4].T)
     hair = nearly_touching(draw, n, -40, -3)
@@ -92,7 +96,7 @@ def tilted_whole_domain(draw: Draw, n: int) -> tuple[Rows, Mask]:
 
 
 def _lengths(draw: Draw, octave: Integers) -> tuple[Floats, Floats]:
-    """Two lengths with a ratio of about 2^octave, in a random unit in which both are floats, or two powers of ten."""
+    """Draw two lengths with a ratio of about 2^octave and both from 2^−LENGTHS to 2^LENGTHS, or two powers of ten."""
     n = len(octave)
     room = 2 * LENGTHS - np.abs(octave)
     unit = np.floor(draw.unit(n) * room).astype(np.int64) - LENGTHS + np.maximum(-octave, 0)
@@ -103,7 +107,7 @@ def _lengths(draw: Draw, octave: Integers) -> tuple[Floats, Floats]:
 
 
 def _heights(draw: Draw, size: Sizes) -> Floats:
-    """Heights: a quarter near the waist, a quarter within 2γ, half high above it.
+    """Draw heights, in d: a quarter near the waist, a quarter within 2γ, half high above the waist.
 
     High means: where a surface narrower at its waist than the spheroid is about as wide as the spheroid, or anywhere up
     to 2⁸ γ.
@@ -120,14 +124,14 @@ GROUPS = (RADIAL_COLUMNS, AXIAL_COLUMNS)
 
 
 def _limits(draw: Draw, n: int, form: FloatFormat) -> Integers:
-    """Exponents near the format's limits in turn: overflow, underflow, and down to where subnormals end."""
+    """Draw exponents near the limits of the format, in turn near overflow and from underflow to the least subnormal."""
     over = form.overflow + draw.integers(n, -3, 3)
     under = form.least - draw.integers(n, -3, form.bits + 1)
     return np.where(turns(n, True, False), over, under)
 
 
 def long_ratios(form: FloatFormat) -> Maker:
-    """Ratios that bring each intermediate to the limits of the format."""
+    """Return the generator of ratios that bring each intermediate to the limits of the format."""
 
     def make(draw: Draw, n: int) -> Rows:
         octave = _limits(draw, n, form) // np.repeat(turns(-(-n // 2), *POWERS), 2)[:n]
@@ -146,7 +150,7 @@ def long_ratios(form: FloatFormat) -> Maker:
 
 
 def long_units(form: FloatFormat) -> Maker:
-    """Ordinary ratios in units so large or small that a length, or its square, is near the limits of the format."""
+    """Return the generator of ordinary ratios in a unit that brings a length, or its square, near the limits."""
 
     def make(draw: Draw, n: int) -> Rows:
         rows = around(draw, sizes_of_all_regimes(draw, n, units=(-1, 1)))
@@ -161,7 +165,7 @@ def long_units(form: FloatFormat) -> Maker:
 
 
 def short_coordinates(form: FloatFormat) -> Maker:
-    """Ordinary sizes, and x, y or z so small that P, Q or the coordinate's square is near the lower limit."""
+    """Return the generator of ordinary sizes with x and y, or z, whose squares are near the format's lower limit."""
 
     def make(draw: Draw, n: int) -> Rows:
         rows = around(draw, sizes_of_all_regimes(draw, n, units=(-1, 1)))
@@ -176,7 +180,7 @@ def short_coordinates(form: FloatFormat) -> Maker:
 
 
 def fitted(rows: Rows, form: FloatFormat) -> Rows:
-    """The rows in the format's own normal numbers: each group in a unit that fits, rounded, small coordinates 0."""
+    """Round the rows to normal numbers of the format, each group in a unit that fits; small coordinates become 0."""
     rows = rows.copy()
     for columns in GROUPS:
         rows[:, columns] = to_bits(_shifted(rows[:, columns], np.zeros(len(rows), dtype=np.int64), form), form.bits)
@@ -186,14 +190,17 @@ def fitted(rows: Rows, form: FloatFormat) -> Rows:
 
 
 def _shifted(lengths: Rows, shift: Integers, form: FloatFormat) -> Rows:
-    """One group of lengths times 2^shift, or times the nearest power that keeps it in the format; sizes first."""
+    """Multiply a group of lengths by 2^shift, or by the nearest power of 2 that keeps it in the format.
+
+    The first two columns are the sizes, which must stay normal numbers.
+    """
     most = form.overflow - 2 - exponent(np.abs(lengths).max(axis=1))
     least = form.least - exponent(lengths[:, :2].min(axis=1))
     return ldexp(lengths, np.minimum(np.maximum(shift, least), most)[:, None])
 
 
 def subnormal(draw: Draw, n: int) -> Rows:
-    """One group of lengths, or both, among the subnormal numbers of float16, float32 or float64, in turn."""
+    """Make rows with one or both groups of lengths among the subnormal numbers of float16, float32, float64 in turn."""
     rows = around(draw, sizes_of_all_regimes(draw, n, units=(-1, 1)))
     group = turns(n, *range(4))
     for number, columns in enumerate(GROUPS):
@@ -210,7 +217,7 @@ def subnormal(draw: Draw, n: int) -> Rows:
 
 
 def magnitudes(draw: Draw, n: int) -> Rows:
-    """Ordinary ratios in units of 1e±150 and beyond, the same or opposite for the two groups of lengths."""
+    """Make rows of ordinary ratios in units beyond 1e±150, the same or opposite ones for the two groups of lengths."""
     rows = around(draw, sizes_of_all_regimes(draw, n, units=(-1, 1)))
     far = draw.integers(n, 499, 1000), draw.integers(n, 499, 1000)
     sides = turns(n, 1, -1, 1, -1), turns(n, 1, -1, -1, 1)
@@ -220,7 +227,7 @@ def magnitudes(draw: Draw, n: int) -> Rows:
 
 
 def almost_zero(draw: Draw, n: int) -> Rows:
-    """Exact tangencies in the waist or on the axis with one coordinate 2⁻²⁰⁰ … 2⁻¹⁰⁰⁰ instead of 0."""
+    """Make exact tangencies with z = 0 or on the axis, and replace one coordinate 0 by 2⁻¹⁰⁰⁰ … 2⁻²⁰⁰."""
     rows = _touching_on_zero(draw, n)
     zero = rows[:, 4:] == 0
     # The first zero at or after a random place of x, y, z; there is always a zero.
@@ -241,6 +248,9 @@ _touching_on_zero = in_turn(
 
 
 def at_the_ends_of(name: str) -> Maker:
-    """Rows that bring each intermediate of Table 2 to the limits of a float format; all numbers are 0 or normal."""
+    """Return the generator of rows that bring each intermediate of Table 2 to the limits of a float format.
+
+    All their numbers are 0 or normal numbers of the format.
+    """
     form = FLOAT_FORMATS[name]
     return in_turn(long_ratios(form), long_units(form), short_coordinates(form))

@@ -27,7 +27,7 @@ from hypcheck.vectors.fixed_sizes import family_at
 
 
 def _table(*families: Family, groups: Sequence[str] = ()) -> dict[str, Family]:
-    """The families by name, with these groups."""
+    """Return the families by name, each with these groups."""
     return {family.name: replace(family, groups=frozenset(groups)) for family in families}
 
 
@@ -116,7 +116,7 @@ TILTED_FAMILIES = _table(
     Family("extreme-tilted", tilted.whole_domain, 120, extreme=True),
     groups=("axis",),
 )
-"""Those of spheroids whose axis may point anywhere: rows of ten numbers."""
+"""The families of spheroids whose axis may point anywhere: rows of ten numbers."""
 
 SWEEP_FAMILIES = _table(
     Family("way-anywhere", sweeps.anywhere, 108),
@@ -152,7 +152,7 @@ SWEEP_FAMILIES = _table(
     Family("tilted-way-coincidences", crossed.crossed("tilted-way-coincidences"), 80, times=3),
     groups=("end", "axis"),
 )
-"""Those of sweeps between two positions: rows as geometry.rows.SWEEPS has them, upright or tilted."""
+"""The families of sweeps between two positions: rows as geometry.rows.SWEEPS has them, upright or tilted."""
 
 ENDED_FAMILIES = _table(
     Family("ended-uniform", ended.uniform(), 48),
@@ -183,7 +183,7 @@ ENDED_FAMILIES = _table(
     Family("tilted-ended-coincidences", ended.given_ends(crossed.crossed("tilted-coincidences"))),
     groups=("axis", "heights"),
 )
-"""Those of hyperboloids that end: rows of thirteen numbers, of upright spheroids and of tilted ones."""
+"""The families of hyperboloids that end: rows of thirteen numbers, of upright spheroids and of tilted ones."""
 
 ENDED_SWEEP_FAMILIES = _table(
     Family("ended-way-uniform", ended.sweeps_about(ended.uniform()), 16),
@@ -204,10 +204,10 @@ ENDED_SWEEP_FAMILIES = _table(
     Family("tilted-ended-way-coincidences", ended.sweeps_given_ends(crossed.crossed("tilted-way-coincidences"))),
     groups=("end", "axis", "heights"),
 )
-"""Those of sweeps beside hyperboloids that end: rows of sixteen numbers, of upright spheroids and of tilted ones."""
+"""The families of sweeps beside hyperboloids that end: rows of sixteen numbers, upright and tilted."""
 
 ALL = {**FAMILIES, **TILTED_FAMILIES, **SWEEP_FAMILIES, **ENDED_FAMILIES, **ENDED_SWEEP_FAMILIES}
-"""All of them, in the order in which they are listed."""
+"""All families, in the order in which they are listed."""
 
 WORST_CANCELLATION = "worst-cancellation"
 """The name of the file of the rows that cancellation.py finds; no family makes them."""
@@ -231,10 +231,11 @@ class CaseId:
 
 
 def select(patterns: Sequence[str] = (), taken: Groups | None = NO_GROUPS) -> tuple[Family, ...]:
-    """The families of these names and globs in the order of the tables; without patterns all but the extreme ones.
+    """Select the families of these names and globs, in the order of the tables; without patterns all but extreme ones.
 
-    Only families whose rows can be asked where these groups are taken are selected, or all if it is None. A glob
-    selects every family whose name it matches, extreme ones too: "*" selects all families, "extreme" all extreme ones.
+    `taken` are the groups of columns that the implementation takes: only families whose rows it can answer are
+    selected, or all if it is None. A glob selects every family whose name it matches, extreme ones too: "*" selects all
+    families, "extreme" all extreme ones.
     Raises InputError for a pattern that matches no family, with the most similar names, or that matches only families
     with other groups.
     """
@@ -255,11 +256,11 @@ _NOT_ASKED = {
     "end": "sweeps, which only the question passage is about",
     "axis": "tilted spheroids; only implementations with tilt are tested on them",
 }
-"""Why rows with a group are not asked of an implementation that does not take it."""
+"""By group: what rows with it are, and why an implementation that does not take it is not tested on them."""
 
 
 def _why_none(pattern: str, taken: Groups) -> str:
-    """Why a pattern selects no family where these groups are taken."""
+    """Say why a pattern selects no family for an implementation that takes these groups."""
     named = _named(pattern, ALL)
     if not named:
         return f"there is no family {pattern!r}; {_advice(pattern)}"
@@ -275,7 +276,7 @@ def _named(pattern: str, known: Mapping[str, Family]) -> set[str]:
 
 
 def family_of(name: str) -> Family:
-    """The family with exactly this name; it may also be one for fixed sizes (razor@2.0,…) or of a search.
+    """Return the family with exactly this name; it may also be one for fixed sizes (razor@2.0,…) or of a search.
 
     Raises InputError where there is none.
     """
@@ -286,17 +287,17 @@ def family_of(name: str) -> Family:
 
 
 def is_extreme(name: str) -> bool:
-    """Whether this is the name of an extreme family or the id of a case of one, by the beginning of the name."""
+    """Decide by the beginning of `name` whether it is the name of an extreme family, or the id of a case of one."""
     return name.startswith(f"{EXTREME}-")
 
 
 def case_id(family: Family, seed: int, index: int) -> str:
-    """The permanent name of a generated case: family/generator-version/seed/index."""
+    """Return the permanent name of a generated case: family/generator-version/seed/index."""
     return f"{family.name}/{family.version}/{seed}/{index}"
 
 
 def parse_case_id(text: str) -> CaseId:
-    """The parts of a case id. Raises InputError if it names no case, or a case of another generator version."""
+    """Split a case id into its parts. Raises InputError if it names no case, or one of another generator version."""
     match = _CASE_ID.fullmatch(text)
     if match is None:
         raise InputError(f"{text!r} is not a case id; it must be family/version/seed/index, as in tower-body/1/0/17")

@@ -38,7 +38,7 @@ Trap = Callable[[FixedSizes, Draw, int], Rows]
 
 
 def families_for(settings: tuple[FixedSizes, ...]) -> tuple[Family, ...]:
-    """The families of all traps of every setting."""
+    """Return the families of all traps of every setting."""
     return tuple(_family(trap, setting) for setting in settings for trap in _traps(setting))
 
 
@@ -47,7 +47,7 @@ def _traps(setting: FixedSizes) -> dict[str, Trap]:
 
 
 def family_at(name: str) -> Family:
-    """The family with this name; raises InputError with the error in the name."""
+    """Return the family with this name. Raises InputError, which says what is wrong in the name."""
     trap, _, text = name.partition(MARK)
     known = (*TRAPS, *TILTED_TRAPS)
     if trap not in known:
@@ -60,6 +60,7 @@ def family_at(name: str) -> Family:
 
 
 def _family(trap: str, setting: FixedSizes) -> Family:
+    """Return the family of a trap at fixed sizes. Raises InputError if its centres do not fit in float64."""
     _require_room(setting)
     make = partial(_made, _traps(setting)[trap], setting)
     groups = frozenset(() if setting.axis is None else {"axis"})
@@ -67,7 +68,7 @@ def _family(trap: str, setting: FixedSizes) -> Family:
 
 
 def _made(trap: Trap, setting: FixedSizes, draw: Draw, n: int) -> Rows:
-    """The trap's rows; where its formulas overflow because sizes differ too much, `_rows` puts finite centres."""
+    """Make the trap's rows. Formulas may overflow because sizes differ too much; `_rows` makes the centres finite."""
     with np.errstate(all="ignore"):
         return trap(setting, draw, n)
 
@@ -81,6 +82,7 @@ def _require_room(setting: FixedSizes) -> None:
 
 
 def _sizes_text(setting: FixedSizes) -> str:
+    """Write the sizes, spans and axis of a setting as a family's name has them."""
     spans = [f"{name}={span[0]!r}:{span[1]!r}" for name, span in zip(CENTER, setting.spans, strict=True) if span]
     axis = () if setting.axis is None else (f"axis={':'.join(_words(setting.axis))}",)
     return ",".join([*map(repr, setting.sizes), *spans, *axis])
@@ -91,6 +93,7 @@ def _words(axis: tuple[float, float, float] | Literal["free"]) -> Iterable[str]:
 
 
 def _parsed_sizes(text: str, name: str) -> FixedSizes:
+    """Read the sizes, spans and axis in a family's name. Raises InputError."""
     words = text.split(",")
     try:
         alpha, gamma, b, d = (float(word) for word in words[: len(SIZES)])
@@ -109,6 +112,7 @@ def _parsed_sizes(text: str, name: str) -> FixedSizes:
 
 
 def _axis(word: str) -> tuple[float, float, float] | Literal["free"]:
+    """Read the axis of a word such as axis=0:0:1 or axis=free. Raises ValueError."""
     value = word.removeprefix("axis=")
     if value == "free":
         return "free"
@@ -119,6 +123,7 @@ def _axis(word: str) -> tuple[float, float, float] | Literal["free"]:
 
 
 def _span(word: str) -> tuple[str, Range]:
+    """Read the column and the span of a word such as z=-1.0:1.0. Raises ValueError."""
     match = _SPAN.fullmatch(word)
     if match is None:
         raise ValueError(word)
@@ -129,10 +134,12 @@ def _span(word: str) -> tuple[str, Range]:
 
 
 def _span_or(span: Range | None, reach: float) -> Range:
+    """Return the span, or −reach to reach if there is none."""
     return span if span is not None else (-reach, reach)
 
 
 def _rows(setting: FixedSizes, x: Floats, y: Floats, z: Floats) -> Rows:
+    """Make upright rows of these centres; heights are moved into the span of z, and NaN becomes 0."""
     n = len(x)
     alpha, gamma, b, d = (np.full(n, size) for size in setting.sizes)
     low, high = _span_or(setting.z, FARTHEST)
@@ -141,19 +148,21 @@ def _rows(setting: FixedSizes, x: Floats, y: Floats, z: Floats) -> Rows:
 
 
 def _turned(setting: FixedSizes, draw: Draw, radius: Floats, z: Floats) -> Rows:
+    """Make rows with centres `radius` from the axis, at most FARTHEST, and at height z, at any azimuth."""
     cosine, sine = draw.circle(len(radius))
     radius = np.where(radius <= FARTHEST, radius, FARTHEST)
     return _rows(setting, radius * cosine, radius * sine, z)
 
 
 def _heights(setting: FixedSizes, draw: Draw, n: int) -> Floats:
-    """Heights in the span: half of them uniform, half near the waist."""
+    """Draw heights in the span of z: half of them uniform, half near the waist."""
     low, high = _span_or(setting.z, OPEN * (setting.sizes[1] + setting.sizes[3]))
     near = np.clip(draw.signs(n) * setting.sizes[3] * draw.log_uniform(n, -40, 3), low, high)
     return np.where(turns(n, True, False), draw.between(n, low, high), near)
 
 
 def _box(setting: FixedSizes, draw: Draw, n: int) -> Rows:
+    """Make centres uniform in the spans, or in a box about the hyperboloid."""
     alpha, gamma, b, d = setting.sizes
     reaches = (OPEN * (alpha + b), OPEN * (alpha + b), OPEN * (gamma + d))
     spans = [_span_or(span, reach) for span, reach in zip(setting.spans, reaches, strict=True)]
@@ -162,7 +171,7 @@ def _box(setting: FixedSizes, draw: Draw, n: int) -> Rows:
 
 
 def _beside(setting: FixedSizes, draw: Draw, n: int) -> Rows:
-    """Centres one radius (1 ± 2⁻⁵² … 1) off the surface, on either side, along the normal."""
+    """Make centres one radius, more or less by 2⁻⁵³ … 1 of it, off the surface, on either side, along the normal."""
     alpha, gamma, b, d = (np.full(n, size) for size in setting.sizes)
     offset = nearly_touching(draw, n, -53, 0)
     height = np.abs(_heights(setting, draw, n)) / d
@@ -171,7 +180,10 @@ def _beside(setting: FixedSizes, draw: Draw, n: int) -> Rows:
 
 
 def _ring(setting: FixedSizes, draw: Draw, n: int) -> Rows:
-    """Centres on and near r² = (c² + 1)(a² + c²)/c², where the discriminant vanishes far from the surface if c² > a."""
+    """Make centres on and near the ring, r² = (c² + 1)(a² + c²)/c² with a = α/b, c = γ/d, r = √(x² + y²)/b.
+
+    There the discriminant vanishes, far from the surface if c² > a.
+    """
     alpha, gamma, b, d = setting.sizes
     a, c = np.float64(alpha) / b, np.float64(gamma) / d  # numpy floats, which can be divided by c = 0
     radius: Floats = np.full(n, b * np.sqrt((c * c + 1) * (a * a / (c * c) + 1)))
@@ -181,7 +193,10 @@ def _ring(setting: FixedSizes, draw: Draw, n: int) -> Rows:
 
 
 def _zeros(setting: FixedSizes, draw: Draw, n: int) -> Rows:
-    """Centres where c1 = 0 or c2 = 0, or nearly: a strict inequality of the paper fails there."""
+    """Make centres where a coefficient of the cubic, c1 or c2, is 0 or nearly: a strict inequality of the paper fails.
+
+    A, B, P, Q are α²/b², γ²/d², (x² + y²)/b² and z²/d².
+    """
     alpha, gamma, b, d = setting.sizes
     a, c = np.float64(alpha) / b, np.float64(gamma) / d
     A, B = a * a, c * c
@@ -193,7 +208,7 @@ def _zeros(setting: FixedSizes, draw: Draw, n: int) -> Rows:
 
 
 def _axes(setting: FixedSizes, draw: Draw, n: int) -> Rows:
-    """Centres on the axis or very near to it, at any height; and far out, at any azimuth."""
+    """Make centres on the axis or very near to it, at any height, and centres far out, at any azimuth."""
     alpha, gamma = setting.sizes[:2]
     hair = alpha * draw.log_uniform(n, -60, 1) * turns(n, 0.0, 1.0)
     far = alpha * draw.log_uniform(n, 0, 12)
@@ -204,7 +219,7 @@ def _axes(setting: FixedSizes, draw: Draw, n: int) -> Rows:
 
 
 def _razor(setting: FixedSizes, draw: Draw, n: int) -> Rows:
-    """Centres at the last floats before contact and the first in it, on both sides, at 16 heights a block, y = 0."""
+    """Make centres at the last floats before contact and the first in it, on both sides, y = 0, 16 heights a block."""
     heights = np.clip(_heights(setting, draw, 16), *_span_or(setting.z, np.inf))
     sides = (Position.EXTERIOR, Position.INTERIOR)
     edges = [(_edge(setting.sizes, z, side), z) for z in heights.tolist() for side in sides]
@@ -215,7 +230,11 @@ def _razor(setting: FixedSizes, draw: Draw, n: int) -> Rows:
 
 
 def _edge(sizes: tuple[float, float, float, float], z: float, side: Position) -> float:
-    """The float x ≥ 0 nearest to where (x, 0, z) leaves that side: 0 if it is never there, FARTHEST if always."""
+    """Find the end of contact towards that side: of the centres (x, 0, z), x ≥ 0, return the first x that is outward.
+
+    For EXTERIOR outward means exterior; for INTERIOR it means exterior or in contact. The result is 0 if every x is
+    outward, FARTHEST if none is.
+    """
 
     def outward(x: float) -> bool:
         position = exact.position(Pair(*sizes, x, 0.0, z).lengths)
@@ -234,11 +253,12 @@ def _edge(sizes: tuple[float, float, float, float], z: float, side: Position) ->
 
 
 def _ordinal(x: float) -> int:
-    """The number of floats between 0 and x ≥ 0."""
+    """Return the number of floats from 0 to x ≥ 0, without 0."""
     return int.from_bytes(struct.pack(">d", x), "big")
 
 
 def _float_at(ordinal: int) -> float:
+    """Return the float ≥ 0 of which `_ordinal` is the number."""
     return float(struct.unpack(">d", ordinal.to_bytes(8, "big"))[0])
 
 
@@ -254,7 +274,7 @@ TRAPS: dict[str, Trap] = {
 
 
 def _axes_of(setting: FixedSizes, draw: Draw, n: int) -> tilted.Vectors:
-    """The axis of the setting; if it is free, axes in all directions, a third of them in a coordinate plane."""
+    """Return the axis of the setting; if it is free, draw axes in all directions, a third in a coordinate plane."""
     if setting.axis is None or setting.axis == "free":
         x, y, z = tilted.anywhere(draw, n)
         return x * turns(n, 1.0, 0.0, 1.0, 1.0, 1.0, 1.0), y, z * turns(n, 1.0, 1.0, 1.0, 0.0, 1.0, 1.0)
@@ -263,14 +283,14 @@ def _axes_of(setting: FixedSizes, draw: Draw, n: int) -> tilted.Vectors:
 
 
 def _tilted_rows(setting: FixedSizes, draw: Draw, n: int, offset: Floats) -> Rows:
-    """Centres `offset` radii off the surface."""
+    """Make tilted rows with centres `offset` radii off the surface."""
     size = Sizes(*(np.full(n, value) for value in setting.sizes))
     heights = _heights(setting, draw, n) / setting.sizes[1]
     return tilted.beside(draw, size, heights, _axes_of(setting, draw, n), offset)
 
 
 def _held(setting: FixedSizes, rows: Rows) -> Rows:
-    """The rows with each centre made finite and its height moved into the setting's span."""
+    """Make each centre finite, and move its height into the setting's span."""
     centre = np.where(np.abs(rows[:, 4:7]) <= FARTHEST, rows[:, 4:7], 0.0)
     rows[:, 4:7] = centre
     rows[:, 6] = np.clip(centre[:, 2], *_span_or(setting.z, FARTHEST))
@@ -278,18 +298,20 @@ def _held(setting: FixedSizes, rows: Rows) -> Rows:
 
 
 def _tilted_box(setting: FixedSizes, draw: Draw, n: int) -> Rows:
+    """Make rows as _box does, with an axis."""
     rows = with_axis(_box(setting, draw, n))
     rows[:, 7:] = np.stack(_axes_of(setting, draw, n), axis=1)
     return rows + 0.0
 
 
 def _tilted_beside(setting: FixedSizes, draw: Draw, n: int) -> Rows:
+    """Make tilted rows one radius, more or less by 2⁻⁵³ … 1 of it, off the surface."""
     offset = nearly_touching(draw, n, -53, 0)
     return _held(setting, _tilted_rows(setting, draw, n, offset))
 
 
 def _tilted_razor(setting: FixedSizes, draw: Draw, n: int) -> Rows:
-    """Centres at the last floats before contact and the first in it, at 16 places a block, x a few ulps apart."""
+    """Make centres at the last floats before contact and the first in it, 16 places a block, x a few ulps apart."""
     touching = _held(setting, _tilted_rows(setting, draw, 16, np.zeros(16)))
     spread = draw.signs(16) * max(setting.sizes[2:]) * 4.0
     edges = np.array([_tilted_edge(row, offset) for row, offset in zip(touching, spread.tolist(), strict=True)])
@@ -300,7 +322,7 @@ def _tilted_razor(setting: FixedSizes, draw: Draw, n: int) -> Rows:
 
 
 def _tilted_edge(row: Rows, offset: float) -> Rows:
-    """The row of a centre on the surface, moved outward or inward at its height until clear; far away if never."""
+    """Move a centre on the surface along x until the row is clear, or by `offset` if it never is; return the row."""
     start, far = float(row[4]), float(row[4]) + offset
     result = row.copy()
 
@@ -318,7 +340,7 @@ def _tilted_edge(row: Rows, offset: float) -> Rows:
 
 
 def _tilted_zeros(setting: FixedSizes, draw: Draw, n: int) -> Rows:
-    """Centres with coordinates 0: on the axis, in the plane of the waist, in a plane of symmetry; and far out."""
+    """Make centres on the axis, in the plane of the waist and in a plane of symmetry, and centres far out."""
     rows = _tilted_box(setting, draw, n)
     far = ldexp(1, draw.integers(n, 0, 12))
     rows[:, 4] *= turns(n, 1.0, 0.0, 0.0, 1.0, 1.0)

@@ -70,12 +70,12 @@ class Metadata:
 
 
 def descriptions() -> dict[str, dict[str, str]]:
-    """The texts of descriptions.toml by name."""
+    """Read the texts of descriptions.toml by name."""
     return toml.shipped("hypcheck.vectors", "descriptions.toml")
 
 
 def described(name: str, made_by: str, family: Family | None = None) -> Metadata:
-    """The metadata of a file of that name, of a family if there is one, that the command `made_by` makes.
+    """Return the metadata of a file of that name, of a family if there is one, that the command `made_by` makes.
 
     The texts are those of descriptions.toml; for fixed sizes the trap's texts.
     """
@@ -94,7 +94,7 @@ class FlagFacts:
 
 @cache
 def flag_facts(group: str) -> Mapping[str, FlagFacts]:
-    """The flags of a group of flags.toml, in the order in which a case has them: upright, tilted or sweeps."""
+    """Read the flags of a group of flags.toml, upright, tilted or sweeps, in the order in which a case has them."""
     texts = toml.shipped("hypcheck.vectors", "flags.toml")
     return {name: FlagFacts(**(facts or texts["upright"][name])) for name, facts in texts[group].items()}
 
@@ -103,8 +103,8 @@ def flag_facts(group: str) -> Mapping[str, FlagFacts]:
 class Content:
     """The kind of content of a file: its name in the file, and the version of its schema.
 
-    `groups` are those that its rows have; where heights are, an axis is. `refused`: rows are not valid, and have no
-    answers.
+    `groups` are the groups of columns that its rows have; rows with heights also have an axis. `refused`: rows are not
+    valid, and have no answers.
     """
 
     name: str
@@ -163,7 +163,7 @@ CONTENTS = {
 
 
 def content_with(groups: Groups = NO_GROUPS, *, refused: bool = False) -> Content:
-    """The content of files with such rows; if hyperboloids end, rows have an axis."""
+    """Return the content of files whose rows have these groups; if hyperboloids end, rows have an axis."""
     wanted = groups | {"axis"} if "heights" in groups else groups
     (match,) = (content for content in CONTENTS.values() if (content.groups, content.refused) == (wanted, refused))
     return match
@@ -215,7 +215,7 @@ _SCHEMAS = (
 
 
 def content_of(document: JsonDocument) -> Content:
-    """The content that the document declares, for its schema version. Raises InputError."""
+    """Read the content that the document declares, for its schema version. Raises InputError."""
     members = document.table(MEMBERS)
     schema = members.required("schema", _schema)
     known = {name: content for name, content in CONTENTS.items() if content.schema == schema}
@@ -229,7 +229,7 @@ def _schema(value: object) -> str:
 
 
 def read_metadata(document: JsonDocument) -> tuple[Metadata, Mapping[str, FlagFacts]]:
-    """The family and the flags of a document, its members and count in order. Raises InputError."""
+    """Read the family and the flags of a document. Raises InputError if they, other members or the count are wrong."""
     content = content_of(document)
     members = document.table([name for name in MEMBERS if name != "flags" or content.flags])
     family = members.required_table("family", HEAD_FIELDS)
@@ -261,7 +261,7 @@ def _version(value: object) -> int:
 
 
 _HEAD_CHECKS: Mapping[str, Check[Any]] = {"name": _name, "version": _version, "extreme": strict.truth}
-"""The checks of what is no text."""
+"""The checks of metadata that are not texts, by field."""
 
 
 def _flags(table: StrictTable) -> Mapping[str, FlagFacts]:
@@ -273,11 +273,11 @@ def _flags(table: StrictTable) -> Mapping[str, FlagFacts]:
 
 
 ReadCase = Callable[[str, StrictTable, Content, Mapping[str, FlagFacts]], Any]
-"""What makes a case of its id and its fields. Raises InputError."""
+"""The type of a function that makes a case of its id and its fields. Raises InputError."""
 
 
 def file_of(document: JsonDocument, names: tuple[str, ...], read: ReadCase) -> CaseFile:
-    """The file of a document whose cases have these fields. Raises InputError."""
+    """Read the file of a document whose cases have the fields `names`; `read` reads each case. Raises InputError."""
     content = content_of(document)
     head, flags = read_metadata(document)
     check_id = _id_of(head.name)
@@ -296,7 +296,7 @@ def file_of(document: JsonDocument, names: tuple[str, ...], read: ReadCase) -> C
 
 
 def _id_of(family: str) -> Check[str]:
-    """A frozen case is family-0001, a generated one family/version/seed/index."""
+    """Return the check of a case's id: family-0001 for a frozen case, family/version/seed/index for a generated one."""
     wanted = re.compile(re.escape(family) + r"(-[0-9]{4,}|(/(0|[1-9][0-9]*)){3})", re.ASCII)
 
     def check(value: object) -> str:
@@ -308,14 +308,14 @@ def _id_of(family: str) -> Check[str]:
 
 
 def a_text(value: object) -> str:
-    """A text that is not empty, of any length."""
+    """Return the value if it is a text that is not empty, of any length. Raises ValueError."""
     if not isinstance(value, str) or not value.strip():
         raise ValueError("a text")
     return value
 
 
 def a_number(value: object) -> float:
-    """A finite number that is written as the shortest decimal of its float64."""
+    """Return the value if it is finite and written as the shortest decimal of its float64. Raises ValueError."""
     if isinstance(value, Literal) and value.text == repr(value):  # the text that hypcheck writes
         return float(value)
     if isinstance(value, bool) or not isinstance(value, (int, float)):
@@ -326,12 +326,12 @@ def a_number(value: object) -> float:
 
 
 def a_rational(value: object) -> Fraction:
-    """A fraction in lowest terms, as a text."""
+    """Read a text that is a fraction in lowest terms. Raises ValueError."""
     return rational_of(a_text(value))
 
 
 def row_of(table: StrictTable, content: Content) -> Row:
-    """The numbers of a valid row, and their hexadecimal forms. Raises InputError."""
+    """Read the numbers of a valid row, and check their hexadecimal forms. Raises InputError."""
     columns = content.columns
     wanted = strict.list_with(f"a list of {len(columns)}", len(columns), len(columns))
     row = []
@@ -362,7 +362,7 @@ def check_hex(table: StrictTable, what: str, text: object, number: float) -> Non
 
 
 def flags_of_case(table: StrictTable, known: Mapping[str, FlagFacts]) -> tuple[str, ...]:
-    """The flags of a case, each described in the file. Raises InputError."""
+    """Read the flags of a case; the file must describe each of them. Raises InputError."""
     flags = table.required("flags", strict.list_with("a list"))
     for flag in flags:
         if not isinstance(flag, str) or flag not in known:
@@ -373,12 +373,12 @@ def flags_of_case(table: StrictTable, known: Mapping[str, FlagFacts]) -> tuple[s
 
 
 def is_integer(value: Any) -> bool:  # noqa: ANN401 - JSON
-    """Whether a JSON value is a whole number, as it is written."""
+    """Decide whether a JSON value is written as a whole number, without a point."""
     return isinstance(value, int) and not isinstance(value, bool)
 
 
 def document_text(file: CaseFile, cases: Iterable[str]) -> str:
-    """The whole document, ASCII except for the descriptions, with an end of line after every case; these are text."""
+    """Return the text of the document, ASCII except for the descriptions; each of `cases` is the text of one line."""
     lines = list(cases)
     described = []
     if file.content.flags:
@@ -396,15 +396,15 @@ def document_text(file: CaseFile, cases: Iterable[str]) -> str:
 
 
 def object_text(members: Mapping[str, str]) -> str:
-    """An object of members that are JSON text already."""
+    """Return the text of an object whose members are JSON text already."""
     return "{" + ",".join(f'"{name}":{value}' for name, value in members.items()) + "}"
 
 
 def numbers_text(row: Iterable[float]) -> str:
-    """A list of decimals; infinities and NaN are strings."""
+    """Return the text of a list of decimals; infinities and NaN are strings."""
     return f"[{','.join(map(decimal_of, row))}]"
 
 
 def json_text(value: Any) -> str:  # noqa: ANN401 - JSON
-    """`value` as JSON without blanks."""
+    """Return `value` as JSON without blanks."""
     return json.dumps(value, ensure_ascii=False, separators=(",", ":"))

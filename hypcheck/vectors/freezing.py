@@ -57,7 +57,7 @@ def freeze(names: Iterable[str], folder: Path, done: Progress = lambda _: None) 
 
 
 def _earlier(name: str, path: Path) -> CaseFile | None:
-    """The existing file of that name. Raises InputError if it is not valid."""
+    """Read the existing file of that name; None if there is none. Raises InputError if it is not valid."""
     before = read_cases(str(path), _content_of(name)) if path.exists() else None
     if before is not None and before.head.name != name:
         raise InputError(f"{path} is of the family {before.head.name!r}; it must be of {name!r}")
@@ -65,6 +65,7 @@ def _earlier(name: str, path: Path) -> CaseFile | None:
 
 
 def _text(name: str, before: CaseFile | None) -> str:
+    """Make the text of the file of that name, all labels checked. Raises DisagreementError."""
     file = frozen_invalid_rows(name, before) if name in INVALID_CONTENTS else frozen(name, before)
     for fault in faults_of(file):
         raise DisagreementError(
@@ -82,12 +83,12 @@ def _content_of(name: str) -> Content:
 
 
 def content_of_family(family: Family) -> Content:
-    """The content of files with rows of a family."""
+    """Return the content of files with rows of a family."""
     return content_with(family.groups)
 
 
 def frozen(name: str, before: CaseFile | None = None) -> CaseFile:
-    """The file of that name. Cases of an earlier file keep their ids and places, and labels that are slow to make.
+    """Make the file of that name. Cases of an earlier file keep their ids, places, and labels that are slow to make.
 
     Labels of positions of upright spheroids are fast: all of them are made again.
     """
@@ -99,7 +100,7 @@ def frozen(name: str, before: CaseFile | None = None) -> CaseFile:
 
 
 def assembled(head: Metadata, content: Content, cases: Sequence[Vector]) -> CaseFile:
-    """A file of these cases, with the meaning of the flags that they have."""
+    """Return a file of these cases, with the meaning of the flags that they have."""
     used = {flag for case in cases for flag in case.flags}
     flags = {name: facts for name, facts in content.flags.items() if name in used}
     return CaseFile(head, content, tuple(cases), flags)
@@ -110,12 +111,12 @@ def _named(cases: Iterable[Vector]) -> list[tuple[str, Row]]:
 
 
 def planned(name: str) -> Rows:
-    """The rows that a file must have, float64 (n, numbers of a row); some may occur twice."""
+    """Make the rows that a file must have, float64 (n, numbers of a row); some may occur twice."""
     return cancellation.worst_rows() if name == WORST_CANCELLATION else ALL[name].rows(SEED, ALL[name].frozen)
 
 
 def extended(name: str, before: list[tuple[str, Row]], rows: Iterable[Row]) -> list[tuple[str, Row]]:
-    """The ids and rows of a file, then new rows with the next ids. Rows are compared to the bit."""
+    """Return the ids and rows of `before`, then those of `rows` that are new, with the next ids; every bit counts."""
     cases = list(before)
     known = {_bits(row) for _, row in before}
     number = _next_number(case for case, _ in before)
@@ -128,13 +129,13 @@ def extended(name: str, before: list[tuple[str, Row]], rows: Iterable[Row]) -> l
 
 
 def _next_number(ids: Iterable[str]) -> int:
-    """The number after the greatest number of these ids; ids of generated rows, with slashes, are ignored."""
+    """Return the number after the greatest number of these ids; ids of generated rows, with slashes, are ignored."""
     matches = (_NUMBER.fullmatch(name) for name in ids if "/" not in name)
     return 1 + max((int(match.group(1)) for match in matches if match), default=-1)
 
 
 def generated_case(name: str) -> tuple[Vector, Content]:
-    """The generated case of that id, labelled and proved, and the content of its file. Raises InputError."""
+    """Make the generated case of that id, labelled and proved, and the content of its file. Raises InputError."""
     case = parse_case_id(name)
     content = content_of_family(case.family)
     row = case.family.row(case.seed, case.index)
@@ -143,7 +144,7 @@ def generated_case(name: str) -> tuple[Vector, Content]:
 
 
 def generated_text(family: Family, seed: int, count: int) -> str:
-    """A vector file of the first rows of a family's seed, with generated ids."""
+    """Make the text of a vector file of the first `count` rows of a family's seed, with generated ids."""
     named = [(case_id(family, seed, index), tuple(row)) for index, row in enumerate(family.rows(seed, count).tolist())]
     head = described(family.name, f"hypcheck cases generate {family.name} --seed {seed} --count {count}", family)
     content = content_of_family(family)
@@ -151,7 +152,7 @@ def generated_text(family: Family, seed: int, count: int) -> str:
 
 
 def frozen_invalid_rows(name: str, before: CaseFile | None = None) -> InvalidRowFile:
-    """The file of rows that must be refused; rows of an earlier file keep their ids and places."""
+    """Make the file of rows that must be refused; rows of an earlier file keep their ids and places."""
     old_cases: tuple[InvalidRow, ...] = before.cases if before else ()
     known = {case.bits for case in old_cases}
     number = _next_number(case.id for case in old_cases)

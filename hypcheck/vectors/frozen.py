@@ -29,7 +29,7 @@ from hypcheck.vectors.format import CaseFile, Metadata, described
 
 
 def _files_of(families: Mapping[str, Family]) -> tuple[str, ...]:
-    """The names of the families that have frozen rows."""
+    """Return the names of the families that have frozen rows."""
     return tuple(name for name, family in families.items() if family.frozen)
 
 
@@ -37,16 +37,16 @@ NAMES = (*_files_of(FAMILIES), WORST_CANCELLATION)
 """The files of upright spheroids with answers; INVALID_CONTENTS names those of rows without."""
 
 TILTED_NAMES = _files_of(TILTED_FAMILIES)
-"""Those of tilted spheroids."""
+"""The files of tilted spheroids with answers."""
 
 SWEEP_NAMES = _files_of(SWEEP_FAMILIES)
-"""Those of sweeps; the rows of names that begin with tilted have an axis."""
+"""The files of sweeps with answers; if a name begins with tilted, its rows have an axis."""
 
 ENDED_NAMES = _files_of(ENDED_FAMILIES)
-"""Those of hyperboloids that end, upright and tilted."""
+"""The files of hyperboloids that end with answers, of upright and tilted spheroids."""
 
 ENDED_SWEEP_NAMES = _files_of(ENDED_SWEEP_FAMILIES)
-"""Those of sweeps beside hyperboloids that end."""
+"""The files of sweeps beside hyperboloids that end, with answers."""
 
 ALL_NAMES = (
     *(*NAMES, "invalid"),
@@ -59,19 +59,19 @@ ALL_NAMES = (
 
 
 def head_of(name: str) -> Metadata:
-    """The metadata of the frozen file of that name."""
+    """Return the metadata of the frozen file of that name."""
     return described(name, f"hypcheck cases freeze {name}", ALL.get(name))
 
 
 def folder() -> Path:
-    """The folder of the files: in the installed package, or beside it in a source tree."""
+    """Return the folder of the files: in the installed package, or beside it in a source tree."""
     package = Path(__file__).resolve().parents[1]
     inside = package / "cases"
     return inside if inside.is_dir() else package.parent / "cases"
 
 
 def path_of(name: str) -> Path:
-    """The path of the file of that name, which is packed in a wheel. Raises InputError if there is no such file."""
+    """Return the path of the file of that name, which is packed in a wheel. Raises InputError for an unknown name."""
     if name not in ALL_NAMES:
         raise InputError(f"there are no frozen vectors {name!r}; {suggestion(name, ALL_NAMES)}")
     path = folder() / f"{name}.json"
@@ -80,12 +80,12 @@ def path_of(name: str) -> Path:
 
 
 _HEAD = 1 << 16
-"""Bytes of a file that hold its head."""
+"""The number of bytes at the start of a file that surely hold its head."""
 
 
 @cache
 def count_of(name: str) -> int:
-    """The number of frozen cases of that name, from the head of their file; `load` refuses a wrong number.
+    """Read the number of frozen cases of that name from the head of their file; `load` refuses a wrong number.
 
     Raises InputError if there are no cases of that name, or their file cannot be read.
     """
@@ -99,5 +99,5 @@ def count_of(name: str) -> int:
 
 @cache
 def load(name: str) -> CaseFile:
-    """The frozen cases of that name. Raises InputError if there are none, or their file is not valid."""
+    """Read the frozen cases of that name. Raises InputError if there are none, or their file is not valid."""
     return read_cases(str(path_of(name)))

@@ -51,7 +51,7 @@ _SOUND = {
         (4.0, 4.0, 1.0, 1.0, 9.0, 0.0, 0.5, -9.0, 1.0, 0.5),
     ),
 }
-"""Valid rows, one of each position: exterior, interior, contact. In what follows something of theirs is made bad."""
+"""Valid rows, one of each position: exterior, interior, contact. Invalid rows are made of them by bad numbers."""
 
 _SIGN = 1 << 63
 _NANS = {
@@ -82,7 +82,7 @@ class InvalidRow:
 
 
 class InvalidRowFile(CaseFile):
-    """The file of such rows."""
+    """A file of invalid rows."""
 
     @property
     def rows(self) -> Rows:
@@ -91,12 +91,12 @@ class InvalidRowFile(CaseFile):
 
 
 def rows_from_bits(bits: Sequence[Sequence[int]]) -> Rows:
-    """Rows (n, as many as a file's columns) of these 64-bit words."""
+    """Make rows, (n, numbers of a row), of these 64-bit words."""
     return np.asarray(bits, dtype=np.uint64).reshape(len(bits), -1).view(np.float64)
 
 
 def columns_at_fault(row: Row, names: tuple[str, ...]) -> tuple[str, ...]:
-    """The columns of these names with values that are not allowed; all three columns of an axis without a direction."""
+    """Return the columns with values that are not allowed; of an axis without a direction all three."""
     values = dict(zip(names, row, strict=True))
     faults = [name for name, value in values.items() if name not in HEIGHTS and trouble_with(name, value) is not None]
     if AXIS[0] in values and not any(values[name] for name in AXIS):
@@ -110,7 +110,7 @@ def columns_at_fault(row: Row, names: tuple[str, ...]) -> tuple[str, ...]:
 
 
 def invalid_rows(name: str) -> InvalidRowFile:
-    """The file of that name, newly made."""
+    """Make the file of that name anew."""
     content = INVALID_CONTENTS[name]
     cases = []
     bad = _bad_ended_rows if content.ended else _bad_tilted_rows if content.tilted else _bad_rows
@@ -121,7 +121,7 @@ def invalid_rows(name: str) -> InvalidRowFile:
 
 
 def _bad_rows(layout: Layout) -> Iterator[tuple[int, ...]]:
-    """One bad number in each column, every kind of NaN in each, then several bad numbers that might cancel."""
+    """Yield rows with a bad number in each column, every kind of NaN in each, several bad numbers that might cancel."""
     sound, width = [_bits(row) for row in _SOUND[layout]], len(layout.upright)
     for place, name in enumerate(layout.upright):
         for turn, word in enumerate(_bad_words(name, _SOUND[layout][place % 3][place])):
@@ -153,7 +153,7 @@ def _bad_rows(layout: Layout) -> Iterator[tuple[int, ...]]:
 
 
 def _bad_tilted_rows(layout: Layout) -> Iterator[tuple[int, ...]]:
-    """Axes of zeros, one bad number in each place of the axis, several of them, bad numbers before a valid axis."""
+    """Yield rows with an axis of zeros, one or more bad numbers in the axis, bad numbers before a valid axis."""
     sound = [(*_bits(row), *_bits(axis)) for row, axis in zip(_SOUND[layout], _AXES, strict=True)]
     width = len(layout.upright)
     axis_places = range(width, width + len(AXIS))
@@ -182,7 +182,7 @@ def _bad_tilted_rows(layout: Layout) -> Iterator[tuple[int, ...]]:
 
 
 def _bad_ended_rows(layout: Layout) -> Iterator[tuple[int, ...]]:
-    """Ends in the wrong order or equal, NaN for an end, numbers for `solid` other than 0 and 1, then other faults."""
+    """Yield rows with ends in wrong order or equal, NaN for an end, `solid` other than 0 and 1, then other faults."""
     sound = [
         (*_bits(row), *_bits(axis), *_bits(heights))
         for row, axis, heights in zip(_SOUND[layout], _AXES, _HEIGHTS, strict=True)
@@ -212,6 +212,7 @@ _AXES = ((3.0, 4.0, 12.0), (0.0, 0.0, 1.0), (-1.0, 0.5, 0.0))
 
 
 def _bad_words(name: str, value: float) -> Iterator[int]:
+    """Yield the bits of bad numbers for a column in which `value` is valid."""
     yield from (_word(math.inf), _word(-math.inf))
     if name in SIZES:
         yield from (0, _SIGN, _word(-value), _word(-math.ulp(0.0)), _word(-sys.float_info.max))
@@ -230,7 +231,7 @@ def _replaced(row: tuple[int, ...], words: dict[int, int]) -> tuple[int, ...]:
 
 
 def invalid_row_text(case: InvalidRow) -> str:
-    """One case, an object on one line."""
+    """Return the text of one case, an object on one line."""
     return object_text(
         {
             "id": json_text(case.id),
@@ -243,7 +244,7 @@ def invalid_row_text(case: InvalidRow) -> str:
 
 
 def invalid_rows_of(document: JsonDocument) -> InvalidRowFile:
-    """The file of invalid rows of a document. Raises InputError if it is not such a document."""
+    """Read the file of invalid rows of a document. Raises InputError if it is not such a document."""
     file = file_of(document, _FIELDS, _invalid_row)
     return InvalidRowFile(file.head, file.content, file.cases, file.flags, file.lines)
 

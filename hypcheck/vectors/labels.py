@@ -48,7 +48,7 @@ _MOST_BITS = 1 << 14
 
 
 def labelled(content: Content, cases: Iterable[tuple[str, Row]]) -> list[Vector]:
-    """Cases for a file of that content, with all labels and flags, from ids and valid rows.
+    """Make the cases of a file with that content, with all labels and flags, from ids and valid rows.
 
     Raises ValueError as prove_passage does.
     """
@@ -81,6 +81,7 @@ def _sweeps(content: Content, cases: Sequence[tuple[str, Row]]) -> list[Vector]:
 
 
 def _with_proof(name: str, row: Row) -> Vector:
+    """Make the case of a sweep with its certificate and flags."""
     _, first, proof = prove_passage(row)
     here = row if proof.time is None else row_at(row, proof.time)
     offsets = tuple(offset_to(here, point) for point in proof.points)
@@ -89,13 +90,17 @@ def _with_proof(name: str, row: Row) -> Vector:
 
 
 def _without_proof(name: str, row: Row) -> Vector:
+    """Make the case of a sweep beside a hyperboloid that ends, which has no certificate and no flags."""
     truth = passage_of_row(row)
     first = (truth.first_lower, truth.first_upper) if truth.hit else None
     return Vector(name, row, int(truth.hit), first=first)
 
 
 def flips(content: Content, pair: Pair, truth: Decision) -> Mapping[Position, Bracket]:
-    """A pair's distance to each other position, in the order exterior, contact, interior; see cases.Vector."""
+    """Measure a pair's flip distance to each other position, in the order exterior, contact, interior.
+
+    See `flips` of cases.Vector.
+    """
     others = (other for other in Position if other is not truth.position)
     if content.tilted:
         return {other: bracket(pair, truth, other, cuts=0, steps=2) for other in others}
@@ -104,7 +109,7 @@ def flips(content: Content, pair: Pair, truth: Decision) -> Mapping[Position, Br
 
 
 def stored_certificate(row: Row, certificate: Certificate) -> StoredCertificate:
-    """The certificate in the form of the files; the second point of a crossing is rounded as much as possible.
+    """Return the certificate in the form of the files; the second point of a crossing is rounded as much as possible.
 
     If the hyperboloid ends, points are not rounded.
     """
@@ -123,7 +128,7 @@ def stored_certificate(row: Row, certificate: Certificate) -> StoredCertificate:
 
 
 def _slid(row: Row, offset: Offset) -> Iterator[Offset]:
-    """The offset, then offsets beside it in the plane through both axes, nearer and nearer to it, all in the spheroid.
+    """Yield the offset, then offsets in the spheroid nearer and nearer to it, in the plane through both axes.
 
     A proof of contact may end at a point of the spheroid's own surface that lies on the hyperboloid. If the two
     surfaces cross there, the hyperboloid's other side is in the direction (−w s, −w t, s² + t²) or its opposite. This
@@ -149,7 +154,7 @@ def _slid(row: Row, offset: Offset) -> Iterator[Offset]:
 
 
 def _cut_off(offset: Offset) -> Iterator[Offset]:
-    """The offset with each part cut off after more and more bits, so that it stays in the spheroid; last unchanged."""
+    """Yield the offset with its parts cut off after more and more bits, which stays in the spheroid; last unchanged."""
     for bits in _bits():
         s, t, w = (Fraction(int(part * (1 << bits)), 1 << bits) for part in offset)
         yield (s, t, w)
@@ -157,6 +162,7 @@ def _cut_off(offset: Offset) -> Iterator[Offset]:
 
 
 def _bits() -> Iterator[int]:
+    """Yield numbers of bits, each about a quarter larger than the one before, up to _MOST_BITS."""
     bits = 1
     while bits < _MOST_BITS:
         yield bits
@@ -164,7 +170,7 @@ def _bits() -> Iterator[int]:
 
 
 def shows_crossing(row: Row, offsets: Sequence[Offset]) -> bool:
-    """Whether these points of the closed spheroid prove a contact that is no tangency.
+    """Decide whether these points of the closed spheroid prove a contact that is no tangency.
 
     A spheroid that only touches has all its points on one side or on the surface, and no inner point on the surface. So
     two points strictly on different sides, or an inner point on the surface, prove a crossing.
@@ -181,16 +187,18 @@ def shows_crossing(row: Row, offsets: Sequence[Offset]) -> bool:
 
 
 def exactly_right(formula: str, row: Row, truth: Position) -> bool:
-    """Whether the formula, evaluated in rationals, gives the right answer to its question about the row."""
+    """Decide whether the formula, evaluated in rationals, gives the right answer to its question about the row."""
     answer = answers(FORMULAS[formula], EXACT, dict(zip(COLUMNS, row, strict=True)))
     return int(answer) == _right_answer(formula, truth)
 
 
 def wrong_answers(formula: str, precision: str, rows: Rows, truths: Sequence[Position]) -> dict[int, Position]:
-    """The rows in the format's range that the formula answers wrongly in it, each with its nearest excuse.
+    """Return the indices of the rows that the formula answers wrongly in the format, each with its excuse.
 
-    An excuse is a position for which the answer would be right: the answer itself; if the formula answers "no" for a
-    clear position, contact, which is nearer than the other clear position.
+    Rows beyond the format's range are left out.
+
+    An excuse is the nearest position for which the answer would be right. If the formula names a position, it is that
+    position. If it answers "no" to the question whether a pair is exterior (or interior), it is contact.
     """
     given_answers: NDArray[np.int8] = answers(
         FORMULAS[formula], float_arithmetic(precision), dict(zip(COLUMNS, rows.T, strict=True))
@@ -201,7 +209,7 @@ def wrong_answers(formula: str, precision: str, rows: Rows, truths: Sequence[Pos
 
 
 def in_range(rows: Rows, precision: str) -> Mask:
-    """A mask (n,) of the rows whose every number is 0 or in the range of the format's normal numbers."""
+    """Return a mask (n,) of the rows whose numbers are all 0 or in the range of the format's normal numbers."""
     limits = np.finfo(np.dtype(precision))
     lengths = np.abs(rows)
     normal = (lengths >= float(limits.tiny)) & (lengths <= float(limits.max))
@@ -209,7 +217,9 @@ def in_range(rows: Rows, precision: str) -> Mask:
 
 
 def leaves_range(formula: str, precision: str, rows: Rows) -> tuple[Mask, Mask]:
-    """Masks of the rows with an infinity, and with a product or quotient of numbers ≠ 0 below the normal numbers.
+    """Evaluate the formula in the format; return masks (n,) of the rows where it overflows and where it underflows.
+
+    Overflow: an intermediate is infinite. Underflow: a product or quotient of numbers ≠ 0 is below the normal numbers.
 
     A NaN without an infinity is the root of a negative number and no overflow; a difference of infinities follows an
     infinity. Sums and differences do not underflow: if they are subnormal, they are exact.
@@ -232,11 +242,13 @@ def leaves_range(formula: str, precision: str, rows: Rows) -> tuple[Mask, Mask]:
 
 
 def _right_answer(formula: str, truth: Position) -> int:
+    """Return the right answer to the formula's question: the position, or 1 for yes and 0 for no."""
     question = FORMULAS[formula].question
     return int(truth) if question == "position" else int(truth is Position[question.upper()])
 
 
 def _excuse(formula: str, answer: int) -> Position:
+    """Return the nearest position for which a wrong answer of the formula would be right."""
     question = FORMULAS[formula].question
     if question == "position":
         return Position(answer)
@@ -245,13 +257,13 @@ def _excuse(formula: str, answer: int) -> Position:
 
 FORMATS = ("float16", "float32", "float64")
 DEFEATED = tuple((name, precision) for name in ("table-2", "local-maximum") for precision in ("float32", "float64"))
-"""The formulas whose rounding is looked at, and the formats in which it is."""
+"""The formulas whose rounding errors give flags, each with a format in which it is evaluated."""
 
 PRINTED = {"proposition-3-false": "table-2", "proposition-5-false": "procedure-2b-spheroid"}
-"""The flags of the paper's own procedures, which are looked at in exact arithmetic."""
+"""Flags of rows that a procedure of the paper answers wrongly in exact arithmetic, each with the formula's name."""
 
 TOLERANCE_U = 8
-"""Units u of backward error up to which a rounded answer counts as good."""
+"""The backward error, in units u, up to which a wrong answer in floats is tolerated and gives no flag."""
 
 _DOUBLE_ROOTS = {
     Kind.CROSSING_THROAT_NODE,
@@ -262,7 +274,7 @@ _DOUBLE_ROOTS = {
 
 
 def flags_of(content: Content, rows: Sequence[Row], decisions: Sequence[Decision]) -> list[tuple[str, ...]]:
-    """The flags of each valid row of a file with that content; the exact decisions are given."""
+    """Return the flags of each valid row of a file with that content; the exact decisions are given."""
     if not content.flags:
         return [()] * len(rows)
     return (_tilted_flags if content.tilted else _upright_flags)(rows, decisions)
@@ -279,7 +291,7 @@ def _upright_flags(rows: Sequence[Row], decisions: Sequence[Decision]) -> list[t
 
 
 def _of_pair(pair: Pair, decision: Decision) -> set[str]:
-    """The flags that exact arithmetic decides."""
+    """Return the flags of a pair that exact arithmetic decides."""
     g, kind = cubic(pair.lengths), decision.kind
     a, square = Fraction(pair.alpha) / Fraction(pair.b), (Fraction(pair.gamma) / Fraction(pair.d)) ** 2
     held = {
@@ -300,7 +312,7 @@ def _of_pair(pair: Pair, decision: Decision) -> set[str]:
 
 
 def _of_numbers(rows: Rows) -> dict[str, Mask]:
-    """The flags that follow directly from the seven numbers."""
+    """Return masks (n,) of the flags that follow directly from the seven numbers, by name."""
     masks = {
         "extreme": ~within(rows),
         "negative-zero": np.asarray(((rows == 0) & np.signbit(rows)).any(axis=1)),
@@ -315,7 +327,7 @@ def _of_numbers(rows: Rows) -> dict[str, Mask]:
 
 
 def _of_table_2(rows: Rows) -> dict[str, Mask]:
-    """The flags for an intermediate of Table 2 outside the range of a format that holds the row."""
+    """Return masks (n,) of the flags for an intermediate of Table 2 beyond a format that holds the row, by name."""
     masks = {}
     for name in FORMATS:
         overflow, underflow = leaves_range("table-2", name, rows)
@@ -325,7 +337,7 @@ def _of_table_2(rows: Rows) -> dict[str, Mask]:
 
 
 def _of_formulas(rows: Rows, decisions: Sequence[Decision]) -> dict[str, Mask]:
-    """The flags for a formula that is wrong in exact arithmetic, or right in exact arithmetic and wrong in floats."""
+    """Return masks (n,), by name, of the flags for a formula that is wrong in exact arithmetic, or only in floats."""
     listed: list[Row] = rows.tolist()
     truths = [decision.position for decision in decisions]
     masks = {
@@ -344,7 +356,7 @@ def _of_formulas(rows: Rows, decisions: Sequence[Decision]) -> dict[str, Mask]:
 
 
 def _beyond(row: Row, truth: Decision, excuse: Position, precision: str) -> bool:
-    """Whether no change of the inputs by TOLERANCE_U units u makes the wrong answer right."""
+    """Decide whether no change of the inputs by TOLERANCE_U units u makes the wrong answer right."""
     change = TOLERANCE_U * Fraction(unit_roundoff(precision))
     return not tolerated(Pair.from_row(row), truth, [excuse], change)
 
@@ -354,11 +366,12 @@ _SHORTEST, _LONGEST = 2.0**-511, 2.0**511
 
 
 def _tilted_flags(rows: Sequence[Row], decisions: Sequence[Decision]) -> list[tuple[str, ...]]:
-    """The flags of each row with a tilted spheroid, each decided exactly."""
+    """Return the flags of each row with a tilted spheroid, each decided exactly."""
     return [_of_tilted_pair(Pair.from_row(row), decision) for row, decision in zip(rows, decisions, strict=True)]
 
 
 def _of_tilted_pair(pair: Pair, decision: Decision) -> tuple[str, ...]:
+    """Return the flags of a pair with a tilted spheroid, decided exactly."""
     sizes = pair.row[:7]
     double = not pair.is_upright and discriminant(quartic(pair.lengths)) == 0
     across = cross(to_integers((pair.x, pair.y, pair.z)), to_integers(pair.axis))
@@ -382,7 +395,7 @@ def _of_tilted_pair(pair: Pair, decision: Decision) -> tuple[str, ...]:
 
 
 def sweep_flags(row: Row, first: tuple[float, float] | None, proof: PassageCertificate) -> tuple[str, ...]:
-    """The flags of a sweep; the positions at its ends are decided exactly."""
+    """Return the flags of a sweep; the positions at its ends are decided exactly."""
     start, end, (_, axis, _) = row[4:7], row[7:10], SWEEPS.split(row)
     ends = [sweep_of_row(row).position(Fraction(time)) for time in (0, 1)]
     conditions = {

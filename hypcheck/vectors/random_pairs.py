@@ -46,13 +46,13 @@ class Sizes:
 
 
 def sizes(draw: Draw, a: Floats, c: Floats, units: tuple[int, int] = UNITS) -> Sizes:
-    """Sizes with about these ratios, b and d log-uniform in 2^units."""
+    """Draw sizes with about the ratios a = α/b and c = γ/d, b and d log-uniform in 2^units."""
     b, d = draw.log_uniform(len(a), *units), draw.log_uniform(len(a), *units)
     return Sizes(a * b, c * d, b, d)
 
 
 def stack(size: Sizes, x: ArrayLike, y: ArrayLike, z: ArrayLike) -> Rows:
-    """The rows of these columns, without negative zeros; each column is contiguous in memory."""
+    """Make the rows of these columns, without negative zeros; each column is contiguous in memory."""
     columns = np.empty((7, len(size.b)))
     for index, column in enumerate((size.alpha, size.gamma, size.b, size.d, x, y, z)):
         np.add(column, 0.0, out=columns[index])
@@ -60,7 +60,7 @@ def stack(size: Sizes, x: ArrayLike, y: ArrayLike, z: ArrayLike) -> Rows:
 
 
 def centred(draw: Draw, size: Sizes, radius: Floats, height: Floats) -> Rows:
-    """Rows with the centre at this distance from the axis and from the waist, at any azimuth, above or below."""
+    """Make rows with the centre at this distance from the axis and from the waist, at any azimuth, above or below."""
     n = len(radius)
     cosine, sine = draw.circle(n)
     across = size.b * radius
@@ -68,12 +68,12 @@ def centred(draw: Draw, size: Sizes, radius: Floats, height: Floats) -> Rows:
 
 
 def beside(draw: Draw, size: Sizes, height: Floats, offset: Floats) -> Rows:
-    """Rows with the centre `offset` from the point of the surface at `height`, along the normal, outward positive."""
+    """Make rows with the centre `offset` from the surface's point at `height`, along the normal, outward positive."""
     return centred(draw, size, *beside_surface(size.a, size.c, height, offset))
 
 
 def beside_surface(a: Floats, c: Floats, height: Floats, offset: Floats) -> tuple[Floats, Floats]:
-    """The radius and height of `beside`; no intermediate overflows while a, c and a·height/c do not."""
+    """Return the radius and height of the centre of `beside`; nothing overflows if a, c and a·height/c do not."""
     share = height / c
     small = np.minimum(share, 2.0**30)
     stretch = np.where(share > 2.0**30, share, np.sqrt(1 + small * small))
@@ -86,63 +86,63 @@ def beside_surface(a: Floats, c: Floats, height: Floats, offset: Floats) -> tupl
 
 
 def heights(draw: Draw, c: Floats) -> Floats:
-    """Heights: half within two γ of the waist, half within eight radii of it."""
+    """Draw heights, in d: half within two γ of the waist, half within eight d of it."""
     n = len(c)
     share = draw.unit(n)
     return np.asarray(share * np.where(draw.words(n) >> np.uint64(63) == 0, 2 * c, 8.0))
 
 
 def offsets(draw: Draw, n: int) -> Floats:
-    """Offsets uniform in ±2.5 radii, so that every position occurs where the surface is flat enough to allow it."""
+    """Draw offsets uniform in ±2.5 radii: every position occurs where the surface is flat enough to allow it."""
     return draw.between(n, -2.5, 2.5)
 
 
 def nearly_touching(draw: Draw, n: int, low: int = -52, high: int = -4) -> Floats:
-    """Offsets of ±1, or of 2^low to 2^high more or less."""
+    """Draw offsets ±1, each changed by a relative 2^low to 2^high, up or down."""
     return draw.signs(n) * (1 + draw.signed(n, low, high))
 
 
 def around(draw: Draw, size: Sizes) -> Rows:
-    """Rows all around the surface, at `heights` and `offsets`."""
+    """Make rows all around the surface, with `heights` and `offsets`."""
     return beside(draw, size, heights(draw, size.c), offsets(draw, len(size.b)))
 
 
 def all_regimes(draw: Draw, n: int) -> tuple[Floats, Floats]:
-    """a and c, the four regimes in turn: a in [2⁻⁴, 1) or [1, 2⁶), c²/a in [2⁻⁶, 1) or [1, 2⁸)."""
+    """Draw a and c of the four regimes in turn: a in [2⁻⁴, 1) or [1, 2⁶), c²/a in [2⁻⁶, 1) or [1, 2⁸)."""
     a = np.where(turns(n, True, True, False, False), draw.log_uniform(n, 0, 6), draw.log_uniform(n, -4, 0))
     bend = np.where(turns(n, True, False), draw.log_uniform(n, 0, 8), draw.log_uniform(n, -6, 0))
     return a, np.sqrt(a * bend)
 
 
 def sizes_of_all_regimes(draw: Draw, n: int, units: tuple[int, int] = UNITS) -> Sizes:
-    """Sizes with the ratios of all_regimes, b and d log-uniform in 2^units."""
+    """Draw sizes with the ratios of all_regimes, b and d log-uniform in 2^units."""
     return sizes(draw, *all_regimes(draw, n), units)
 
 
 def uniform(draw: Draw, n: int) -> Rows:
-    """Rows in all regimes with centres all around the surface."""
+    """Make rows in all regimes with centres all around the surface."""
     return around(draw, sizes_of_all_regimes(draw, n))
 
 
 def far_centers(draw: Draw, n: int) -> Rows:
-    """Centres 2⁴ to 2²⁷ radii up the surface, where it is nearly a cone."""
+    """Make rows with centres 2⁴ to 2²⁷ radii up the surface, where it is nearly a cone."""
     a, c = all_regimes(draw, n)
     size = sizes(draw, a, c, units=(-10, -8))
     return beside(draw, size, draw.log_uniform(n, 4, 27) * np.minimum(1, c / a), offsets(draw, n))
 
 
 def giant_spheroids(draw: Draw, n: int) -> Rows:
-    """a and c in [2⁻¹⁶, 2⁻²): compared with the spheroid's size the hyperboloid is a double cone."""
+    """Make rows with a and c in [2⁻¹⁶, 2⁻²): compared with the spheroid the hyperboloid is a double cone."""
     return around(draw, sizes(draw, draw.log_uniform(n, -16, -2), draw.log_uniform(n, -16, -2)))
 
 
 def tiny_spheroids(draw: Draw, n: int) -> Rows:
-    """a and c in [2¹⁰, 2²⁰): insects about towers; the contact zone is a thousandth of the scene and less."""
+    """Make rows with a and c in [2¹⁰, 2²⁰): insects about towers; contact takes a thousandth of the scene or less."""
     return around(draw, sizes(draw, draw.log_uniform(n, 10, 20), draw.log_uniform(n, 10, 20), units=(-16, -6)))
 
 
 def exact_in(bits: int, least: float) -> Maker:
-    """Rows of `bits` significant bits, no coordinate but 0 smaller than `least`: the format's own numbers."""
+    """Return the generator of rows of a float format: `bits` significant bits, no coordinate but 0 below `least`."""
 
     def make(draw: Draw, n: int) -> Rows:
         a, c = all_regimes(draw, n)
@@ -155,7 +155,7 @@ def exact_in(bits: int, least: float) -> Maker:
 
 
 def small_integers(draw: Draw, n: int) -> Rows:
-    """Small whole numbers, as a person types them: tangencies and other exact coincidences are frequent.
+    """Make rows of small whole numbers, as a person types them: tangencies and other coincidences are frequent.
 
     Each pair is followed by three others of the same numbers: its centre turned, both groups of sizes swapped, and α
     and b doubled. Half of the zeros are negative.
@@ -177,7 +177,7 @@ def small_integers(draw: Draw, n: int) -> Rows:
 
 
 def _equal_sizes(draw: Draw, alpha: Floats, gamma: Floats, b: Floats, d: Floats) -> Sizes:
-    """Half of the sizes unchanged; in the others two, two pairs or all four are made equal, or all are 1."""
+    """Leave half of the sizes as they are; in the others make two, two pairs or all four equal, or all of them 1."""
     kind = draw.integers(len(b), 0, 11)
     ball, crossed = (kind >= 6) & (kind <= 9), kind == 11
     one = np.where(kind == 9, 1.0, b)
@@ -187,7 +187,7 @@ def _equal_sizes(draw: Draw, alpha: Floats, gamma: Floats, b: Floats, d: Floats)
 
 
 def _equal_coordinates(draw: Draw, size: Sizes, x: Floats, y: Floats, z: Floats) -> tuple[Floats, Floats, Floats]:
-    """Half of the centres unchanged; in the others two or three coordinates are made equal, or z is γ or d."""
+    """Leave half of the centres as they are; in the others make two or three coordinates equal, or z ±γ or ±d."""
     kind, sign = draw.integers(len(x), 0, 9), draw.signs(len(x))
     y = np.where((kind == 5) | (kind == 6), sign * x, y)
     z = np.where((kind == 6) | (kind == 7), x, z)
@@ -195,7 +195,7 @@ def _equal_coordinates(draw: Draw, size: Sizes, x: Floats, y: Floats, z: Floats)
 
 
 def symmetric_images(draw: Draw, n: int) -> Rows:
-    """Sixteen images of a pair in consecutive rows: x, y swapped, signs turned (−0.0 included), other units."""
+    """Make sixteen images of a pair in consecutive rows: x, y swapped, signs turned (−0.0 included), other units."""
     pairs = -(-n // 16)
     a, c = all_regimes(draw, pairs)
     side = nearly_touching(draw, pairs, -40, -2)
@@ -214,11 +214,14 @@ def symmetric_images(draw: Draw, n: int) -> Rows:
 
 
 TURN = 2 * len(COLUMNS)
-"""Consecutive rows of one pair: as it is, α changed, α as it was except for an ulp, γ changed, and so on."""
+"""The number of consecutive rows of one pair: as it is, α changed, α as it was but for an ulp, γ changed, and so on."""
 
 
 def one_number_changed(draw: Draw, n: int) -> Rows:
-    """Pairs 2⁻¹⁴ to 2⁻⁶ radii from contact; a number changes by 1/16 of itself or more, so that many cross contact."""
+    """Repeat pairs that are 2⁻¹⁴ to 2⁻⁶ radii from contact, and change one number from row to row.
+
+    A number changes by 1/16 of itself or more, so that many rows are on the other side of contact.
+    """
     pairs = -(-n // TURN)
     size = sizes_of_all_regimes(draw, pairs)
     offset = nearly_touching(draw, pairs, -14, -6)
@@ -227,13 +230,16 @@ def one_number_changed(draw: Draw, n: int) -> Rows:
 
 
 def by_sixteenths(draw: Draw, rows: Rows) -> Rows:
-    """The rows with all numbers changed by one factor, 1/16 or more from 1."""
+    """Multiply all numbers of each row by one factor that differs from 1 by 1/16 or more."""
     n = len(rows)
     return np.asarray(rows * (1 + draw.signed(n, -4, 0))[:, None])
 
 
 def repeated(pairs: Rows, columns: Sequence[int], n: int, centres: int = 6) -> Rows:
-    """n rows, each pair 2·len(columns) times; zeros in its `centres` coordinates, which no factor changes, are b/64."""
+    """Repeat each pair 2·len(columns) times, n rows in all, with b/64 in place of zeros, which no factor changes.
+
+    `centres` is the number of columns of coordinates, from column 4 on, in which zeros are replaced.
+    """
     places = pairs[:, 4 : 4 + centres]
     full = np.where(places == 0, pairs[:, 2:3] / 64, places)
     pairs = np.concatenate([pairs[:, :4], full, pairs[:, 4 + centres :]], axis=1)
@@ -241,13 +247,13 @@ def repeated(pairs: Rows, columns: Sequence[int], n: int, centres: int = 6) -> R
 
 
 def each_with_one_number_changed(draw: Draw, pairs: Rows, columns: Sequence[int], n: int, centres: int = 6) -> Rows:
-    """n rows: each pair, or sweep, repeated, with one number changed from row to row."""
+    """Repeat each pair, or sweep, and change one number from row to row, n rows in all."""
     rows = repeated(pairs, columns, n, centres)
     return changed_in_turn(rows, by_sixteenths(draw, rows), columns)
 
 
 def changed_in_turn(rows: Rows, others: Rows, columns: Sequence[int]) -> Rows:
-    """The rows, of which each 2·len(columns) are equal, with one number changed from each row to the next.
+    """Change one number from each row to the next; each 2·len(columns) consecutive rows are equal before.
 
     In every second row a column has the number of `others`, one column after the other; from then on it is an ulp
     larger than before.
@@ -270,30 +276,30 @@ FLIGHT_STEPS = 32
 
 
 def _metres(draw: Draw, n: int, low: int, high: int) -> Floats:
-    """Whole centimetres (limits in centimetres), as a person would write a size down."""
+    """Draw whole centimetres from low to high, in metres, as a person would write a size down."""
     return draw.integers(n, low, high) / 100.0
 
 
 def _walker(draw: Draw, n: int) -> tuple[Floats, Floats]:
-    """b and d of a person: 50 to 90 cm across, 1.4 to 2 m tall."""
+    """Draw b and d of a person: 50 to 90 cm across, 1.4 to 2 m tall."""
     return _metres(draw, n, 25, 45), _metres(draw, n, 70, 100)
 
 
 def _trunk(draw: Draw, b: Floats, d: Floats, alpha: Floats) -> Sizes:
-    """A trunk of waist α that widens slowly enough for (γ/d)² ≥ α/b, with a margin for roundings."""
+    """Draw trunks of waist α that widen slowly enough for (γ/d)² ≥ α/b, with a margin for roundings."""
     least = d * np.sqrt(np.maximum(alpha / b, 1.0))
     return Sizes(alpha, least * draw.between(len(b), 1.02, 4), b, d)
 
 
 def forest_type_1(draw: Draw, n: int) -> Rows:
-    """Trunks wider than the walker; the walker is within 2 m of the trunk's waist."""
+    """Make rows with trunks wider than the walker, who is within 2 m of the height of the trunk's waist."""
     b, d = _walker(draw, n)
     size = _trunk(draw, b, d, b * draw.between(n, 1, 6))
     return beside(draw, size, draw.between(n, 0, 2) / d, offsets(draw, n))
 
 
 def forest_type_2(draw: Draw, n: int) -> Rows:
-    """Trunks narrower than the walker; a third of the rows is so high that even such a trunk is as wide as she is."""
+    """Make rows with trunks narrower than the walker; in a third she is so high that even such a trunk is as wide."""
     b, d = _walker(draw, n)
     size = _trunk(draw, b, d, b * draw.between(n, 0.2, 0.99))
     aloft = draw.places(n) % 3 == 0
@@ -302,27 +308,29 @@ def forest_type_2(draw: Draw, n: int) -> Rows:
 
 
 def _in_tower(n: int, mover: tuple[float, float], x: Floats, y: Floats, z: Floats) -> Rows:
+    """Make the rows of a mover (b, d) with these centres in the paper's tower."""
     alpha, gamma, b, d = (np.full(n, value) for value in TOWER + mover)
     return stack(Sizes(alpha, gamma, b, d), x, y, z)
 
 
 def _box(draw: Draw, n: int) -> tuple[Floats, Floats, Floats]:
+    """Draw centres uniform in a box that holds the tower."""
     return draw.between(n, -4, 4), draw.between(n, -4, 4), draw.between(n, -TOWER[1], TOWER[1])
 
 
 def tower_body(draw: Draw, n: int) -> Rows:
-    """The quadcopter's body, uniform in a box that holds the tower."""
+    """Make rows of the quadcopter's body, uniform in a box that holds the tower."""
     return _in_tower(n, BODY, *_box(draw, n))
 
 
 def _radius(z: Floats) -> Floats:
-    """The tower's radius at height z."""
+    """Return the tower's radius at height z."""
     ratio = z / TOWER[1]
     return np.asarray(TOWER[0] * np.sqrt(1 + ratio * ratio))
 
 
 def tower_rotors(draw: Draw, n: int) -> Rows:
-    """The four rotors of a body, equation (15), in consecutive rows; half of the bodies are in contact or nearly so."""
+    """Make rows of a body's four rotors, equation (15), one after the other; half of the bodies are near contact."""
     bodies = -(-n // 4)
     x, y, z = _box(draw, bodies)
     cosine, sine = draw.circle(bodies)
@@ -336,7 +344,9 @@ def tower_rotors(draw: Draw, n: int) -> Rows:
 
 
 def flight(draw: Draw, n: int) -> Rows:
-    """Positions that moves of random flights lead to (section 4, FLIGHT_STEPS moves each), refused moves included.
+    """Make rows of the positions to which random flights move (section 4, FLIGHT_STEPS moves each).
+
+    Moves that the flight refuses are included.
 
     A move of v·t (5–10 m/s, 0.1–0.3 s) goes straight, up or down, or aside by at most π/4; where it would leave the
     tower, the quadcopter stays and turns by π/2. Half of the flights keep near the wall.

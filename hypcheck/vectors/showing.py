@@ -35,7 +35,7 @@ _LABEL = 12
 
 
 def list_lines() -> Iterator[str]:
-    """A line for every set of vectors: its name, its number of frozen vectors, and its title."""
+    """Yield a line for every set of vectors: its name, its number of frozen vectors, and its title."""
     width, together = max(map(len, ALL_NAMES)), 0
     for name in ALL_NAMES:
         path = str(frozen.path_of(name))
@@ -48,7 +48,7 @@ def list_lines() -> Iterator[str]:
 
 
 def family_lines(name: str) -> Iterator[str]:
-    """The description of a family, and the numbers of its frozen cases."""
+    """Yield the description of a family, and the numbers of its frozen cases."""
     file = frozen.load(name)
     refused = ", all to be refused" if file.content.refused else ""
     yield from _metadata_lines(file.head)
@@ -67,7 +67,7 @@ def family_lines(name: str) -> Iterator[str]:
 
 
 def case_lines(case: Vector | InvalidRow, content: Content) -> Iterator[str]:
-    """A case of a file with that content, with its labels and its proof."""
+    """Yield a case of a file with that content, with its labels and its proof."""
     yield case.id
     if isinstance(case, InvalidRow):
         for name, value, bits in zip(content.columns, case.row, case.bits, strict=True):
@@ -100,7 +100,7 @@ def _sweep_lines(case: Vector) -> Iterator[str]:
 
 
 def _proof(case: Vector, content: Content) -> Iterable[str]:
-    """The proof as `hypcheck classify` prints it."""
+    """Return the lines of the proof as `hypcheck classify` prints them."""
     if not content.about_sweeps:
         return proof_lines(Pair.from_row(case.row), case.certificate)
     return passage_proof_lines(None if content.ended else case.passage_certificate, ended=content.ended)
@@ -111,7 +111,7 @@ def _distance(distance: Bracket) -> str:
 
 
 def case_named(name: str) -> tuple[Vector | InvalidRow, Content]:
-    """The case with that id, frozen or generated, and the content of its file. Raises InputError if there is none."""
+    """Return the case with that id, frozen or generated, and the content of its file. Raises InputError."""
     if "/" in name:
         return generated_case(name)
     family = _family_of(name)
@@ -127,7 +127,7 @@ def case_named(name: str) -> tuple[Vector | InvalidRow, Content]:
 
 
 def show(name: str, *, as_json: bool) -> Iterator[str]:
-    """The lines about a family or a case; with `as_json` a case as in a vector file. Raises InputError."""
+    """Yield the lines about a family or a case; with `as_json` a case as in a vector file. Raises InputError."""
     if name not in ALL_NAMES:
         case, content = case_named(name)
         yield from (case_text(case, content),) if as_json else case_lines(case, content)
@@ -167,7 +167,7 @@ def _titled(label: str, text: str) -> list[str]:
 
 
 def _family_of(name: str) -> str:
-    """The part of a frozen case's id before the number; any other name unchanged."""
+    """Return the part of a frozen case's id before the number; any other name unchanged."""
     family, _, number = name.rpartition("-")
     return family if number.isdecimal() else name
 
@@ -190,12 +190,12 @@ def _family_to_generate(name: str) -> Family:
 
 
 def as_json(family: Family, seed: int, count: int) -> bytes:
-    """A vector file whose cases have generated ids."""
+    """Return a vector file whose cases have generated ids."""
     return generated_text(family, seed, count).encode()
 
 
 def as_csv(family: Family, seed: int, count: int) -> bytes:
-    """A table of ids and rows, as `hypcheck classify --input` takes it."""
+    """Return a table of ids and rows, as `hypcheck classify --input` takes it."""
     lines = [",".join(("id", *family.columns))]
     quote = '"' if "," in family.name else ""  # the names of families for fixed sizes have commas
     for index, row in enumerate(family.rows(seed, count).tolist()):
@@ -204,7 +204,7 @@ def as_csv(family: Family, seed: int, count: int) -> bytes:
 
 
 def as_npy(family: Family, seed: int, count: int) -> bytes:
-    """The rows alone as a .npy file of little-endian float64."""
+    """Return the rows alone as a .npy file of little-endian float64."""
     file = io.BytesIO()
     np.lib.format.write_array(file, family.rows(seed, count).astype("<f8"), version=(1, 0))
     return file.getvalue()

@@ -1,4 +1,4 @@
-"""Sweeps: rows of ten numbers, or of thirteen with an axis, with traps between the ends of a sweep.
+"""Sweeps: rows of ten numbers, or of thirteen with an axis, with traps between the two ends of a sweep.
 
 First sweeps that touch: through a place where the surfaces touch, across a ring, and from or to a tangency. These touch
 exactly: places come from the constructions of tangencies and rings, and both ends of a sweep are checked to have no
@@ -19,17 +19,20 @@ from hypcheck.vectors.draw import Draw, Maker, in_turn, ldexp, turns
 from hypcheck.vectors.random_pairs import BODY, TOWER, Sizes, heights, offsets, sizes, sizes_of_all_regimes
 
 CENTRE = slice(4, 7)
-"""The columns of the centre, or of the first end of a sweep."""
+"""The columns of the centre, or of the start of a sweep."""
 
 
 def between(rows: Rows, ends: Rows, starts: Rows | None = None) -> Rows:
-    """The sweeps from the centres of rows, or from `starts`, to `ends`, (n, 3) each: three columns more, no −0.0."""
+    """Make sweeps from the centres of rows, or from `starts`, to `ends`, (n, 3) each: three columns more, no −0.0."""
     starts = rows[:, CENTRE] if starts is None else starts
     return np.concatenate([rows[:, :4], starts, ends, rows[:, 7:]], axis=1) + 0.0
 
 
 def through(rows: Rows, steps: Rows, after: Floats) -> tuple[Rows, Mask]:
-    """Sweeps through the centres of rows, from a step before to `after` steps beyond, and which have exact ends."""
+    """Make sweeps through the centres of rows, from one step before them to `after` steps beyond.
+
+    Returns a mask (n,), too, of the sweeps that move and whose start and end were computed without rounding.
+    """
     centres = rows[:, CENTRE]
     (start, lost), (end, missed) = two_sum(centres, -steps), two_sum(centres, steps * after[:, None])
     moved = (start != end).any(axis=1)
@@ -38,7 +41,7 @@ def through(rows: Rows, steps: Rows, after: Floats) -> tuple[Rows, Mask]:
 
 @gathered
 def _exterior_graze(draw: Draw, n: int) -> tuple[Rows, Mask]:
-    """Sweeps through an outer tangency along the surface's horizontal section, which curves away from the sweep."""
+    """Make sweeps through an outer tangency, horizontal and along the surface, whose section curves away from them."""
     tangencies = double_roots.by_ratios(draw, n)
     rows = in_metres(draw, np.where(tangencies.usable[:, None], tangencies.rows, 1.0))
     share = ldexp(draw.signs(n), draw.integers(n, -6, 2))
@@ -49,7 +52,7 @@ def _exterior_graze(draw: Draw, n: int) -> tuple[Rows, Mask]:
 
 @gathered
 def _interior_graze(draw: Draw, n: int) -> tuple[Rows, Mask]:
-    """Sweeps up or down through an inner tangency at the waist, the narrowest place."""
+    """Make sweeps up or down through an inner tangency at the waist, the narrowest place."""
     rows = in_metres(draw, gather(draw, n, double_roots.waist_points))
     radius = np.sqrt(rows[:, 4] * rows[:, 4] + rows[:, 5] * rows[:, 5])
     steps = np.zeros((n, 3))
@@ -59,11 +62,11 @@ def _interior_graze(draw: Draw, n: int) -> tuple[Rows, Mask]:
 
 
 grazing = in_turn(_exterior_graze, _interior_graze)
-"""Exact tangency at one instant, clear before and after, outside and inside."""
+"""The generator of sweeps with an exact tangency at one time, clear before and after, outside and inside."""
 
 
 def near_graze(draw: Draw, n: int) -> Rows:
-    """Grazing sweeps with the spheroid enlarged or reduced by 2⁻⁵⁰ to 2⁻³."""
+    """Make sweeps as `grazing` does, with the spheroid enlarged or reduced by a relative 2⁻⁵⁰ to 2⁻³."""
     rows = grazing(draw, n)
     factor = 1 + ldexp(draw.signs(n), -3 - draw.places(n) % 48)
     rows[:, 2] *= factor
@@ -72,13 +75,13 @@ def near_graze(draw: Draw, n: int) -> Rows:
 
 
 def _ring_place(draw: Draw, n: int) -> tuple[Rows, Mask]:
-    """Places on the ring at the waist, and which of them are usable."""
+    """Draw rows with centres on the ring; return them and a mask of the usable ones."""
     rows, usable = double_roots.waist_roots(draw, n, ring=True)
     return in_metres(draw, np.where(usable[:, None], rows, 1.0)), usable
 
 
 def ring_attempt(draw: Draw, n: int) -> tuple[Rows, Mask]:
-    """Sweeps across rings, and which of them have exact ends; some begin in contact, as the ring is near."""
+    """Make sweeps across rings; return them and a mask of those with exact ends. Some begin in contact."""
     rows, usable = _ring_place(draw, n)
     share = ldexp(np.ones(n), draw.integers(n, -30, -5))
     pick = draw.integers(n, 0, 3)
@@ -98,7 +101,7 @@ def ring_attempt(draw: Draw, n: int) -> tuple[Rows, Mask]:
 
 
 def ring(draw: Draw, n: int) -> Rows:
-    """Sweeps across the ring, where the discriminant is 0 without contact: along the ring, upwards and outwards.
+    """Make sweeps across the ring, where the discriminant is 0 without contact: along the ring, upwards and outwards.
 
     A ring may be so near to the surface that a sweep across it begins in contact. Other sweeps replace these.
     """
@@ -115,10 +118,11 @@ def _clear_ring_attempt(draw: Draw, n: int) -> tuple[Rows, Mask]:
 
 
 def more_than_a_radius_away(sweeps: Rows) -> Mask:
-    """A mask of the sweeps across a ring that are certainly clear everywhere, by their distance from the waist.
+    """Return a mask of the sweeps across a ring that are certainly clear everywhere, by their distance from the waist.
 
-    In radii, a centre in the plane of the waist between the waist and the ring is r − a away from the surface, and one
-    that is z above it is farther than r − a − z. The margin is far more than what r is rounded by.
+    In the space where the spheroid is the unit ball, a = α/b is the radius of the waist. There a centre in the plane of
+    the waist, at the distance r from the axis and between waist and ring, is r − a away from the surface, and one that
+    is z above the plane is farther than r − a − z. The margin 2⁻⁴⁰ is far more than the rounding error of r.
     """
     alpha, _, b, d = sweeps[:, :4].T
     x, y, end_x, end_y = sweeps[:, [4, 5, 7, 8]].T
@@ -132,7 +136,7 @@ def more_than_a_radius_away(sweeps: Rows) -> Mask:
 
 
 def at_an_end(draw: Draw, n: int) -> Rows:
-    """Contact only at t = 1, or only at t = 0: a tangency at an end, the other end away from the surface."""
+    """Make sweeps with contact only at t = 1, or only at t = 0: one end is a tangency, the other is off the surface."""
     rows = tangent(draw, n)
     alpha, gamma, _, _, x, y, z = rows.T
     height = z / gamma
@@ -147,7 +151,7 @@ def at_an_end(draw: Draw, n: int) -> Rows:
 
 
 def tilted_end(draw: Draw, n: int) -> Rows:
-    """A tangency at t = 0 or at t = 1, the other end twice as far from the origin, or half as far."""
+    """Make sweeps with a tangency at t = 0 or at t = 1, the other end twice as far from the origin, or half as far."""
     rows = tilted.tangent(draw, n)
     sweeps = between(rows, rows[:, CENTRE] * turns(n, 2.0, 0.5)[:, None])
     backward = turns(n, False, False, True, True)
@@ -156,7 +160,10 @@ def tilted_end(draw: Draw, n: int) -> Rows:
 
 
 def one_number_changed(ends: Maker, columns: int) -> Maker:
-    """As in random_pairs, of sweeps with a tangency at one end."""
+    """Return the generator of sweeps of `ends`, repeated with one number changed from row to row.
+
+    `columns` is the number of columns that change.
+    """
 
     def make(draw: Draw, n: int) -> Rows:
         sweeps = ends(draw, -(-n // (2 * columns)))
@@ -166,7 +173,7 @@ def one_number_changed(ends: Maker, columns: int) -> Maker:
 
 
 def tilted_ring(draw: Draw, n: int) -> Rows:
-    """Sweeps across the ring of a tilted spheroid, or through a place beside it."""
+    """Make sweeps across the ring of a tilted spheroid, or through a place beside it."""
     rows = tilted.ring(draw, n)
     steps = rows[:, 2:3] * ldexp(draw.signs(n), draw.integers(n, -30, -9))[:, None] * _directions(draw, n)
     return through(rows, steps, np.ones(n))[0]
@@ -181,7 +188,7 @@ def _beside(draw: Draw, size: Sizes) -> Rows:
 
 
 def _ends(draw: Draw, size: Sizes, start: Rows) -> Rows:
-    """Ends of sweeps: half all around the surface, half within three radii of the start in each direction."""
+    """Draw ends of sweeps: two in five all around the surface, the others within three radii of the start."""
     far, near = _beside(draw, size)[:, CENTRE], start[:, CENTRE].copy()
     for place, reach in enumerate((size.b, size.b, size.d)):
         near[:, place] += 3 * reach * draw.between(len(near), -1, 1)
@@ -189,13 +196,13 @@ def _ends(draw: Draw, size: Sizes, start: Rows) -> Rows:
 
 
 def _about_the_waist(draw: Draw, n: int) -> tuple[Floats, Floats, Floats, Floats]:
-    """α, γ, b, d: α and γ from 1 to 32, b and d up to twice as large and down to 1/256 of them."""
+    """Draw α, γ, b, d: α and γ from 1 to 32, b and d from 1/256 of α and γ to twice as large."""
     alpha, gamma = draw.log_uniform(n, 0, 5), draw.log_uniform(n, 0, 5)
     return alpha, gamma, alpha * draw.log_uniform(n, -8, 1), gamma * draw.log_uniform(n, -8, 1)
 
 
 def anywhere(draw: Draw, n: int) -> Rows:
-    """Both ends uniform in a box about the waist."""
+    """Make sweeps with both ends uniform in a box about the waist."""
     alpha, gamma, b, d = _about_the_waist(draw, n)
     across, along = 2 * (alpha + b), 2 * (gamma + d)
     ends = [draw.between(n, -reach, reach) for _ in range(2) for reach in (across, across, along)]
@@ -203,7 +210,7 @@ def anywhere(draw: Draw, n: int) -> Rows:
 
 
 def tunnelling(draw: Draw, n: int) -> Rows:
-    """Straight through the wall from outside to inside, or through the whole waist from one side to the other."""
+    """Make sweeps through the wall from outside to inside, or through the whole waist from one side to the other."""
     alpha, gamma, b, d = _about_the_waist(draw, n)
     b, d = np.minimum(b, alpha / 8), np.minimum(d, gamma / 8)
     cosine, sine = draw.circle(n)
@@ -217,14 +224,14 @@ def tunnelling(draw: Draw, n: int) -> Rows:
 
 
 def uniform(draw: Draw, n: int) -> Rows:
-    """Sweeps in all regimes, with both ends all around the surface, or near to each other."""
+    """Make sweeps in all regimes, with both ends all around the surface, or near to each other."""
     size = sizes_of_all_regimes(draw, n)
     start = random_pairs.beside(draw, size, heights(draw, size.c), 2 * offsets(draw, n))
     return between(start, _ends(draw, size, start))
 
 
 def tower(draw: Draw, n: int) -> Rows:
-    """The paper's body in its tower, down through the waist and out, about as near to the wall as possible."""
+    """Make sweeps of the paper's body in its tower, down through the waist and out, close to the wall."""
     size = Sizes(*(np.full(n, value) for value in TOWER + BODY))
     cosine, sine = draw.circle(n)
     radius = draw.between(n, 1.5, 1.9)
@@ -236,7 +243,7 @@ def tower(draw: Draw, n: int) -> Rows:
 
 
 def across(draw: Draw, n: int) -> Rows:
-    """Steps that are too long: both ends outside, or inside above and below the waist; the surface is between."""
+    """Make steps that are too long: both ends outside, or inside above and below the waist; the surface is between."""
     size = sizes_of_all_regimes(draw, n)
     cosine, sine = draw.circle(n)
     reach = size.alpha * draw.log_uniform(n, 0, 5) + size.b * draw.between(n, 1, 3)
@@ -252,20 +259,20 @@ def across(draw: Draw, n: int) -> Rows:
 
 
 def begun_in_contact(draw: Draw, n: int) -> Rows:
-    """The first end crosses the surface: the first contact is at t = 0, wherever the sweep leads."""
+    """Make sweeps that start in contact: the first contact is at t = 0, wherever the sweep leads."""
     size = sizes_of_all_regimes(draw, n)
     start = random_pairs.beside(draw, size, heights(draw, size.c), draw.between(n, -0.9, 0.9))
     return between(start, _beside(draw, size)[:, CENTRE])
 
 
 def still(draw: Draw, n: int) -> Rows:
-    """Both ends are one point: anywhere, at a tangency, on the ring."""
+    """Make sweeps whose two ends are one point: anywhere, at a tangency, on the ring."""
     rows = in_turn(random_pairs.uniform, tangent, gathered(_ring_place))(draw, n)
     return between(rows, rows[:, CENTRE])
 
 
 def along_a_line(draw: Draw, n: int) -> Rows:
-    """Sweeps along a straight line of the hyperboloid, or up to 2.5 radii beside one: the distance hardly changes."""
+    """Make sweeps along a straight line of the surface, or up to 2.5 radii beside one: the distance hardly changes."""
     size = sizes_of_all_regimes(draw, n)
     cosine, sine = draw.circle(n)
     first, last = draw.between(n, -3, 0), draw.between(n, 0, 3)
@@ -280,7 +287,7 @@ def along_a_line(draw: Draw, n: int) -> Rows:
 
 
 def vertical(draw: Draw, n: int) -> Rows:
-    """Sweeps parallel to the hyperboloid's axis, and on it: x and y do not change."""
+    """Make sweeps parallel to the hyperboloid's axis, or on it: x and y do not change."""
     size = sizes_of_all_regimes(draw, n)
     rows = _beside(draw, size)
     rows[:, 4:6] *= turns(n, 1.0, 1.0, 1.0, 0.0)[:, None]
@@ -290,7 +297,7 @@ def vertical(draw: Draw, n: int) -> Rows:
 
 
 def horizontal(draw: Draw, n: int) -> Rows:
-    """Sweeps at constant height; every third one is in the plane of the waist."""
+    """Make sweeps at constant height; every third one is in the plane of the waist."""
     size = sizes_of_all_regimes(draw, n)
     rows, end = _beside(draw, size), _beside(draw, size)[:, CENTRE]
     rows[:, 6] *= turns(n, 1.0, 1.0, 0.0)
@@ -299,7 +306,7 @@ def horizontal(draw: Draw, n: int) -> Rows:
 
 
 def very_long(draw: Draw, n: int) -> Rows:
-    """Sweeps past the surface, over 2¹⁰ to 2⁴⁰ times the spheroid's size: contact is very short."""
+    """Make sweeps past the surface, 2¹⁰ to 2⁴⁰ times as long as the spheroid: contact is very short."""
     size = sizes_of_all_regimes(draw, n)
     rows = _beside(draw, size)
     cosine, sine = draw.circle(n)
@@ -310,7 +317,10 @@ def very_long(draw: Draw, n: int) -> Rows:
 
 
 def very_short(draw: Draw, n: int) -> Rows:
-    """Sweeps from a place within 2⁻²⁰ radii of contact, over 2⁻⁵⁰ to 2⁻¹⁰ of its distance: the ends nearly coincide."""
+    """Make sweeps whose ends nearly coincide, from a place about 2⁻⁵⁰ to 2⁻²⁰ radii off contact.
+
+    Their length is 2⁻⁵⁰ to 2⁻¹⁰ of the distance from the origin.
+    """
     size = sizes_of_all_regimes(draw, n)
     offset = draw.signs(n) + ldexp(draw.signs(n), draw.integers(n, -50, -20))
     rows = random_pairs.beside(draw, size, heights(draw, size.c), offset)
@@ -318,7 +328,7 @@ def very_short(draw: Draw, n: int) -> Rows:
 
 
 def stiff(draw: Draw, n: int) -> Rows:
-    """Ratios of sizes up to 2²⁶, both ends beside the surface."""
+    """Make sweeps with ratios of sizes up to 2²⁶ and both ends beside the surface."""
     a = np.where(turns(n, True, False), draw.log_uniform(n, 12, 26), draw.log_uniform(n, -12, 12))
     c = np.where(turns(n, False, True, True), draw.log_uniform(n, 12, 26), draw.log_uniform(n, -12, 12))
     size = sizes(draw, a, c)
@@ -327,13 +337,13 @@ def stiff(draw: Draw, n: int) -> Rows:
 
 
 def small_integers(draw: Draw, n: int) -> Rows:
-    """Whole numbers as a person types them."""
+    """Make sweeps of whole numbers, as a person types them."""
     columns = [draw.integers(n, 1, 7) for _ in range(4)] + [draw.integers(n, -9, 9) for _ in range(6)]
     return np.stack(columns, axis=1).astype(np.float64) + 0.0
 
 
 def beside_rows(rows_of: Maker) -> Maker:
-    """Sweeps from the centres of rows, upright or tilted, to ends all around the surface or near the start."""
+    """Return the generator of sweeps from the centres of rows to ends all around the surface or near the start."""
 
     def make(draw: Draw, n: int) -> Rows:
         rows = rows_of(draw, n)
@@ -343,10 +353,10 @@ def beside_rows(rows_of: Maker) -> Maker:
 
 
 tilted_uniform = beside_rows(tilted.uniform)
-"""All regimes and all directions, both ends all around the surface."""
+"""The generator of sweeps of all regimes and axes in all directions, with ends all around the surface."""
 
 
 def tilted_integers(draw: Draw, n: int) -> Rows:
-    """Whole numbers; vertical axes and spheres among them, which are upright sweeps."""
+    """Make tilted sweeps of whole numbers, among them vertical axes and spheres, which are upright sweeps."""
     axis = np.stack([draw.integers(n, -2, 2), draw.integers(n, -2, 2), draw.integers(n, 1, 3)], axis=1)
     return np.concatenate([small_integers(draw, n), axis.astype(np.float64) + 0.0], axis=1)

@@ -3,15 +3,16 @@
 First the placing of the spheroid (beside a point of the surface, along M⁻¹ times the normal there), and rows that need
 only this. Then exact coincidences: tangencies and other double roots, twins and rings, and rows near to them.
 
-**Double roots.** Let n̂ = (n1, 0, n3)/N be a normal, the axis v̂ = (p n̂ + q ê)/S with ê ⟂ n̂ of length 1, and Σ = M⁻¹ =
-b² I + (d² − b²) v̂ v̂ᵀ. With b q = f c4 S and d p = f s4 S
+**Double roots.** M is the matrix of the spheroid, D = diag(1/α², 1/α², −1/γ²). Let n̂ = (n1, 0, n3)/N be a normal, the
+axis v̂ = (p n̂ + q ê)/S with ê ⟂ n̂ of length 1, and Σ = M⁻¹ = b² I + (d² − b²) v̂ v̂ᵀ. With b q = f c4 S and d p = f s4 S
 
     n̂ᵀ Σ n̂ = (b q/S)² + (d p/S)² = (f h4)²,    Σ n̂ = f² (h4² n̂ + (s4² q/p − c4² p/q) ê).
 
 With α n1 = w h5 and γ |n3| = w s5 the surface has the normal n̂ at X = (w h5²/(n1 c5), 0, −w s5²/(n3 c5)). So with the
-centre X ± Σ n̂/(f h4) the surfaces touch at X, and det(S + λH) has the double root λ = ± w c5/(f h4 N). All is rational
-where (n1, n3, N), (p, q, S), (c4, s4, h4), (c5, s5, h5) and the two numbers of ê are legs and hypotenuses. The pair is
-tangent if and only if M + λD is positive semidefinite there. At last a rational turn about the hyperboloid's axis.
+centre X ± Σ n̂/(f h4) the surfaces touch at X, and the quartic of the pair (truth/pencil.py) has the double root
+λ = ± w c5/(f h4 N). All is rational if (n1, n3, N), (p, q, S), (c4, s4, h4), (c5, s5, h5) and the two numbers of ê are
+legs and hypotenuses. The pair is tangent if and only if M + λD is positive semidefinite there. At last the pair is
+turned by a rational angle about the hyperboloid's axis.
 """
 
 from __future__ import annotations
@@ -54,7 +55,7 @@ Vectors = tuple[Floats, Floats, Floats]
 
 
 def anywhere(draw: Draw, n: int) -> Vectors:
-    """Unit vectors in every direction, some in the planes of the coordinates."""
+    """Draw unit vectors in every direction, some in the planes of the coordinates."""
     up = draw.between(n, -1, 1)
     cosine, sine = draw.circle(n)
     across = np.sqrt(1 - up * up)
@@ -62,10 +63,10 @@ def anywhere(draw: Draw, n: int) -> Vectors:
 
 
 def beside(draw: Draw, size: Sizes, height: Floats, axis: Vectors, offset: Floats, *, on_x_axis: bool = False) -> Rows:
-    """Rows whose centre is `offset` radii from the surface's point at `height` (in γ), outward positive.
+    """Make rows whose centre is `offset` radii from the surface's point at `height` (in γ), outward positive.
 
-    The direction is M⁻¹ n, n being the normal there: with offset ±1 the spheroid touches the surface in that point,
-    though it may cross it elsewhere.
+    The direction is M⁻¹ n, n being the normal there and M the spheroid's matrix: with offset ±1 the spheroid touches
+    the surface in that point, though it may cross it elsewhere.
     """
     n = len(height)
     cosine, sine = (draw.signs(n), np.zeros(n)) if on_x_axis else draw.circle(n)
@@ -73,7 +74,7 @@ def beside(draw: Draw, size: Sizes, height: Floats, axis: Vectors, offset: Float
 
 
 def beside_at(size: Sizes, direction: tuple[Floats, Floats], height: Floats, axis: Vectors, offset: Floats) -> Rows:
-    """As beside, for the surface's point in this direction (cosine, sine) from the axis."""
+    """Make rows as beside does, for the surface's point in this direction (cosine, sine) from the axis."""
     cosine, sine = direction
     radius = np.sqrt(1 + height * height)
     point = (size.alpha * radius * cosine, size.alpha * radius * sine, size.gamma * height)
@@ -81,31 +82,34 @@ def beside_at(size: Sizes, direction: tuple[Floats, Floats], height: Floats, axi
     return touching(size, axis, point, normal, offset)
 
 
-def touching(size: Sizes, axis: Vectors, point: Vectors, normal: Vectors, share: Floats) -> Rows:
-    """Rows whose spheroid, `share` times as far away, touches the plane through the point across the normal."""
+def touching(size: Sizes, axis: Vectors, point: Vectors, normal: Vectors, factor: Floats) -> Rows:
+    """Make rows whose centre is `factor` times as far from the point as where the spheroid touches a plane there.
+
+    The plane goes through the point, at right angles to the normal; the centre is on the side of the normal.
+    """
     length = np.sqrt(dot(axis, axis))
     unit = (axis[0] / length, axis[1] / length, axis[2] / length)
     along = dot(normal, unit)
     across = [n - along * v for n, v in zip(normal, unit, strict=True)]
     reach = [size.b * size.b * q + size.d * size.d * along * v for q, v in zip(across, unit, strict=True)]
     half = np.sqrt(dot(normal, reach))
-    return stack(size, [p + share * w / half for p, w in zip(point, reach, strict=True)], axis)
+    return stack(size, [p + factor * w / half for p, w in zip(point, reach, strict=True)], axis)
 
 
 def stack(size: Sizes, centre: list[Floats], axis: Vectors) -> Rows:
-    """The rows of these columns, without negative zeros."""
+    """Make the rows of these columns, without negative zeros."""
     return np.stack([size.alpha, size.gamma, size.b, size.d, *centre, *axis], axis=1) + 0.0
 
 
 Shapes = Callable[[Draw, int], tuple[Sizes, Floats]]
-"""What draws sizes, and the heights in γ of points of the surface."""
+"""The type of a function that draws sizes, and heights in γ of points of the surface."""
 
 Axes = Callable[[Draw, int], Vectors]
-"""What draws axes, of any length."""
+"""The type of a function that draws axes, of any length."""
 
 
 def _ordinary(draw: Draw, n: int) -> tuple[Sizes, Floats]:
-    """Sizes of every regime, and heights in γ."""
+    """Draw sizes of every regime, and heights in γ."""
     size = sizes_of_all_regimes(draw, n)
     return size, heights(draw, size.c) / size.c * draw.signs(n)
 
@@ -113,7 +117,7 @@ def _ordinary(draw: Draw, n: int) -> tuple[Sizes, Floats]:
 def near_surface(
     shapes: Shapes = _ordinary, axes: Axes = anywhere, offsets: Callable[[Draw, int], Floats] = nearly_touching
 ) -> Maker:
-    """The generator of rows beside the surface: it draws sizes and heights first, then axes, then offsets."""
+    """Return the generator of rows beside the surface: it draws sizes and heights first, then axes, then offsets."""
 
     def make(draw: Draw, n: int) -> Rows:
         size, height = shapes(draw, n)
@@ -123,14 +127,14 @@ def near_surface(
 
 
 uniform = near_surface(offsets=offsets)
-"""Rows in all regimes, with axes in all directions and centres all around the surface."""
+"""The generator of rows in all regimes, with axes in all directions and centres all around the surface."""
 
 near_contact = near_surface()
-"""Rows from 2⁻⁵² to 2⁻⁴ radii off contact, all over the surface."""
+"""The generator of rows 2⁻⁵² to 2⁻⁴ radii off contact, all over the surface."""
 
 
 def tower(draw: Draw, n: int) -> Rows:
-    """The paper's body beside the wall of its tower, tilted up to 45° from the vertical to any side."""
+    """Make rows of the paper's body beside the wall of its tower, tilted up to 45° from the vertical to any side."""
     size = Sizes(*(np.full(n, value) for value in TOWER + BODY))
     cosine, sine = draw.circle(n)
     lean = draw.unit(n)
@@ -140,7 +144,7 @@ def tower(draw: Draw, n: int) -> Rows:
 
 
 def one_number_changed(draw: Draw, n: int) -> Rows:
-    """As in random_pairs, with the three numbers of the axis."""
+    """Make rows as in random_pairs; the three numbers of the axis change, too."""
     columns = range(len(TILTED_COLUMNS))
     make = near_surface(offsets=lambda draw, n: nearly_touching(draw, n, -14, -6))
     rows = make(draw, -(-n // (2 * len(columns))))
@@ -148,20 +152,20 @@ def one_number_changed(draw: Draw, n: int) -> Rows:
 
 
 def _level(draw: Draw, n: int) -> Vectors:
-    """Horizontal axes."""
+    """Draw horizontal axes."""
     cosine, sine = draw.circle(n)
     return cosine, sine, np.zeros(n)
 
 
 def through_the_centre(draw: Draw, n: int) -> Rows:
-    """Rows near contact, then turned so that the axis points to the hyperboloid's centre."""
+    """Make rows near contact and replace the axis by one that points to the hyperboloid's centre."""
     rows = near_contact(draw, n)
     rows[:, 7:] = np.where((rows[:, 4:7] != 0).any(axis=1)[:, None], rows[:, 4:7], 1.0)
     return rows
 
 
 def in_meridian_plane(draw: Draw, n: int) -> Rows:
-    """Rows near contact with centre and axis in one plane with the hyperboloid's axis: y = 0 or x = 0 in both."""
+    """Make rows near contact with centre and axis in one plane with the hyperboloid's axis: y = 0 or x = 0 in both."""
     size, height = _ordinary(draw, n)
     up, across = circle_at(draw.unit(n))
     axis = (across * draw.signs(n), np.zeros(n), up)
@@ -173,7 +177,7 @@ def in_meridian_plane(draw: Draw, n: int) -> Rows:
 
 
 def at_the_waist(draw: Draw, n: int) -> Rows:
-    """As uniform, with the centre in the plane of the waist."""
+    """Make rows as `uniform` does, with the centre in the plane of the waist."""
     rows = uniform(draw, n)
     rows[:, 6] = 0.0
     return rows
@@ -183,29 +187,29 @@ symmetric = in_turn(in_meridian_plane, near_surface(axes=_level), through_the_ce
 
 
 def _spheres(draw: Draw, n: int) -> tuple[Sizes, Floats]:
-    """As _ordinary, with b = d."""
+    """Draw sizes and heights as _ordinary does, with b = d."""
     size, height = _ordinary(draw, n)
     return Sizes(size.alpha, size.c * size.b, size.b, size.b), height
 
 
 spheres = near_surface(_spheres)
-"""Rows near contact whose axis does not matter."""
+"""The generator of rows near contact whose spheroid is a sphere, so that the axis does not matter."""
 
 
 def vertical(_: Draw, n: int) -> Vectors:
-    """The axis 0, 0, 1."""
+    """Return the axis (0, 0, 1) n times."""
     return np.zeros(n), np.zeros(n), np.ones(n)
 
 
 def upright(draw: Draw, n: int) -> Rows:
-    """The axis (0, 0, s), of any length and either sign."""
+    """Make rows near contact with a vertical axis (0, 0, s), |s| from 2⁻⁶⁰ to 2⁶⁰, of either sign."""
     rows = near_surface(axes=vertical)(draw, n)
     rows[:, 9] = draw.signed(n, -60, 60)
     return rows
 
 
 def _slight(draw: Draw, n: int) -> Vectors:
-    """Axes that differ from the vertical or the horizontal by 2⁻¹⁰⁷⁴ to 2⁻¹."""
+    """Draw axes that differ from the vertical or the horizontal by 2⁻¹⁰⁷⁴ to 1."""
     cosine, sine = draw.circle(n)
     little = np.where(turns(n, True, True, True, False), draw.log_uniform(n, -60, 0), draw.log_uniform(n, -1074, -60))
     standing = turns(n, True, True, False)
@@ -214,11 +218,11 @@ def _slight(draw: Draw, n: int) -> Vectors:
 
 
 slight = near_surface(axes=_slight)
-"""Rows near contact with these axes."""
+"""The generator of rows near contact with axes that are nearly vertical or horizontal."""
 
 
 def nearly_along(draw: Draw, n: int) -> Vectors:
-    """Axes of length 1 to 3 that are horizontal, or differ by 2⁻⁶⁰ to 1 from the horizontal or the vertical."""
+    """Draw axes that are horizontal, or differ by 2⁻⁶⁰ to 1 from the horizontal or the vertical, 1 to about 3 long."""
     cosine, sine = draw.circle(n)
     little, flat = draw.log_uniform(n, -60, 0), turns(n, True, True, False)
     across = np.where(flat, 1.0, little) * draw.integers(n, 1, 3)
@@ -227,17 +231,17 @@ def nearly_along(draw: Draw, n: int) -> Vectors:
 
 
 def _stiff(draw: Draw, n: int) -> tuple[Sizes, Floats]:
-    """Ratios of sizes up to 2²⁷, about 10⁸."""
+    """Draw sizes with ratios up to 2²⁷, about 10⁸, and heights in γ."""
     size = sizes(draw, draw.log_uniform(n, -14, 14), draw.log_uniform(n, -14, 14), units=(-13, 13))
     return size, draw.signed(n, -20, 4)
 
 
 stiff = near_surface(_stiff)
-"""Rows near contact with these ratios."""
+"""The generator of rows near contact with ratios of sizes up to 2²⁷."""
 
 
 def any_length(draw: Draw, n: int) -> Rows:
-    """Rows near contact with axes as short and as long as float64 allows."""
+    """Make rows near contact with axes as short and as long as float64 allows."""
     rows = near_contact(draw, n)
     length = draw.integers(n, -1073, 1023)
     rows[:, 7:] = ldexp(rows[:, 7:], np.where(turns(n, True, True, False), length, turns(n, -1073, 1023))[:, None])
@@ -245,7 +249,7 @@ def any_length(draw: Draw, n: int) -> Rows:
 
 
 def small_integers(draw: Draw, n: int) -> Rows:
-    """Whole numbers as a person types them: sizes to 6, centres to 12, axes to 2."""
+    """Make rows of whole numbers, as a person types them: sizes to 6, centres to ±12, axes to ±2."""
     whole = [draw.integers(n, 1, 6) for _ in range(4)] + [draw.integers(n, -12, 12) for _ in range(3)]
     axis = [draw.integers(n, -2, 2) for _ in range(3)]
     zero = (axis[0] == 0) & (axis[1] == 0) & (axis[2] == 0)
@@ -253,18 +257,18 @@ def small_integers(draw: Draw, n: int) -> Rows:
 
 
 def nearly_zero(draw: Draw, n: int) -> Rows:
-    """As coincidences.nearly_zero, with axes in every direction."""
+    """Make rows as coincidences.nearly_zero does, with axes in every direction."""
     return np.concatenate([coincidences.nearly_zero(draw, n), np.stack(anywhere(draw, n), axis=1)], axis=1) + 0.0
 
 
 def _small(draw: Draw, n: int) -> tuple[Sizes, Floats]:
-    """Sizes and heights within a few powers of two of 1."""
+    """Draw sizes and heights within a few powers of two of 1."""
     size = sizes(draw, draw.log_uniform(n, -6, 6), draw.log_uniform(n, -6, 6), units=(-3, 3))
     return size, draw.between(n, -2, 2)
 
 
 def whole_domain(draw: Draw, n: int) -> Rows:
-    """Rows over all of float64: all lengths are scaled by one power of two, also to below the least normal number."""
+    """Make rows near the limits of float64: one power of two scales all lengths, also below the least normal number."""
     rows = near_surface(_small, offsets=lambda draw, n: nearly_touching(draw, n, high=0))(draw, n)
     unit = np.where(turns(n, True, False), draw.integers(n, -1064, -1000), draw.integers(n, 900, 1008))
     rows[:, :7] = ldexp(rows[:, :7], unit[:, None])
@@ -272,11 +276,14 @@ def whole_domain(draw: Draw, n: int) -> Rows:
 
 
 _MARGIN = 1e-6
-"""A pivot of M + λD, over what it comes from, is not taken for positive or negative where it is nearer to 0."""
+"""The least absolute value, relative to the largest diagonal element, from which on a pivot has a certain sign."""
 
 
 def double_roots(draw: Draw, n: int) -> tuple[Rows, Mask, Mask]:
-    """Rows with a double root, and masks of the certainly tangent and the certainly not tangent ones."""
+    """Make rows with a double root; return them and masks of the certainly tangent and the certainly not tangent ones.
+
+    The letters are those of the module's docstring.
+    """
     n1, n3, N = triples(draw, n, 2)
     p, q, S = triples(draw, n, 2)
     c4, s4, h4 = triples(draw, n, 2)
@@ -306,7 +313,10 @@ def double_roots(draw: Draw, n: int) -> tuple[Rows, Mask, Mask]:
 
 
 def _definite(sizes: tuple[BigIntegers, ...], axis: tuple[BigIntegers, ...], at: Floats) -> tuple[Mask, Mask]:
-    """Masks of the rows where b² (M + λD) is certainly positive definite, and where it is certainly indefinite."""
+    """Return masks of the rows where b² (M + λD) is certainly positive definite, and where it is certainly indefinite.
+
+    `at` is λ. The signs of the pivots of Gaussian elimination decide.
+    """
     alpha, gamma, b, d = (column.astype(np.float64) for column in sizes)
     v = [column.astype(np.float64) for column in axis]
     length = np.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
@@ -333,7 +343,7 @@ def _turned(
     axis: tuple[BigIntegers, ...],
     upward: BigIntegers,
 ) -> tuple[Rows, Mask]:
-    """The rows, turned by a rational angle about the hyperboloid's axis, in lowest terms; and a mask of exact ones."""
+    """Turn rows by rational angles about the hyperboloid's axis and reduce them; return a mask of exact ones, too."""
     cosine, sine, radius = turned(draw, len(upward))
     lengths = [
         *(radius * number for number in sizes),
@@ -353,7 +363,7 @@ def _turned(
 
 
 def _anywhere(draw: Draw, rows: Rows) -> Rows:
-    """The same pairs in other coordinates: x and y with other signs or swapped, z with either sign, lengths about 1."""
+    """Write the same pairs in other coordinates: x and y with other signs or swapped, z too, lengths about 1."""
     n = len(rows)
     rows = rows.copy()
     for column in (4, 5, 6):
@@ -369,30 +379,30 @@ def _anywhere(draw: Draw, rows: Rows) -> Rows:
 
 
 tangent = gathered(lambda draw, n: double_roots(draw, n)[:2])
-"""Exact tangencies."""
+"""The generator of exact tangencies."""
 
 crossing = gathered(lambda draw, n: double_roots(draw, n)[::2])
-"""Double roots that are not tangencies."""
+"""The generator of double roots that are not tangencies."""
 
 
 def moved_by_ulps(draw: Draw, rows: Rows) -> Rows:
-    """The rows, each with one nonzero number moved by 1, 2, 4 … or 2^ULPS ulp to either side."""
+    """Move one nonzero number of each row by 1, 2, 4 … or 2^ULPS ulp to either side."""
     n = len(rows)
     return one_moved(draw, rows, ldexp(draw.signs(n), draw.integers(n, 0, ULPS)).astype(np.int64))
 
 
 def near_tangent(draw: Draw, n: int) -> Rows:
-    """Tangencies moved by ulps."""
+    """Make tangencies and move one number of each by ulps."""
     return moved_by_ulps(draw, tangent(draw, n))
 
 
 def listed(name: str) -> Rows:
-    """The rows of that name in symmetric_pairs.toml, (n, 10)."""
+    """Read the rows of that name in symmetric_pairs.toml, (n, 10)."""
     return np.asarray(toml.shipped("hypcheck.vectors", "symmetric_pairs.toml")[name], dtype=np.float64)
 
 
 def _of_list(name: str) -> Maker:
-    """The generator of listed rows, turned by rational angles and scaled; three of four are moved by ulps."""
+    """Return the generator of listed rows, turned by rational angles and scaled; four of five are moved by ulps."""
 
     def attempt(draw: Draw, n: int) -> tuple[Rows, Mask]:
         rows = listed(name)
@@ -412,7 +422,7 @@ ring = _of_list("rings")
 
 
 def _at_the_origin(draw: Draw, n: int) -> Rows:
-    """The centre at the origin; α = b, or an ulp or more beside it: points ±X are equally near."""
+    """Make rows with the centre at the origin, α = b or some ulps beside it: points X and −X are equally near."""
     b, d = draw.log_uniform(n, -4, 4), draw.log_uniform(n, -4, 4)
     gamma = draw.log_uniform(n, -4, 4)
     alpha = stepped(b, turns(n, 0, 1, 1, 1) * ldexp(draw.signs(n), draw.integers(n, 0, ULPS)).astype(np.int64))
@@ -422,7 +432,7 @@ def _at_the_origin(draw: Draw, n: int) -> Rows:
 
 
 def _in_both_planes(draw: Draw, n: int) -> Rows:
-    """Centre and axis in the plane y = 0, the centre near the origin: nearest points are pairs, one on each side."""
+    """Make rows with centre and axis in the plane y = 0, near the origin: nearest points are pairs, on two sides."""
     b, d = draw.log_uniform(n, -2, 2), draw.log_uniform(n, -2, 2)
     alpha, gamma = b * draw.between(n, 0.8, 1.3), d * draw.log_uniform(n, -1, 3)
     x, z = alpha * draw.between(n, -0.2, 0.2), gamma * draw.between(n, -0.4, 0.4)
