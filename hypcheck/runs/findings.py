@@ -31,8 +31,7 @@ from hypcheck.record.lines import FindingLine, GroupLine, MapLine
 from hypcheck.runs import judge, tally
 from hypcheck.runs.cases import CaseChunk
 from hypcheck.runs.judge import DEFAULT_TOLERANCE, Criterion
-from hypcheck.runs.results import JudgingRules
-from hypcheck.runs.score import score
+from hypcheck.runs.score import rows_asked, score
 from hypcheck.truth import exact, float_filter
 from hypcheck.truth.exact import Decision
 from hypcheck.truth.kinds import Kind
@@ -143,7 +142,7 @@ def method_group(method: Method, batch: Batch, exponents: NDArray[np.float64], p
     """The record's line about one method and one family; `exponents` as in Score.tally, of all the batch's rows."""
     tolerance = Fraction(0) if method.exact else plan.tolerance
     criterion = Criterion(method.question, method.precision, tolerance)
-    inside, left_out = JudgingRules(criterion, method.domain).asked_of(batch.chunk.family, batch.rows)
+    inside, left_out = rows_asked(batch.rows, batch.chunk.family, criterion, method.domain)
     places = inside[: method.max_rows]
     rows = batch.rows[places]
     scored = score(rows, batch.positions[places], Answered.of(method.answer(rows)), criterion)

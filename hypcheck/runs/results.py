@@ -17,8 +17,7 @@ from numpy.typing import NDArray
 
 from hypcheck.geometry.pair import REFUSED
 from hypcheck.geometry.rows import Floats, Indices, Rows, scenes_of
-from hypcheck.implementations import domain
-from hypcheck.implementations.domain import Domain, claimed
+from hypcheck.implementations.domain import Domain
 from hypcheck.implementations.implementation import Crashed, Implementation
 from hypcheck.implementations.session import Outcome
 from hypcheck.record.lines import Retest
@@ -29,10 +28,9 @@ from hypcheck.runs.causes import AnsweredRows
 from hypcheck.runs.diagnosis import with_diagnosis
 from hypcheck.runs.judge import Criterion, Status, WrongCase
 from hypcheck.runs.known_failures import KnownFailure, entries_about
-from hypcheck.runs.score import Score, as_slice, score, status_of, unanswered_cases
+from hypcheck.runs.score import Score, as_slice, rows_asked, score, status_of, unanswered_cases
 from hypcheck.runs.tally import STATUS_CODES, counts_of
 from hypcheck.vectors import frozen
-from hypcheck.vectors.families import is_extreme
 from hypcheck.vectors.format import CaseFile
 
 
@@ -128,12 +126,7 @@ class JudgingRules:
 
     def asked_of(self, family: str, rows: Rows) -> tuple[Indices, dict[str, int]]:
         """The ascending indices of the rows of a family to test, and the numbers of the other rows by reason."""
-        precision, layout = self.criterion.precision, self.criterion.layout
-        extreme, subnormal = is_extreme(family), family in self.named
-        inside = claimed(rows, self.domain, precision, extreme=extreme, subnormal=subnormal, layout=layout)
-        return inside, domain.reasons(
-            np.delete(rows, inside, axis=0), self.domain, precision, extreme=extreme, subnormal=subnormal, layout=layout
-        )
+        return rows_asked(rows, family, self.criterion, self.domain, subnormal=family in self.named)
 
     def are_fresh(self, chunk: CaseChunk) -> bool:
         """Whether the cases of a chunk are rows that were not known before the run."""

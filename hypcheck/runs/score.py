@@ -19,6 +19,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hypcheck.geometry.rows import CANNOT_SAY, Floats, Indices, Layout, Positions, Rows
+from hypcheck.implementations import domain
+from hypcheck.implementations.domain import Domain
 from hypcheck.implementations.session import Answered, Outcome
 from hypcheck.record.fields import row_fields
 from hypcheck.record.progress import Place, Tally, UnansweredCase, WorstCase
@@ -37,6 +39,7 @@ from hypcheck.runs.tally import (
     rank_of,
     worst_case,
 )
+from hypcheck.vectors.families import is_extreme
 
 _ENDED = np.array(
     [STATUS_CODES[Status.RIGHT if outcome is Outcome.ANSWERED else Status(outcome.label)] for outcome in Outcome],
@@ -54,6 +57,20 @@ class CaseSource(Protocol):
     def place(self, index: int) -> Place:
         """The place of a case in the family."""
         ...
+
+
+def rows_asked(
+    rows: Rows, family: str, criterion: Criterion, claimed: Domain, *, subnormal: bool = False
+) -> tuple[Indices, dict[str, int]]:
+    """Find the rows of a family to ask an implementation about: ascending indices, and counts of the others by reason.
+
+    `claimed` is the domain that the implementation declares. Rows with subnormal numbers are asked where `subnormal`.
+    """
+    precision, layout, extreme = criterion.precision, criterion.layout, is_extreme(family)
+    inside = domain.claimed(rows, claimed, precision, extreme=extreme, subnormal=subnormal, layout=layout)
+    return inside, domain.reasons(
+        np.delete(rows, inside, axis=0), claimed, precision, extreme=extreme, subnormal=subnormal, layout=layout
+    )
 
 
 @dataclass(frozen=True, eq=False)
