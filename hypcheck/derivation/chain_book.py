@@ -1,9 +1,10 @@
-"""All chains by name; here those of the rules that hold for every size.
+"""All proof chains by name, and the chains of the rules that hold for every size.
 
 - Theorem 1: dividing x, y by b and z by d changes no position, and makes the spheroid the unit sphere.
 - The rule without hypothesis: the bodies are clear if g > 0 somewhere between −A and B, and only then. φ is the
-  Lagrange dual of the squared distance to the hyperboloid H (docs/mathematics.md). Letters: C = (x_c, y_c, z_c) the
-  centre, h(X) = (x² + y²)/A − z²/B − 1, and for −A < λ < B the positive u = A + λ, v = B − λ.
+  Lagrange dual of the squared distance to the hyperboloid H (docs/mathematics.md). Letters: A = (α/b)², B = (γ/d)²,
+  P = (x0² + y0²)/b² and Q = (z0/d)²; C = (x_c, y_c, z_c) is the scaled centre, h(X) = (x² + y²)/A − z²/B − 1 is 0 on
+  H, and u = A + λ and v = B − λ are positive for −A < λ < B.
 - The coefficient rule and the local maximum decide for every size, and the programs that answer by them do so.
 """
 
@@ -23,7 +24,7 @@ from hypcheck.derivation.root_chains import positions_chain, procedure_1, propos
 
 
 def theorem_1() -> Chain:
-    """The chain; the map is X̄ = A·X with A = diag(1/b, 1/b, 1/d) of equation (9)."""
+    """Return the chain of Theorem 1. Its map is X̄ = A·X with the matrix A = diag(1/b, 1/b, 1/d) of equation (9)."""
     scaling = sympy.diag(1 / pencil.SMALL_B, 1 / pencil.SMALL_B, 1 / pencil.SMALL_D)
     return chain(
         "Theorem 1",
@@ -60,7 +61,7 @@ _NEAREST = {X: A * XC / _U, Y: A * YC / _U, Z: B * ZC / _V}
 
 
 def rule_chain() -> Chain:
-    """Exterior, interior and contact by the sign of g between the poles, for all sizes."""
+    """Return the chain of the rule for all sizes: the sign of g between its poles tells the position."""
     return chain(
         "rule",
         "For all a, c > 0: exterior ⟺ g(λ) > 0 for some λ in (0, B); interior ⟺ g(λ) > 0 for some λ in (−A, 0); "
@@ -93,6 +94,7 @@ def rule_chain() -> Chain:
 
 
 def _weak_duality() -> Link:
+    """Return the link that φ(λ) + 1 is a lower bound of the squared distance for every λ in (−A, B)."""
     whole = _SQUARED_DISTANCE + LAMBDA * _SURFACE
     return link(
         "Every λ in (−A, B) bounds the distance: for X on H, where h = 0, |X − C|² ≥ φ(λ) + 1.",
@@ -110,6 +112,7 @@ def _weak_duality() -> Link:
 
 
 def _attained_inside() -> Link:
+    """Return the link that the bound is attained where φ' = 0."""
     distance = (_SQUARED_DISTANCE + LAMBDA * _SURFACE).subs(_NEAREST)
     return link(
         "Where φ' = 0 the bound is attained: the minimiser X = (A·x_c/u, A·y_c/u, B·z_c/v) lies on H.",
@@ -120,10 +123,12 @@ def _attained_inside() -> Link:
 
 
 def _centre() -> dict[str, sympy.Expr]:
+    """Return the expressions of the centre's coordinates by their names in the formulas."""
     return {name.name: value for name, value in _OF_CENTRE.items()}
 
 
 def _attained_at_minus_A() -> Link:
+    """Return the link that the bound is attained if the supremum of φ is at −A."""
     on_axis = {XC: 0, YC: 0}
     height = B * ZC / (A + B)
     circle = {X: symbol("rho"), Y: 0, Z: height}
@@ -142,9 +147,9 @@ def _attained_at_minus_A() -> Link:
 
 
 def _attained_at_B() -> Link:
-    """The link about the points that attain the bound: in the half plane y = 0, x ≥ 0 of the centre (r, 0, 0).
+    """Return the link about the points that attain the bound if the supremum of φ is at B.
 
-    k says by how much A·P exceeds (A + B)².
+    The points lie in the half plane y = 0, x ≥ 0 of the centre (r, 0, 0). The letter k is A·P − (A + B)².
     """
     r, zeta = symbol("r"), symbol("zeta")
     rho = A * r / (A + B)
@@ -166,7 +171,10 @@ def _attained_at_B() -> Link:
 
 
 def _s_lemma() -> Link:
-    """The S-lemma, and its hypothesis on either side: the constraint h ≤ 0, or −h ≤ 0, holds strictly somewhere."""
+    """Return the link that cites the S-lemma and checks its hypothesis on either side of H.
+
+    The hypothesis is that the constraint h ≤ 0, or −h ≤ 0, holds strictly at some point.
+    """
     a = symbol("a")
     return link(
         "So the largest φ is dist(C, H)² − 1. The S-lemma says the same in general: |X − C|² ≥ ρ² wherever h ≤ 0 (or "
@@ -180,6 +188,7 @@ def _s_lemma() -> Link:
 
 
 def _sides() -> Link:
+    """Return the link that the sign of a λ with φ(λ) > 0 tells the side of the centre."""
     tangent = PHI - PHI.subs(LAMBDA, 0) - _SLOPE.subs(LAMBDA, 0) * LAMBDA
     return link(
         "φ lies below its tangent at 0, which begins at −1 with the slope h(C): φ > 0 at a λ > 0 puts C outside H, at "
@@ -193,6 +202,7 @@ def _sides() -> Link:
 
 
 def _no_fourth_position() -> Link:
+    """Return the link that a pair is exterior, interior or in contact, and nothing else."""
     line = {X: read("α"), Y: read("α·t"), Z: read("γ·t")}
     reach = (X**2 + Y**2 + Z**2).subs(line)
     return link(
@@ -206,11 +216,14 @@ def _no_fourth_position() -> Link:
 
 
 PROGRAMS = ("coefficients", "hessian", "shared")
-"""The formulas that decide by this rule."""
+"""The formulas that decide by the rule of `all_sizes`."""
 
 
 def all_sizes() -> Chain:
-    """Without c² ≥ a and a ≥ 1: which three positive roots, and which two negative ones, mean a clear position."""
+    """Return the chain of the coefficient rule, which holds for all sizes, without c² ≥ a and a ≥ 1.
+
+    It says which three positive roots, and which two negative ones, mean a clear position.
+    """
     return chain(
         "all sizes",
         "For all a, c > 0: exterior ⟺ Δ > 0, c2 < 0, c1 > 0 and not (c2 < −3B and g'(B) > 0), or the ring; interior ⟺ "
@@ -230,13 +243,17 @@ def all_sizes() -> Chain:
 
 
 def _by_rule(roots: root_chains.Pattern) -> int:
+    """Return the position that the coefficient rule gives to a pattern of roots: 1, −1 or 0."""
     if roots.ring or (roots.delta > 0 and roots.all_positive and not roots.crowded):
         return 1
     return -1 if roots.delta > 0 and not roots.all_positive and not roots.crowded else 0
 
 
 def _at(place: str) -> dict[str, object]:
-    """c2 and g' of three roots named by their distances to −A or to B."""
+    """Return c2 and g' of three roots that are given by their distances to −A or to B, by name.
+
+    `place` selects the three roots: "beyond B", "about B", "above −A" or "beyond −A".
+    """
     r1, r2, s = root_chains.ROOTS
     u, v, w, t = (symbol(name) for name in "uvwt")
     roots = {
@@ -255,6 +272,7 @@ def _at(place: str) -> dict[str, object]:
 
 
 def _all_beyond_B() -> Link:
+    """Return the link about three roots none of which is below B."""
     at = _at("beyond B")
     return link(
         "Three different roots B + u, B + v, B + w, none below B, have c2 < −3B and g'(B) > 0: a crossing, not "
@@ -268,6 +286,7 @@ def _all_beyond_B() -> Link:
 
 
 def _two_below_B() -> Link:
+    """Return the link about three positive roots of which two are at most B."""
     at = _at("about B")
     return link(
         "Three different positive roots of which two are at most B, B − u, B − v and B + w, cannot have both: c2 < −3B "
@@ -279,6 +298,7 @@ def _two_below_B() -> Link:
 
 
 def _both_above_minus_A() -> Link:
+    """Return the link about two negative roots in [−A, 0)."""
     at = _at("above −A")
     return link(
         "Two different negative roots −A + u and −A + v in [−A, 0) beside t > 0 have c2 < 3A and g'(−A) > 0: interior.",
@@ -290,6 +310,7 @@ def _both_above_minus_A() -> Link:
 
 
 def _both_beyond_minus_A() -> Link:
+    """Return the link about two negative roots at most −A."""
     at = _at("beyond −A")
     return link(
         "Two different roots −A − u and −A − v, none above −A, cannot have both: c2 < 3A means A + t = u + v + k with "
@@ -301,7 +322,7 @@ def _both_beyond_minus_A() -> Link:
 
 
 def program_is_the_rule(name: str) -> Link:
-    """The proofs of the program, which `hypcheck verify` records too."""
+    """Return the link whose parts are the proofs of the program by that name; `hypcheck verify` records them too."""
     proofs = proofs_of(FORMULAS[name])
     return link(
         f"The program {name} computes these numbers, and decides by this rule.",
@@ -312,7 +333,10 @@ def program_is_the_rule(name: str) -> Link:
 
 
 def local_maximum() -> Chain:
-    """From "g > 0 somewhere between two places where it is not" to one value of g."""
+    """Return the chain of the local maximum: g > 0 somewhere in an interval exactly if it is so at one known place.
+
+    g is not positive at the ends of the interval.
+    """
     return chain(
         "local maximum",
         "For all a, c > 0: with h1 = c2² − 3·c1 > 0, λm = (−c2 − √h1)/3 and g(λm) > 0, exterior if 0 < λm < B, "
@@ -352,11 +376,14 @@ MAKERS = (
 
 @cache
 def chains() -> dict[str, Chain]:
-    """The chains by name, in an order in which each comes after those it needs."""
+    """Return all chains by name, each after the chains that it needs."""
     return {chain.name: chain for chain in (make() for make in MAKERS)}
 
 
 def proved(name: str, book: Mapping[str, Chain] | None = None) -> bool:
-    """Whether every link of a chain holds, and of the chains that it needs; of all chains, or those of a book."""
+    """Decide whether every link of the chain by that name holds, and of the chains that it needs.
+
+    `book` has the chains by name; without it they are those of `chains`.
+    """
     known = chains() if book is None else book
     return known[name].holds and all(proved(needed, known) for needed in known[name].needs)

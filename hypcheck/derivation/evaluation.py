@@ -1,4 +1,6 @@
-"""Programs evaluated in any arithmetic: here exact numbers p + q√h; floats and symbols have modules of their own.
+"""Evaluate programs in any arithmetic; here in exact numbers p + q√h with rational p, q and h.
+
+Floats and symbols have modules of their own.
 
 Exact arithmetic decides signs and never estimates them. One square root is all that a formula here takes (the local
 maximum of g), so a second, different root is refused. Division by zero and the root of a negative number give
@@ -73,7 +75,7 @@ class Evaluator:
                     self._cells[layout.places[name]] = arithmetic.convert(fixed[name])
 
     def __call__(self, inputs: Mapping[str, Any]) -> tuple[Any, ...]:
-        """The wanted values."""
+        """Return the wanted values, in their order, for these inputs by name."""
         missing = [name for name in self.inputs if name not in inputs]
         if missing:
             raise ValueError(f"program {self._program.name} needs a value for {', '.join(missing)}")
@@ -89,7 +91,7 @@ class Evaluator:
 
 
 def evaluate(program: Program, arithmetic: Arithmetic, inputs: Mapping[str, Any]) -> dict[str, Any]:
-    """The value of every input, as converted, and of every step, by name and in order.
+    """Compute the value of every input, as converted, and of every step, by name and in order.
 
     `inputs` needs a value for each of the program's inputs; others are ignored. Raises ValueError where one is missing.
     """
@@ -100,19 +102,18 @@ def evaluate(program: Program, arithmetic: Arithmetic, inputs: Mapping[str, Any]
 def outputs(
     program: Program, arithmetic: Arithmetic, inputs: Mapping[str, Any], wanted: Iterable[str]
 ) -> tuple[Any, ...]:
-    """The values of the wanted names, as from an Evaluator; for a program that is evaluated once."""
+    """Compute the values of the wanted names, as an Evaluator does; for a program that is evaluated once."""
     return Evaluator(program, arithmetic, wanted)(inputs)
 
 
 def loop_body(
     program: Program, arithmetic: Arithmetic, constants: Mapping[str, Any], wanted: Iterable[str]
 ) -> Evaluator:
-    """The rest of a program after its constants are known: a function from the other inputs to the wanted values.
+    """Prepare the part of a program that depends on more than the `constants`: a function from the other inputs.
 
-    Its values are the same to the bit as those of the whole program.
-
-    Every number that depends on the constants alone is computed here, once. The constants may be arrays (the sizes of
-    many trees). Raises KeyError where a wanted name does not exist.
+    The result is an Evaluator; a call of it returns the wanted values, the same to the bit as those of the whole
+    program. Every number that depends on the constants alone is computed here, once. The constants may be arrays (the
+    sizes of many trees). Raises KeyError where a wanted name does not exist.
     """
     names = tuple(wanted)
     before, body = split(program, names, tuple(constants))
@@ -122,12 +123,17 @@ def loop_body(
 
 
 _Move = tuple[str, tuple[int, ...], int, tuple[int, ...]]
-"""A step by places: its operation, the places it takes, the one it gives, and those that no later step takes."""
+"""A step whose values are places in a list: its operation, the places of its arguments, the place of its result, and
+the places that no later step reads."""
 
 
 @dataclass(frozen=True)
 class _ValueLayout:
-    """The place of each value of a program in a list: the inputs that are read, constants, and each needed step."""
+    """The place of each value of a program in a list: first the inputs that are read, then constants, then steps.
+
+    `places` has the place of each name and of each constant, `moves` the needed steps, `wanted` the places of the
+    wanted values.
+    """
 
     inputs: tuple[str, ...]
     constants: tuple[int, ...]
@@ -138,6 +144,7 @@ class _ValueLayout:
 
 @cache
 def _layout(program: Program, wanted: tuple[str, ...]) -> _ValueLayout:
+    """Assign a place to each value that the wanted names depend on."""
     steps = needed(program, wanted)
     read = {name for step in steps for name in step.reads} | set(wanted)
     inputs = tuple(name for name in program.inputs if name in read)
@@ -158,6 +165,7 @@ def _layout(program: Program, wanted: tuple[str, ...]) -> _ValueLayout:
 
 
 def _operation(arithmetic: Arithmetic, name: str) -> Callable[..., Any]:
+    """Return the function of an operation. Raises ValueError where the arithmetic has none."""
     operation = arithmetic.operations.get(name)
     if operation is None:
         raise ValueError(f"{arithmetic.name} arithmetic has no {name}")
@@ -180,11 +188,14 @@ OPERATORS: Mapping[str, Callable[..., Any]] = {
     "and": operator.and_,
     "or": operator.or_,
 }
-"""The operations that mean the same in every arithmetic; each adds its own roots, functions and selection."""
+"""The operations that mean the same in every arithmetic. Each one adds its own roots, functions and selection."""
 
 
 class Undefined:
-    """The value of an operation that has none."""
+    """The result of an operation that has no value, such as a division by 0.
+
+    Every operation on it gives it again, and every comparison with it is false but !=.
+    """
 
     def _undefined(self, *_others: object) -> Undefined:
         return self
@@ -214,7 +225,10 @@ UNDEFINED = Undefined()
 
 
 def square_root(number: Any) -> Fraction | QuadraticSurd | Undefined:
-    """The root of a rational, exact; UNDEFINED below zero. Raises TypeError for the root of an irrational number."""
+    """Return the exact root of a rational number, or UNDEFINED if it is negative.
+
+    Raises TypeError for the root of an irrational number.
+    """
     if isinstance(number, Undefined):
         return UNDEFINED
     rational = Fraction(number)

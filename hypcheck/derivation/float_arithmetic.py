@@ -1,10 +1,11 @@
-"""Float arithmetic for programs: each operation rounded once to one numpy format, over scalars or arrays; TwoSum.
+"""Float arithmetic for programs: each operation is rounded once to one numpy format, over scalars or arrays.
 
 All operands have the one format, constants included, so that no promotion rule of any numpy version matters. numpy
 computes binary16 in binary32 and rounds again, which is the correctly rounded result for + − × ÷ √, since
 24 ≥ 2·11 + 2; cosines are as good as numpy's. Infinities and NaN raise nothing.
 
-FloatFormat describes the binary formats, and rounds a rational number to one of them exactly.
+`two_sum` adds two float64 numbers without an error. FloatFormat describes the binary formats, and rounds a rational
+number to one of them exactly.
 """
 
 from __future__ import annotations
@@ -35,7 +36,7 @@ FORMATS = ("float16", "float32", "float64", "longdouble")
 
 @cache
 def float_arithmetic(format_name: str) -> Arithmetic:
-    """The arithmetic of one of FORMATS; longdouble is whatever numpy has by that name here (x87 on x86-64).
+    """Return the arithmetic of one of FORMATS; longdouble is whatever numpy has by that name here (x87 on x86-64).
 
     Inputs are floats, integers or arrays of them, rounded to the format on entry; arrays of that format are taken as
     they are, without a copy. Shapes broadcast, so sizes can be scalars beside arrays of centres.
@@ -53,14 +54,15 @@ def float_arithmetic(format_name: str) -> Arithmetic:
 
 
 def unit_roundoff(format_name: str) -> float:
-    """The largest relative error u of one rounding to nearest in the format: half the gap after 1."""
+    """Return u, the largest relative error of one rounding to nearest in the format: half the gap after 1."""
     return float(np.finfo(np.dtype(format_name)).eps) / 2
 
 
 def two_sum(first: Floats, second: Floats | float) -> tuple[Floats, Floats]:
-    """The rounded sum of float64 numbers and its rounding error, which is a float64 too (Knuth's TwoSum): exact.
+    """Return the rounded sum of float64 numbers, and its rounding error (Knuth's TwoSum).
 
-    The error is NaN where the sum leaves the range of float64.
+    The error is a float64 too, and exact: both results together are the exact sum. It is NaN where the sum leaves the
+    range of float64.
     """
     total = first + second
     shadow = total - first
@@ -90,7 +92,10 @@ class FloatFormat:
         return Fraction(1, 2**self.bits)
 
     def rounded(self, value: Fraction, direction: Direction = "nearest") -> float:
-        """The number of the format next to `value`; raises OverflowError beyond its normal range, 0 aside."""
+        """Round `value` to the nearest number of the format, or to the next one up or down.
+
+        Raises OverflowError where a number other than 0 is beyond the normal range of the format.
+        """
         if value == 0:
             return 0.0
         exponent = _floor_log2(abs(value))
@@ -113,16 +118,18 @@ FLOAT_FORMATS = {
 
 
 def power_of_two_near(value: Fraction) -> Fraction:
-    """The largest power of two that is not above `value` > 0."""
+    """Return the largest power of two that is not above `value` > 0."""
     return Fraction(2) ** _floor_log2(value)
 
 
 def _whole(value: Fraction, direction: Direction) -> int:
+    """Round to a whole number in the direction."""
     if direction == "nearest":
         return round(value)
     return math.ceil(value) if direction == "up" else math.floor(value)
 
 
 def _floor_log2(value: Fraction) -> int:
+    """Return the largest whole n with 2^n ≤ `value`, which is > 0."""
     exponent = value.numerator.bit_length() - value.denominator.bit_length()
     return exponent if Fraction(2) ** exponent <= value else exponent - 1

@@ -55,12 +55,12 @@ class Formula:
 
     @property
     def classifies_pairs(self) -> bool:
-        """True where the inputs are the seven columns of a pair and nothing else."""
+        """Whether the inputs are the seven columns of a pair and nothing else."""
         return self.program.inputs == COLUMNS
 
 
 def answers(formula: Formula, arithmetic: Arithmetic, inputs: Mapping[str, Any]) -> Any:
-    """The answer to the formula's question: an int in exact arithmetic, an int8 array in machine arithmetic.
+    """Compute the answer to the formula's question: an int in exact arithmetic, an int8 array in machine arithmetic.
 
     `inputs` maps the program's inputs to numbers or arrays. Raises ValueError where one that matters is missing.
     """
@@ -68,7 +68,7 @@ def answers(formula: Formula, arithmetic: Arithmetic, inputs: Mapping[str, Any])
 
 
 def answering(formula: Formula, arithmetic: Arithmetic) -> Callable[[Mapping[str, Any]], Any]:
-    """A function from the inputs to the formula's answers, prepared once for many calls."""
+    """Return a function from the inputs by name to the formula's answers, prepared once for many calls."""
     evaluate = Evaluator(formula.program, arithmetic, (formula.answer,))
     return lambda inputs: arithmetic.integers(*evaluate(inputs))
 
@@ -194,7 +194,7 @@ _PRINTED_AND_DERIVED = (
 )
 
 FORMULAS: dict[str, Formula] = {formula.name: formula for formula in _PRINTED_AND_DERIVED}
-"""By name. "dual" takes the λ to look at as an eighth input, lambda_: 0 from it means that this λ proves nothing."""
+"""Formulas by name. "dual" takes a λ as an eighth input, lambda_; its answer 0 means that this λ proves nothing."""
 
 
 _IN_THE_PLANE_OF_THE_WAIST = """
@@ -266,7 +266,7 @@ _REPAIRED = (
 )
 
 REPAIRED = MappingProxyType({formula.name: formula for formula in _REPAIRED})
-"""By name: that of the printed procedure and "-repaired"."""
+"""The repaired procedures by name: that of the printed procedure followed by "-repaired"."""
 
 
 ROOTS_TRIGONOMETRIC = Formula(
@@ -282,7 +282,7 @@ ROOTS_TRIGONOMETRIC = Formula(
 APPROXIMATIONS = ("x1", "y1", "x2", "y2", "x3", "y3")
 
 SWEEP = program_of("roots-sweep", ("c2", "c1", "c0", *APPROXIMATIONS), WEIERSTRASS_SWEEP)
-"""From approximations x + yi of the three roots to better ones, new_x1 … new_y3; a root finder does several."""
+"""One iteration of a root finder, from approximations x + yi of the three roots to better ones, new_x1 … new_y3."""
 
 
 SIZES_OF_A_SCENE = frozenset({"alpha", "gamma", "b", "d", "b_s", "d_s", "l"})
@@ -307,7 +307,7 @@ class Cost:
 
 @cache
 def costs() -> tuple[Cost, ...]:
-    """The costs of every formula, then of computing the roots."""
+    """Count the operations of every formula, then of computing the roots."""
     sweep = _cost(
         SWEEP, "a sweep of a general root finder (Weierstrass, complex); it takes several", "mpmath's polyroots"
     )
@@ -315,11 +315,12 @@ def costs() -> tuple[Cost, ...]:
 
 
 def cost_of(formula: Formula) -> Cost:
-    """The cost of one formula."""
+    """Count the operations of one formula."""
     return _cost(formula.program, formula.title, formula.source)
 
 
 def _cost(program: Program, title: str, source: str) -> Cost:
+    """Count the operations of a program, once for a scene and for each position."""
     parts = hoist(program, SIZES_OF_A_SCENE & set(program.inputs))
     fixed = SIZES_OF_A_SCENE | {step.name for step in parts.outside}
     divisors = [step.arguments[1] for step in parts.inside if step.operation == "div"]
@@ -328,14 +329,14 @@ def _cost(program: Program, title: str, source: str) -> Cost:
 
 
 def loop_as_printed() -> Operations:
-    """The cost of the lines that Table 2 prints inside its loop: all but those of A, B, c0 and C."""
+    """Count the operations of the lines that Table 2 prints inside its loop: all but those of A, B, c0 and C."""
     program = FORMULAS["table-2"].program
     before = cut(program, (), ("A", "B", "c0", "C")).steps
     return count(step for step in program.steps if step not in before)
 
 
 def discriminant_share() -> tuple[int, int]:
-    """The rounded operations of Procedure 2.a for a position: the number for the four Δ(g_i), and the total."""
+    """Count the rounded operations of Procedure 2.a for a position: those for the four Δ(g_i), and all."""
     program = FORMULAS["procedure-2a"].program
     coefficients = ("c0_s", *(f"{name}_g{rotor}" for rotor in ROTORS for name in ("c1", "c2")))
     parts = hoist(program, SIZES_OF_A_SCENE & set(program.inputs))

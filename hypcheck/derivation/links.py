@@ -51,10 +51,11 @@ RELATIONS = (">", "≥", "<", "≤")
 def has_sign(
     expression: sympy.Expr, relation: str, positive: Collection[sympy.Symbol], nonnegative: Collection[sympy.Symbol]
 ) -> bool:
-    """Whether the form of a rational expression shows that it is `relation` 0, its letters being > 0 or ≥ 0 as said.
+    """Decide whether the form of a rational expression shows that it stands in the `relation` to 0.
 
-    Of a letter that is in neither list nothing is known: it may be in even powers only. False where the form does not
-    tell. Raises ValueError for a relation that is not in RELATIONS.
+    `positive` are letters that are > 0, `nonnegative` those that are ≥ 0. Of a letter in neither list nothing is known:
+    the form shows a sign only if the letter is in even powers. False means that the form does not show the relation.
+    Raises ValueError for a relation that is not in RELATIONS.
     """
     if relation not in RELATIONS:
         raise ValueError(f"{relation!r} is not one of {', '.join(RELATIONS)}")
@@ -72,7 +73,7 @@ def has_sign(
 def _terms_agree(
     expression: sympy.Expr, known: set[sympy.Symbol], positive: set[sympy.Symbol], *, strictly: bool
 ) -> bool:
-    """Whether no expanded term can be negative; `strictly`: and one of them has nothing but letters > 0 in it."""
+    """Decide whether no expanded term can be negative, and with `strictly` whether one has only letters > 0 in it."""
     terms = [term for term in sympy.Add.make_args(sympy.expand(expression)) if term != 0]
     parted = [term.as_independent(*term.free_symbols, as_Add=False) for term in terms]
     if any(not number.is_positive or not _is_nonnegative(letters, known) for number, letters in parted):
@@ -81,7 +82,10 @@ def _terms_agree(
 
 
 def _is_nonnegative(letters: sympy.Expr, known: set[sympy.Symbol]) -> bool:
-    """Whether it is a product of powers with whole exponents ≥ 0, even ones where the letter's sign is not known."""
+    """Decide whether `letters` is a product of powers that cannot be negative.
+
+    The exponents must be whole and ≥ 0, and even if the sign of the letter is not known.
+    """
     powers = (factor.as_base_exp() for factor in sympy.Mul.make_args(letters) if factor != 1)
     return all(
         base.is_Symbol and exponent.is_Integer and exponent >= 0 and (base in known or exponent % 2 == 0)
@@ -94,7 +98,10 @@ PHI = P * LAMBDA / (A + LAMBDA) - Q * LAMBDA / (B - LAMBDA) - 1 - LAMBDA
 
 @cache
 def hessian_coefficients() -> tuple[sympy.Expr, sympy.Expr, sympy.Expr]:
-    """h1, h2, h3: minus a quarter of the Hessian determinant of the cubic made homogeneous is h1 λ² + h2 λμ + h3 μ²."""
+    """Return h1, h2 and h3, the coefficients of the Hessian of the cubic, in c2, c1 and c0.
+
+    Minus a quarter of the Hessian determinant of the cubic made homogeneous is h1 λ² + h2 λμ + h3 μ².
+    """
     mu = sympy.Dummy("mu")
     form = sympy.expand(mu**3 * GENERIC_CUBIC.subs(LAMBDA, LAMBDA / mu))
     covariant = -sympy.hessian(form, (LAMBDA, mu)).det() / 4
@@ -103,22 +110,23 @@ def hessian_coefficients() -> tuple[sympy.Expr, sympy.Expr, sympy.Expr]:
 
 
 def local_maximum() -> sympy.Expr:
-    """λm = (−c2 − √h1)/3, in c1 and c2."""
+    """Return λm = (−c2 − √h1)/3, the place of the local maximum of g, in c1 and c2."""
     return (-C2 - sympy.sqrt(hessian_coefficients()[0])) / 3
 
 
 @cache
 def identities() -> dict[str, sympy.Expr]:
-    """Left side − right side of each identity, by its sentence."""
+    """Return the left side minus the right side of each identity, by the sentence that states it."""
     return dict((*_surface_identities(), *_cubic_identities(), *_generic_identities()))
 
 
 def vanishes(expression: sympy.Expr) -> bool:
-    """Whether the expression is 0 for all values of its letters (with cosine² + sine² = 1)."""
+    """Decide whether the expression is 0 for all values of its letters (with cosine² + sine² = 1)."""
     return bool(difference(expression, sympy.Integer(0)) == 0)
 
 
 def _surface_identities() -> tuple[tuple[str, sympy.Expr], ...]:
+    """Return the sentence and the difference of each identity about points and lines of the two surfaces."""
     turn = symbol("t")
     line = {X: ALPHA * (COSINE - turn * SINE), Y: ALPHA * (SINE + turn * COSINE), Z: GAMMA * turn}
     # A point of the unit sphere, rationally: (1 − t², 2t)/(1 + t²) is a point of the unit circle.
@@ -147,6 +155,7 @@ def _surface_identities() -> tuple[tuple[str, sympy.Expr], ...]:
 
 
 def _cubic_identities() -> tuple[tuple[str, sympy.Expr], ...]:
+    """Return the sentence and the difference of each identity about the cubic g of a pair."""
     derived = pencil.cubic()
     g = derived.g
     product_form = (A + LAMBDA) * (B - LAMBDA) * (P + Q - 1 - LAMBDA) - A * P * (B - LAMBDA) - B * Q * (A + LAMBDA)
@@ -170,6 +179,7 @@ def _cubic_identities() -> tuple[tuple[str, sympy.Expr], ...]:
 
 
 def _generic_identities() -> tuple[tuple[str, sympy.Expr], ...]:
+    """Return the sentence and the difference of each identity about any cubic."""
     h1, h2, h3 = hessian_coefficients()
     roots = tuple(symbol(name) for name in ("r1", "r2", "r3"))
     product = sympy.Poly((LAMBDA - roots[0]) * (LAMBDA - roots[1]) * (LAMBDA - roots[2]), LAMBDA)
@@ -186,12 +196,12 @@ def _generic_identities() -> tuple[tuple[str, sympy.Expr], ...]:
 
 
 REASONS = ("identity", "sign", "case split", "cited theorem")
-"""Of several reasons a link gives the one that carries it: mostly the last of these that it has."""
+"""The reasons of links. A link with parts of several reasons states the last of these, unless it names another."""
 
 
 @dataclass(frozen=True)
 class Identity:
-    """Two expressions, or matrices, that are one. `text` shows it as "left = right"."""
+    """The claim that two expressions, or matrices, are equal. `text` shows it as "left = right"."""
 
     text: str
     left: sympy.Expr | sympy.Matrix
@@ -206,7 +216,10 @@ class Identity:
 
 @dataclass(frozen=True)
 class Sign:
-    """An expression whose sign its form shows, for letters > 0 (`positive`), ≥ 0 (`nonnegative`) and of any sign."""
+    """The claim that the form of an expression shows that it stands in the `relation` to 0.
+
+    `positive` names the letters that are > 0, `nonnegative` those that are ≥ 0; the others have any sign.
+    """
 
     text: str
     expression: sympy.Expr
@@ -231,7 +244,7 @@ class FiniteCases:
 
     @cached_property
     def holds(self) -> bool:
-        """Whether there are cases and the rule is true of each."""
+        """Whether there is at least one case and the rule is true of each."""
         return bool(self.cases) and all(self.rule(*case) for case in self.cases)
 
 
@@ -240,7 +253,11 @@ Part = Identity | Sign | FiniteCases
 
 @dataclass(frozen=True)
 class Link:
-    """One step of a proof: a sentence, the kind of its reason, what a machine checks of it, a theorem that it cites."""
+    """One step of a proof.
+
+    `statement` is its sentence, `reason` one of REASONS, `parts` is what a machine checks of it, `cites` the theorem
+    that it cites, "" if none.
+    """
 
     statement: str
     reason: str
@@ -274,7 +291,7 @@ class Chain:
 
 
 def link(statement: str, *parts: Part, reason: str = "", cites: str = "") -> Link:
-    """A link of these parts; its reason is the last of REASONS that it has, where no other one is named."""
+    """Make a link of these parts. Without `reason` its reason is the last of REASONS that its parts have."""
     reasons = [_REASON_OF[type(part)] for part in parts] + ["cited theorem"] * bool(cites)
     return Link(statement, reason or max(reasons, key=REASONS.index), parts, cites)
 
@@ -283,35 +300,38 @@ _REASON_OF = {Identity: "identity", Sign: "sign", FiniteCases: "case split"}
 
 
 def chain(name: str, statement: str, *links: Link, needs: tuple[str, ...] = ()) -> Chain:
-    """A chain of these links."""
+    """Make a chain of these links."""
     return Chain(name, statement, links, needs)
 
 
 def identity(text: str, left: sympy.Expr, **meanings: sympy.Expr) -> Identity:
-    """A formula that `left` equals the expression in the text after its last "=".
+    """Make the claim that `left` equals the expression in the text after its last "=".
 
-    `meanings` are what letters there stand for.
+    `meanings` has the expressions that letters of the text represent.
     """
     right = read(text.rpartition(" = ")[2])
     return Identity(text, left, right.subs({symbol(name): value for name, value in meanings.items()}))
 
 
 def known(text: str) -> Identity:
-    """One of the derivation's own identities, by its sentence. Raises KeyError where there is none."""
+    """Return one of the derivation's own identities, by its sentence. Raises KeyError where there is none."""
     return Identity(text, identities()[text], sympy.Integer(0))
 
 
 def matrix_identity(text: str, left: sympy.Matrix) -> Identity:
-    """A formula that the matrix equals the matrix in the text after "=".
+    """Make the claim that the matrix equals the matrix in the text after "=".
 
-    Its rows are parted by semicolons, its entries by commas.
+    In the text semicolons separate rows, and commas separate entries.
     """
     rows = text.partition(" = ")[2].strip("[]").split("; ")
     return Identity(text, left, sympy.Matrix([[read(entry) for entry in row.split(", ")] for row in rows]))
 
 
 def printed(*numbers: str) -> tuple[Identity, ...]:
-    """The formulas that the paper prints under these numbers (printed_equations.py), compared with the derivation."""
+    """Return the formulas that the paper prints under these numbers as claims that they equal the derived ones.
+
+    The formulas are those of printed_equations.py.
+    """
     return tuple(
         Identity(
             claim.statement,
@@ -324,10 +344,9 @@ def printed(*numbers: str) -> tuple[Identity, ...]:
 
 
 def sign(text: str, positive: str = "", nonnegative: str = "") -> Sign:
-    """The inequality in the text, to be proved by the signs of its terms.
+    """Make the claim of the inequality in the text, which the signs of its terms prove.
 
     `positive` and `nonnegative` name the letters with these signs, separated by spaces.
-
     Raises ValueError where the text has none of RELATIONS.
     """
     for relation in RELATIONS:

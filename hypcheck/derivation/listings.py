@@ -1,4 +1,4 @@
-"""Listings that formulas share: the seven numbers to A, B, P, Q; coefficients of g; discriminants; decisions.
+"""Listings that formulas share: A, B, P and Q of the seven numbers, coefficients of g, discriminants, decisions.
 
 A = (α/b)², B = (γ/d)², P = (x0² + y0²)/b², Q = (z0/d)², and g(λ) = λ³ + c2 λ² + c1 λ + c0. Sums are taken from left to
 right. A subexpression that is printed twice is computed once: it would round to the same value.
@@ -160,9 +160,10 @@ HESSIAN_DISCRIMINANT = (
 
 
 def equation_13(c0: str = "c0", suffix: str = "") -> str:
-    """Δ as equation (13) prints it, of c0, c1 and c2; the suffix ends every name but c0's, so that it can be repeated.
+    """Return the listing of Δ of c0, c1 and c2 as equation (13) prints it.
 
-    Δ = −4 c2³ c0 + c2² c1² + 18 c2 c1 c0 − 4 c1³ − 27 c0²
+    Δ = −4 c2³ c0 + c2² c1² + 18 c2 c1 c0 − 4 c1³ − 27 c0². Every name but that of c0 ends in `suffix`, so that one
+    program can contain the listing several times.
     """
     end = suffix
     return f"""
@@ -202,7 +203,10 @@ POSITION = """
 
 
 def all_regimes(discriminant: str) -> str:
-    """Position from c1, c2, A, B, Q and a positive multiple of Δ by that name, for every a, c > 0; proved above."""
+    """Return the listing of the position from c1, c2, A, B, Q and a positive multiple of Δ, for all sizes.
+
+    `discriminant` is the name of that multiple. The proof stands at the head of this module.
+    """
     return (
         f"""
     distinct = {discriminant} > 0
@@ -244,7 +248,10 @@ def all_regimes(discriminant: str) -> str:
 
 
 def _side_of(at: str, clear: str) -> str:
-    """Position from the λ called `at` if `clear` holds: exterior between 0 and B, interior between −A and 0."""
+    """Return the listing of the position from the λ by the name `at`, if the condition `clear` holds.
+
+    It is exterior between 0 and B, interior between −A and 0, and else contact.
+    """
     return (
         f"""
     minus_A = - A
@@ -302,7 +309,10 @@ DUAL = """
 
 
 def proposition_5(suffix: str = "") -> str:
-    """`inside`: [c2 > 0; c1 ≠ 0] or [c2 < 0; c1 < 0], as Procedures 2.a and 2.b ask it once Δ ≤ 0 is answered."""
+    """Return the listing of `inside`, the condition of Procedures 2.a and 2.b for Δ > 0.
+
+    The condition is [c2 > 0; c1 ≠ 0] or [c2 < 0; c1 < 0].
+    """
     end = suffix
     return f"""
     c2_positive{end} = c2{end} > 0
@@ -316,7 +326,10 @@ def proposition_5(suffix: str = "") -> str:
 
 
 def not_all_positive(suffix: str = "") -> str:
-    """`some_negative`: not (c2 < 0 and c1 > 0), which the corrected Proposition 5 requires in addition to Δ > 0."""
+    """Return the listing of `some_negative`, which the corrected Proposition 5 requires in addition to Δ > 0.
+
+    It is: not (c2 < 0 and c1 > 0).
+    """
     end = suffix
     return f"""
     c2_negative{end} = c2{end} < 0

@@ -61,7 +61,10 @@ SHARED_BY_ROTORS = """
 
 
 def equation_21(rotor: int) -> str:
-    """c1(g_i) = (α/b_s)² B1 + (γ/d_s)² (B2 − 1 + C(g_i)) and c2(g_i) = (α/b_s)² + B1 − B2 − C(g_i)."""
+    """Return the listing of equation (21) for a rotor.
+
+    c1(g_i) = (α/b_s)² B1 + (γ/d_s)² (B2 − 1 + C(g_i)) and c2(g_i) = (α/b_s)² + B1 − B2 − C(g_i).
+    """
     return f"""
     reach_g{rotor} = B2_minus_1 + C_g{rotor}
     B_s_reach_g{rotor} = B_s * reach_g{rotor}
@@ -71,9 +74,10 @@ def equation_21(rotor: int) -> str:
 
 
 def rotors_decided(answer: str, test: Callable[[str], str] = proposition_5, inside: str = "inside") -> str:
-    """Procedure 2.a: `answer` is true unless Δ(g_i) ≤ 0 for some rotor, or a rotor is not inside.
+    """Return the listing of Procedure 2.a: `answer` is true unless Δ(g_i) ≤ 0 for some rotor, or a rotor is not inside.
 
-    `test` lists for a suffix the steps that decide the step called `inside`; as printed those of Proposition 5.
+    `test` returns, for the suffix of a rotor, the listing that computes the step by the name `inside`; as printed that
+    is Proposition 5.
     """
     coefficients = "".join(
         equation_21(rotor) + equation_13(c0="c0_s", suffix=f"_g{rotor}") + f"touching_g{rotor} = delta_g{rotor} <= 0\n"
@@ -170,9 +174,10 @@ TRIGONOMETRIC = (
 
 
 def correction(root: int, others: tuple[int, int]) -> str:
-    """Weierstrass's correction of an approximation z to one root, g(z)/((z − z')(z − z'')), in two real parts.
+    """Return the listing of Weierstrass's correction of an approximation z to one root, in its two real parts.
 
-    The next approximation, new, is z less the correction; g(z) = ((z + c2) z + c1) z + c0.
+    The correction is g(z)/((z − z')(z − z'')), where z' and z'' are the approximations to the `others` and
+    g(z) = ((z + c2) z + c1) z + c0. The next approximation, new, is z minus the correction.
     """
     x, y = here = f"x{root}", f"y{root}"
     (first, second), end = others, f"_{root}"
@@ -204,7 +209,11 @@ def correction(root: int, others: tuple[int, int]) -> str:
 
 
 def _complex_product(name: str, first: tuple[str, str], second: tuple[str, str]) -> str:
-    """The real and the imaginary part, ending in _re and _im, of a product of two numbers given by such parts."""
+    """Return the listing of a product of two complex numbers.
+
+    The name of its real part ends in _re and that of its imaginary part in _im. `first` and `second` are the names of
+    these parts of the factors.
+    """
     (a, b), (c, d) = first, second
     return f"""
     {name}_ac = {a} * {c}

@@ -1,5 +1,9 @@
 """The derivation in symbols: from the two surfaces to det(λH + S), its factor, the cubic g and its discriminant Δ.
 
+Letters: α, γ, b, d are the sizes and (x0, y0, z0) the centre; A = (α/b)², B = (γ/d)², P = (x0² + y0²)/b² and
+Q = (z0/d)². Scaled by Theorem 1, a = α/b and c = γ/d are the semi-axes and (x_c, y_c, z_c) is the centre of the sphere.
+H and S are the matrices of the scaled surfaces.
+
 Everything is computed from the equations of the two bodies. Nothing is taken from the paper's formulas: those are
 checked against this (printed_equations.py), and `repair` finds what is wrong with a printed formula from its difference
 to the derived one. A misprint is one place where one changed term makes the formula right: a factor, a term too many or
@@ -31,12 +35,12 @@ _LENGTHS = frozenset({"alpha", "gamma", "b", "d", "b_s", "d_s", "a", "c", "l"})
 
 
 def symbol(name: str) -> sympy.Symbol:
-    """The one symbol of that name: positive where it is a semi-axis or an arm, real where it is not."""
+    """Return the symbol of that name, always the same one: positive if it is a semi-axis or an arm, else real."""
     return sympy.Symbol(name, positive=True) if name in _LENGTHS else sympy.Symbol(name, real=True)
 
 
 def read(text: str) -> sympy.Expr:
-    """The formula that is written in the text; a matrix if the text is diag(…)."""
+    """Return the expression of the formula in the text; a matrix if the text is diag(…)."""
     code = text.replace("(λ)", "").replace("(g_i)", "").replace("−", "-").replace("·", "*")
     code = re.sub(f"[{_RAISED}]+", lambda digits: f"**{digits[0].translate(_TO_DIGITS)}", code)
     code = re.sub(r"√(\d+)", r"sqrt(\1)", code)
@@ -46,7 +50,7 @@ def read(text: str) -> sympy.Expr:
 
 
 def plain(expression: sympy.Expr) -> str:
-    """The formula as text, in sympy's order of terms."""
+    """Return the formula as text, in sympy's order of terms."""
     text = sympy.sstr(expression).replace("sqrt(2)", "√2")
     text = _NAME.sub(lambda name: _SPELLED.get(name[0], name[0]), text)
     text = re.sub(r"\*\*(\d+)", lambda power: power[1].translate(_TO_RAISED), text)
@@ -54,6 +58,7 @@ def plain(expression: sympy.Expr) -> str:
 
 
 def _in_code(name: str) -> str:
+    """Return the symbol's name for a letter of a text: a Greek letter's is its English name with an underscore."""
     return f"{_GREEK[name]}_" if name in _GREEK else name  # lambda is a word of Python's, lambda_ is not
 
 
@@ -87,7 +92,10 @@ SCALED = {
 
 @dataclass(frozen=True)
 class SymbolicCubic:
-    """g(λ) = λ³ + c2 λ² + c1 λ + c0, and the determinant it comes from: f = det(λH + S) = (A + λ)·g(λ)/(A² B)."""
+    """The coefficients of g(λ) = λ³ + c2 λ² + c1 λ + c0, and f, from which they are taken.
+
+    f is det(λH + S) = (A + λ)·g(λ)/(A² B).
+    """
 
     f: sympy.Expr
     c0: sympy.Expr
@@ -101,22 +109,22 @@ class SymbolicCubic:
 
 
 def hyperboloid() -> sympy.Expr:
-    """h(x, y, z), zero on the hyperboloid: centred at the origin, waist radius α, asymptotic slope γ/α."""
+    """Return h(x, y, z), which is 0 on the hyperboloid: centred at the origin, waist radius α, asymptotic slope γ/α."""
     return (X**2 + Y**2) / ALPHA**2 - Z**2 / GAMMA**2 - 1
 
 
 def spheroid() -> sympy.Expr:
-    """e(x, y, z), zero on the spheroid of semi-axes b, b, d about (x0, y0, z0)."""
+    """Return e(x, y, z), which is 0 on the spheroid of semi-axes b, b, d about (x0, y0, z0)."""
     return ((X - X0) ** 2 + (Y - Y0) ** 2) / SMALL_B**2 + (Z - Z0) ** 2 / SMALL_D**2 - 1
 
 
 def scaled(surface: sympy.Expr) -> sympy.Expr:
-    """The surface's equation in the coordinates of Theorem 1, X̄ = (x/b, y/b, z/d): x becomes b x, and so on."""
+    """Return the surface's equation in the coordinates of Theorem 1, X̄ = (x/b, y/b, z/d): x becomes b x, and so on."""
     return surface.subs({X: SMALL_B * X, Y: SMALL_B * Y, Z: SMALL_D * Z}, simultaneous=True)
 
 
 def quadric_matrix(surface: sympy.Expr) -> sympy.Matrix:
-    """The symmetric 4×4 matrix M with (x, y, z, 1) M (x, y, z, 1)ᵀ equal to the surface's equation."""
+    """Return the symmetric 4×4 matrix M with (x, y, z, 1) M (x, y, z, 1)ᵀ equal to the surface's equation."""
     w = sympy.Dummy("w")
     homogeneous = sympy.expand(w**2 * surface.subs({v: v / w for v in (X, Y, Z)}, simultaneous=True))
     variables = (X, Y, Z, w)
@@ -125,7 +133,7 @@ def quadric_matrix(surface: sympy.Expr) -> sympy.Matrix:
 
 @cache
 def scaled_matrices() -> tuple[sympy.Matrix, sympy.Matrix]:
-    """H and S: the 4×4 matrices of the hyperboloid and of the unit sphere, in a, c, x_c, y_c, z_c."""
+    """Return H and S: the 4×4 matrices of the hyperboloid and of the unit sphere, in a, c, x_c, y_c, z_c."""
     names = {ALPHA: SMALL_A * SMALL_B, GAMMA: SMALL_C * SMALL_D, X0: XC * SMALL_B, Y0: YC * SMALL_B, Z0: ZC * SMALL_D}
     surfaces = (scaled(surface).subs(names, simultaneous=True) for surface in (hyperboloid(), spheroid()))
     hyperboloid_matrix, sphere_matrix = (quadric_matrix(sympy.cancel(surface)) for surface in surfaces)
@@ -134,12 +142,12 @@ def scaled_matrices() -> tuple[sympy.Matrix, sympy.Matrix]:
 
 @cache
 def scaled_cubic() -> SymbolicCubic:
-    """The derivation in a, c, x_c, y_c, z_c."""
+    """Derive the cubic in a, c, x_c, y_c, z_c."""
     return cubic_of(*scaled_matrices())
 
 
 def cubic_of(hyperboloid_matrix: sympy.Matrix, sphere_matrix: sympy.Matrix) -> SymbolicCubic:
-    """The cubic of two matrices. Raises ArithmeticError if det(λH + S) does not have the expected factor."""
+    """Derive the cubic of two matrices. Raises ArithmeticError if det(λH + S) does not have the factor A + λ."""
     f = (LAMBDA * hyperboloid_matrix + sphere_matrix).det(method="berkowitz")
     numerator, _ = sympy.fraction(sympy.cancel(f))
     quotient, remainder = sympy.div(sympy.Poly(numerator, LAMBDA), sympy.Poly(SMALL_A**2 + LAMBDA, LAMBDA))
@@ -152,12 +160,12 @@ def cubic_of(hyperboloid_matrix: sympy.Matrix, sphere_matrix: sympy.Matrix) -> S
 
 @cache
 def cubic() -> SymbolicCubic:
-    """The derivation in A, B, P, Q."""
+    """Derive the cubic in A, B, P, Q."""
     return in_invariants(scaled_cubic())
 
 
 def in_invariants(scaled_one: SymbolicCubic) -> SymbolicCubic:
-    """A scaled cubic in A, B, P, Q. Raises ArithmeticError where more than these four matter."""
+    """Express a scaled cubic in A, B, P, Q. Raises ArithmeticError if it depends on more than these four."""
     roots = {SMALL_A: sympy.sqrt(A), SMALL_C: sympy.sqrt(B), ZC: sympy.sqrt(Q), XC: sympy.sqrt(P - YC**2)}
     derived = _substituted(scaled_one, roots)
     c0, c1, c2 = (sympy.expand(coefficient) for coefficient in (derived.c0, derived.c1, derived.c2))
@@ -168,13 +176,13 @@ def in_invariants(scaled_one: SymbolicCubic) -> SymbolicCubic:
 
 @cache
 def cubic_in_seven() -> SymbolicCubic:
-    """The derivation in α, γ, b, d, x0, y0, z0."""
+    """Derive the cubic in α, γ, b, d, x0, y0, z0."""
     return _substituted(scaled_cubic(), SCALED)
 
 
 @cache
 def discriminant_of_cubic() -> sympy.Expr:
-    """Δ of λ³ + c2 λ² + c1 λ + c0 in c2, c1, c0: minus the resultant of the cubic and its derivative.
+    """Return Δ of λ³ + c2 λ² + c1 λ + c0 in c2, c1, c0: minus the resultant of the cubic and its derivative.
 
     It is the product of the squared differences of the roots, so Δ > 0 means three distinct real roots.
     """
@@ -182,6 +190,7 @@ def discriminant_of_cubic() -> sympy.Expr:
 
 
 def _substituted(derived: SymbolicCubic, values: dict[sympy.Symbol, sympy.Expr]) -> SymbolicCubic:
+    """Replace letters of a cubic by expressions, all at the same time."""
     fields = (derived.f, derived.c0, derived.c1, derived.c2)
     return SymbolicCubic(*(field.subs(values, simultaneous=True) for field in fields))
 
@@ -192,9 +201,9 @@ Meanings = dict[sympy.Symbol, sympy.Expr]
 
 @dataclass(frozen=True)
 class Repair:
-    """The error of a printed formula in one sentence, and the corrected formula.
+    """The error of a printed formula, as the sentence `finding`, and the corrected formula.
 
-    `one_place` is true where one factor or one term, changed in one place, is all it takes.
+    `one_place` is true if a change of one factor or one term in one place corrects the formula.
     """
 
     finding: str
@@ -204,9 +213,9 @@ class Repair:
 
 @cache
 def difference(printed: sympy.Expr, derived: sympy.Expr) -> sympy.Expr:
-    """printed − derived in lowest terms, given cosine² + sine² = 1.
+    """Return printed − derived in lowest terms, given cosine² + sine² = 1.
 
-    It is 0 only where the two are equal, and for rational functions of the letters it then always is.
+    If it is 0, the two are equal. If two rational functions of the letters are equal, it is 0.
     """
     numerator, denominator = sympy.fraction(sympy.together(printed - derived))
     numerator = sympy.expand(numerator)
@@ -216,9 +225,9 @@ def difference(printed: sympy.Expr, derived: sympy.Expr) -> sympy.Expr:
 
 
 def repair(printed: sympy.Expr, derived: sympy.Expr, meanings: Meanings) -> Repair:
-    """The smallest change that makes `printed` equal to `derived`, with its letters replaced by their `meanings`.
+    """Find the smallest change that makes `printed` equal to `derived`, with its letters replaced by their `meanings`.
 
-    The two must not be equal.
+    The two must not be equal already.
     """
     gap = difference(printed.subs(meanings), derived)
     if derived != 0:
@@ -240,6 +249,7 @@ def repair(printed: sympy.Expr, derived: sympy.Expr, meanings: Meanings) -> Repa
 
 
 def _repaired_factor(printed: sympy.Expr, factor: sympy.Expr) -> Repair:
+    """Return the repair of a formula that is `factor` times the right one."""
     numerator, denominator = sympy.fraction(printed)
     roots = "" if factor.has(LAMBDA) else ", and the roots stay the same"
     finding = f"the right side is {plain(factor)} times the left"
@@ -250,7 +260,11 @@ def _repaired_factor(printed: sympy.Expr, factor: sympy.Expr) -> Repair:
 
 
 def _change(rebuilt: Callable[[sympy.Expr], sympy.Expr], gap: sympy.Expr, meanings: Meanings) -> sympy.Expr | None:
-    """The term that corrects the formula if added to the sum in this place; None if the formula is not linear in it."""
+    """Find the term that corrects the formula if it is added to the sum in one place.
+
+    `rebuilt` returns the formula with another expression in that place, and `gap` is printed − derived. The result is
+    None if the formula is not linear in that place.
+    """
     unknown = sympy.Dummy()
     slope = sympy.diff(rebuilt(unknown), unknown).subs(meanings)
     if slope == 0 or slope.has(unknown):
@@ -259,7 +273,7 @@ def _change(rebuilt: Callable[[sympy.Expr], sympy.Expr], gap: sympy.Expr, meanin
 
 
 def _sums(expression: sympy.Expr) -> Iterator[tuple[sympy.Expr, Callable[[sympy.Expr], sympy.Expr]]]:
-    """The whole, and every sum within, each with a function that puts another expression in its place."""
+    """Yield the whole expression and every sum within it, each with a function that puts another expression there."""
     yield expression, lambda other: other
     for index, argument in enumerate(expression.args):
         for node, rebuilt in _sums(argument):
@@ -277,6 +291,7 @@ def _rebuilder(
 
 
 def _where(gap: sympy.Expr, node: sympy.Expr) -> str:
+    """Return the words for the place of an error: the coefficient of a power of λ, or the sum `node`."""
     powers = sympy.Poly(sympy.fraction(gap)[0], LAMBDA).monoms() if gap.has(LAMBDA) else []
     if len(powers) == 1 and not node.has(LAMBDA):
         return f"the coefficient of {plain(LAMBDA ** powers[0][0])}"
@@ -284,10 +299,12 @@ def _where(gap: sympy.Expr, node: sympy.Expr) -> str:
 
 
 def _is_single_term(expression: sympy.Expr) -> bool:
+    """Decide whether the expression is one term: neither its numerator nor its denominator is a sum."""
     return all(not part.is_Add for part in sympy.fraction(sympy.factor_terms(expression)))
 
 
 def _signed(term: sympy.Expr) -> str:
+    """Return the term as text after its sign and a space."""
     return f"− {plain(-term)}" if term.could_extract_minus_sign() else f"+ {plain(term)}"
 
 
@@ -296,7 +313,10 @@ ARM, ROTOR_B, ROTOR_D = (symbol(name) for name in ("l", "b_s", "d_s"))
 
 @cache
 def rotor_centre() -> tuple[sympy.Expr, sympy.Expr, sympy.Expr]:
-    """The end of an arm of length l that is turned by g_i and another eighth of a turn, on a body at (x0, y0, z0)."""
+    """Return the rotor's centre: the end of an arm of length l on a body at (x0, y0, z0).
+
+    The arm is turned by g_i and another eighth of a turn.
+    """
     eighth = sympy.Matrix([[1, -1], [1, 1]]) / sympy.sqrt(2)
     turn = sympy.Matrix([[COSINE, -SINE], [SINE, COSINE]])
     along, across = eighth * turn * sympy.Matrix([ARM, 0])
@@ -304,12 +324,12 @@ def rotor_centre() -> tuple[sympy.Expr, sympy.Expr, sympy.Expr]:
 
 
 def next_rotor(expression: sympy.Expr) -> sympy.Expr:
-    """The expression for the next rotor, a quarter of a turn on."""
+    """Return the expression for the next rotor, a quarter of a turn further."""
     return expression.subs({COSINE: -SINE, SINE: COSINE}, simultaneous=True)
 
 
 def mean_over_rotors(expression: sympy.Expr) -> sympy.Expr:
-    """The mean of the expression over the four rotors."""
+    """Return the mean of the expression over the four rotors."""
     second = next_rotor(expression)
     third = next_rotor(second)
     return sympy.expand((expression + second + third + next_rotor(third)) / 4)
@@ -317,6 +337,6 @@ def mean_over_rotors(expression: sympy.Expr) -> sympy.Expr:
 
 @cache
 def rotor_cubic() -> SymbolicCubic:
-    """The derivation for the rotor's spheroid, of semi-axes b_s, b_s, d_s."""
+    """Derive the cubic of the rotor's spheroid, whose semi-axes are b_s, b_s, d_s."""
     x, y, z = rotor_centre()
     return _substituted(cubic_in_seven(), {SMALL_B: ROTOR_B, SMALL_D: ROTOR_D, X0: x, Y0: y, Z0: z})

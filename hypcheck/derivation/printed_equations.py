@@ -1,8 +1,8 @@
 """The paper's displayed formulas (1) to (23) and those of its Appendix A as printed, and checks of them.
 
-The statements are the paper's text in one-line notation, in the order printed. What they must equal comes from the
-derivation (pencil.py) and from no other printed formula, except where a formula claims to follow from one. For one that
-does not hold, the check says what is wrong with it.
+The statements are the paper's text in one-line notation, in the order printed. Each is compared with the derivation
+(pencil.py) and with no other printed formula, unless it claims to follow from one. If a formula does not hold, its
+check says what is wrong.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ from hypcheck.derivation.pencil import mean_over_rotors, read, symbol
 
 @dataclass(frozen=True)
 class PrintedClaim:
-    """One printed equality: pairs of a printed expression and the expression that it must equal.
+    """One printed equality. `pairs` are pairs of a printed expression and the expression that it must equal.
 
-    `meanings` says what the letters in the printed expressions stand for.
+    `meanings` has the expressions that the letters in the printed ones represent.
     """
 
     number: str
@@ -33,24 +33,24 @@ class PrintedClaim:
 
 @cache
 def printed_claims() -> tuple[PrintedClaim, ...]:
-    """Every claim, in the paper's order; claims of one number follow each other."""
+    """Return every claim, in the paper's order; claims of one number follow each other."""
     return (*_surfaces(), *_theorem_1(), *_cubic(), *_rotors(), *_appendix())
 
 
 def equality(number: str, statement: str, **meanings: sympy.Expr) -> PrintedClaim:
-    """The claim "left = right": the printed right side must equal the meaning of the left side's letters."""
+    """Make the claim "left = right": the printed right side must equal the meaning of the left side's letters."""
     left, _, right = statement.partition("=")
     values = {symbol(name): value for name, value in meanings.items()}
     return PrintedClaim(number, statement, ((read(right), read(left).subs(values)),), values)
 
 
 def matrix(number: str, statement: str, derived: sympy.Matrix) -> PrintedClaim:
-    """The claim "name = diag(…)", entry by entry."""
+    """Make the claim "name = diag(…)", entry by entry."""
     return PrintedClaim(number, statement, tuple(zip(read(statement.partition("=")[2]), derived, strict=True)), {})
 
 
 def surface(number: str, statement: str, derived: sympy.Expr) -> PrintedClaim:
-    """The claim that "left = right" is the surface where `derived` vanishes, in the same scale."""
+    """Make the claim that left − right equals `derived`, which is 0 on the surface."""
     left, _, right = statement.partition("=")
     return PrintedClaim(number, statement, ((read(left) - read(right), derived),), {})
 
@@ -64,10 +64,12 @@ _SCALING = "A = diag(1/b, 1/b, 1/d)"
 
 
 def _right(statement: str) -> sympy.Expr:
+    """Return the expression after the first "=" of the text."""
     return read(statement.partition("=")[2])
 
 
 def _surfaces() -> Iterator[PrintedClaim]:
+    """Yield the claims about the two surfaces and their matrices, from (1) on."""
     hyperboloid, spheroid = pencil.hyperboloid(), pencil.spheroid()
     yield surface("1", "x²/α² + y²/α² − z²/γ² = 1", hyperboloid)
     form = (_X.T * _right(_HYPERBOLOID_MATRIX) * _X)[0] - 1
@@ -80,6 +82,7 @@ def _surfaces() -> Iterator[PrintedClaim]:
 
 
 def _theorem_1() -> Iterator[PrintedClaim]:
+    """Yield the claims of Theorem 1, the scaling."""
     hyperboloid, sphere = pencil.scaled(pencil.hyperboloid()), pencil.scaled(pencil.spheroid())
     yield surface("7", "x²/(α/b)² + y²/(α/b)² − z²/(γ/d)² = 1", hyperboloid)
     yield surface("8", "(x − x0/b)² + (y − y0/b)² + (z − z0/d)² = 1", sphere)
@@ -97,6 +100,7 @@ def _theorem_1() -> Iterator[PrintedClaim]:
 
 
 def _cubic() -> Iterator[PrintedClaim]:
+    """Yield the claims about the cubic g and its discriminant."""
     scaled, seven = pencil.scaled_cubic(), pencil.cubic_in_seven()
     yield equality("11", "f(λ) = (a² + λ)·g(λ)/(a²·c²)", f=scaled.f, g=scaled.g)
     yield equality(
@@ -117,7 +121,10 @@ def _cubic() -> Iterator[PrintedClaim]:
 
 @cache
 def rotor_meanings() -> dict[str, sympy.Expr]:
-    """The meanings of the letters of section 3.2: B2 is the rotors' mean of (x_i² + y_i²)/b_s², C(g_i) the rest."""
+    """Return the meanings of the letters of section 3.2, by name.
+
+    B2 is the mean of (x_i² + y_i²)/b_s² over the rotors, and C(g_i) is the difference of a rotor's value from it.
+    """
     x, y, z = pencil.rotor_centre()
     cubic, reach = pencil.rotor_cubic(), (x**2 + y**2) / pencil.ROTOR_B**2
     size_part = sympy.diff(pencil.cubic().c1, pencil.A).subs(pencil.IN_SEVEN)
@@ -140,6 +147,7 @@ def rotor_meanings() -> dict[str, sympy.Expr]:
 
 
 def _rotors() -> Iterator[PrintedClaim]:
+    """Yield the claims of section 3.2 about the rotors."""
     means = rotor_meanings()
     for statement in (
         "x_i = x0 + l·√2/2·(cosine − sine)",
@@ -178,7 +186,7 @@ def _coefficients(number: str, means: dict[str, sympy.Expr]) -> Iterator[Printed
 
 
 def _appendix() -> Iterator[PrintedClaim]:
-    """The displays of Appendix A, A.1 to A.6 by position; A.2 has two equalities, and (22) and (23) carry numbers."""
+    """Yield the claims of Appendix A: its displays A.1 to A.6, of which A.2 has two equalities, and (22) and (23)."""
     means = rotor_meanings()
     yield equality("A.1", "c1(g_i) = (α/b_s)²·(1 − (γ/d_s)² − (z_i/d_s)²) + (γ/d_s)²·((x_i² + y_i²)/b_s² − 1)", **means)
     size_part, arm = "(α/b_s)²·(1 − (γ/d_s)² − (z0/d_s)²)", "l·√2·(T1(g_i)·x0 + T2(g_i)·y0)"
@@ -219,12 +227,12 @@ class EquationCheck:
 
 @cache
 def check_equations() -> tuple[EquationCheck, ...]:
-    """The check of every displayed formula, in the paper's order."""
+    """Check every displayed formula, in the paper's order."""
     return tuple(check(tuple(claims)) for _, claims in groupby(printed_claims(), key=lambda claim: claim.number))
 
 
 def check(claims: tuple[PrintedClaim, ...]) -> EquationCheck:
-    """The check of one equation number: of all claims that are printed under it."""
+    """Check all claims that are printed under one equation number."""
     repairs = []
     for claim in claims:
         left = claim.statement.partition("=")[0].strip()

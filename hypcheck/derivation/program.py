@@ -26,7 +26,7 @@ NUMBER = "number"
 BOOLEAN = "boolean"
 
 Argument = str | int
-"""What a step works on: the name of an input or of an earlier step, or an integer constant."""
+"""An argument of a step: the name of an input or of an earlier step, or an integer constant."""
 
 LARGEST_CONSTANT = 2048
 """Integers up to 2¹¹ are exact in binary16 and in every wider format (not in bfloat16 beyond 2⁸): none is rounded."""
@@ -70,11 +70,11 @@ FUNCTIONS = {
     "cos": Operation((NUMBER,), NUMBER, "cos", "functions"),
     "arccos": Operation((NUMBER,), NUMBER, "arccos", "functions"),
 }
-"""What the roots' way needs besides. No standard says how these round, so programs with them have no error bounds and
-are not printed as kernels: they are proved, evaluated in floats and counted."""
+"""The operations that only the formulas with roots need. No standard says how these round, so programs with them have
+no error bounds and are not printed as kernels: they are proved, evaluated in floats and counted."""
 
 KNOWN = {**OPERATIONS, **FUNCTIONS}
-"""All that a step may do."""
+"""All operations of steps, by name."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,7 +122,7 @@ class Program:
             raise ValueError(f"program {self.name}: {name} is defined twice")
 
     def step(self, name: str) -> Step:
-        """The step of that name; raises KeyError where there is none."""
+        """Return the step of that name. Raises KeyError where there is none."""
         for step in self.steps:
             if step.name == name:
                 return step
@@ -134,11 +134,11 @@ _OF_BOOLEANS = {
     ("eq", (BOOLEAN, BOOLEAN)),
     ("ne", (BOOLEAN, BOOLEAN)),
 }
-"""What takes truth values in the place of numbers."""
+"""Operations that also take truth values in the place of numbers, with the kinds of their arguments."""
 
 
 def kind_of(step: Step, kinds: dict[str, str]) -> str:
-    """NUMBER or BOOLEAN: the kind of the step's result, given the kinds of the names before it.
+    """Return the kind of the step's result, NUMBER or BOOLEAN, given the kinds of the names before it.
 
     Raises ValueError where the step is not well formed.
     """
@@ -168,7 +168,7 @@ def _kind_of_argument(argument: Argument, kinds: dict[str, str]) -> str:
 
 
 def needed(program: Program, wanted: tuple[str, ...]) -> tuple[Step, ...]:
-    """The steps that the wanted names depend on, in order; raises KeyError where a wanted name does not exist."""
+    """Return the steps that the wanted names depend on, in order. Raises KeyError if a wanted name does not exist."""
     known = {*program.inputs, *(step.name for step in program.steps)}
     for name in wanted:
         if name not in known:
@@ -183,7 +183,7 @@ def needed(program: Program, wanted: tuple[str, ...]) -> tuple[Step, ...]:
 
 
 def cut(program: Program, known: Iterable[str], wanted: Iterable[str]) -> Program:
-    """The part of the program that leads from the `known` names to the `wanted` ones.
+    """Return the part of the program that leads from the `known` names to the `wanted` ones.
 
     The known names, inputs or steps, become the first inputs, in the order given; original inputs that are still
     needed follow. Raises KeyError where a name does not exist.
@@ -210,9 +210,9 @@ class Hoisting:
 
 
 def hoist(program: Program, fixed: Collection[str]) -> Hoisting:
-    """The program's steps in two parts: those that depend only on the `fixed` inputs and constants, and the others.
+    """Divide the program's steps: those that depend only on the `fixed` inputs and on constants, and the others.
 
-    Raises ValueError where one of these is no input of the program.
+    Raises ValueError where a fixed input is not one of the program.
     """
     unknown = sorted(set(fixed) - set(program.inputs))
     if unknown:
@@ -229,7 +229,7 @@ def hoist(program: Program, fixed: Collection[str]) -> Hoisting:
 
 
 def split(program: Program, wanted: tuple[str, ...], fixed: tuple[str, ...]) -> tuple[Program, Program]:
-    """A program as two: one of the steps that depend only on fixed inputs, and one from there to the wanted names.
+    """Divide a program into two: the steps that depend only on fixed inputs, and those from there to the wanted names.
 
     Inputs of a program are numbers, so a comparison of fixed numbers stays in the second part: it costs one operation.
     Raises KeyError where a wanted name does not exist.
@@ -249,18 +249,18 @@ _PREFIX = {operation.sign: name for name, operation in KNOWN.items() if len(oper
 
 
 def steps_of(text: str) -> tuple[Step, ...]:
-    """The steps that a listing contains. Raises ValueError naming a line that is not a step, a remark or blank."""
+    """Return the steps of a listing. Raises ValueError naming a line that is not a step, a remark or blank."""
     lines = (line.partition("#")[0].strip() for line in text.splitlines())
     return tuple(_step_of(line) for line in lines if line)
 
 
 def program_of(name: str, inputs: tuple[str, ...], *listings: str) -> Program:
-    """The program with the steps of these listings, one listing after the other."""
+    """Make the program with the steps of these listings, one listing after the other."""
     return Program(name, inputs, tuple(step for text in listings for step in steps_of(text)))
 
 
 def line_of(step: Step) -> str:
-    """One step in the written form; `steps_of` reads it back."""
+    """Return one step in the written form; `steps_of` reads it back."""
     sign = KNOWN[step.operation].sign
     if step.operation == "select":
         condition, left, right = step.arguments
@@ -289,7 +289,7 @@ def _argument(word: str) -> Argument:
 
 @dataclass(frozen=True, slots=True)
 class Operations:
-    """Operations by kind; a subtraction counts as an addition, a sign change as nothing.
+    """Numbers of operations by kind; a subtraction counts as an addition, a sign change is not counted.
 
     `functions` are cosines and their inverses.
     """
@@ -310,6 +310,6 @@ class Operations:
 
 
 def count(steps: Iterable[Step]) -> Operations:
-    """The operations in `steps`."""
+    """Count the operations in `steps`."""
     counts = Counter(KNOWN[step.operation].counted for step in steps)
     return Operations(**{kind: number for kind, number in counts.items() if kind is not None})

@@ -1,4 +1,4 @@
-"""What the program of each formula must compute and decide, and the proof that it does.
+"""Prove that the program of each formula computes and decides what it must.
 
 The numbers of a program are evaluated in symbols and compared with the derivation. A decision reads its numbers only
 through comparisons with 0 and with 3A, −3B, −A, B and B². The values tried meet every combination of outcomes of these
@@ -55,9 +55,9 @@ INPUTS = {
 
 @dataclass(frozen=True)
 class Obligation:
-    """The step must equal `expected`, as an expression in the inputs and in the steps named in `letters`.
+    """The demand that a step equals `expected`, an expression in the inputs and in the steps named in `letters`.
 
-    A step named there counts as a letter of its own; its own obligation says what it is.
+    A step named there counts as a letter; another obligation says what it must equal.
     """
 
     step: str
@@ -66,7 +66,7 @@ class Obligation:
 
 
 def letter(name: str) -> sympy.Symbol:
-    """The symbol of an input or of a step that counts as a letter."""
+    """Return the symbol of an input, or of a step that counts as a letter."""
     return INPUTS.get(name) or symbol(name)
 
 
@@ -135,7 +135,10 @@ def _rotor_numbers() -> Iterable[Obligation]:
 
 
 def _trigonometric() -> Iterable[Obligation]:
-    """λ = (2 √h1 cos θ_k − c2)/3 with cos 3θ = w/(2 h1 √h1), a third of a turn from one θ_k to the next."""
+    """Yield what the trigonometric formula must compute: the roots λ = (2 √h1 cos θ_k − c2)/3.
+
+    cos 3θ = w/(2 h1 √h1), and the three θ_k are a third of a turn apart.
+    """
     h1 = links.hessian_coefficients()[0]
     w = 9 * pencil.C1 * pencil.C2 - 2 * pencil.C2**3 - 27 * pencil.C0
     root, three_theta = symbol("root"), symbol("three_theta")
@@ -154,9 +157,9 @@ SIGNS = (-1, 0, 1)
 
 @dataclass(frozen=True)
 class DecisionRule:
-    """The step must be `rule` of the values of the steps or inputs named in `letters`, on every one of the `cases`.
+    """The demand that a step equals `rule` of the values of `letters`, for each of the `cases`.
 
-    `statement` is the rule in words.
+    `letters` names steps or inputs, a case has a value for each of them, and `statement` is the rule in words.
     """
 
     step: str
@@ -214,7 +217,7 @@ def _all_regimes(delta: int, c1: int, c2: int, A: int, B: int, Q: int, slope_at_
 
 
 def _side(at: int, A: int, B: int) -> int:
-    """The sign of a λ between the poles −A and B; 0 elsewhere."""
+    """Return the sign of a λ if it lies between the poles −A and B, else 0."""
     return (at > 0) - (at < 0) if -A < at < B else 0
 
 
@@ -225,7 +228,11 @@ _RIGHT, _TOUCHING, _OUTSIDE = (1, 1, 1), (0, 1, 1), (1, 1, -1)
 
 
 def _rotor_cases() -> Iterable[tuple[int, ...]]:
-    """Every pattern of each rotor beside three that are right, and all mixtures of right, touching and outside."""
+    """Yield cases of Δ, c1 and c2 of the four rotors.
+
+    One rotor has every pattern while the other three are interior; and all mixtures of interior, touching and exterior
+    rotors.
+    """
     for rotor, pattern in product(range(len(ROTORS)), _PATTERNS):
         yield _RIGHT * rotor + pattern + _RIGHT * (len(ROTORS) - 1 - rotor)
     for mixture in product((_RIGHT, _TOUCHING, _OUTSIDE), repeat=len(ROTORS)):
@@ -344,13 +351,16 @@ _REQUIREMENTS: dict[str, tuple[tuple[Callable[[], Iterable[Obligation]], ...], t
 
 
 def decisions(formula_name: str) -> tuple[DecisionRule, ...]:
-    """All that the answer of the formula by that name must be. Raises KeyError for a name that has none."""
+    """Return the rules that the decisions of the formula by that name must follow.
+
+    Raises KeyError for a name that has none.
+    """
     return _REQUIREMENTS[formula_name][1]
 
 
 @dataclass(frozen=True)
 class Proof:
-    """One thing that was to be shown about a formula, and whether it holds.
+    """One statement about a formula, and whether it was proved.
 
     `formula` is a name in FORMULAS or REPAIRED, or "derivation" for the identities that the rules rest on; `quantity`
     is the step in question; `statement` says what was compared with what.
@@ -364,7 +374,7 @@ class Proof:
 
 @cache
 def prove_formulas() -> tuple[Proof, ...]:
-    """Every proof: the identities, each formula, and that procedure-2a-spheroid is one rotor with l = 0."""
+    """Prove the identities, each formula, and that procedure-2a-spheroid is one rotor with l = 0."""
     proofs = [Proof("derivation", text, links.vanishes(gap), text) for text, gap in links.identities().items()]
     for formula in (*FORMULAS.values(), *REPAIRED.values()):
         proofs.extend(proofs_of(formula))
@@ -374,12 +384,12 @@ def prove_formulas() -> tuple[Proof, ...]:
 
 @cache
 def proofs_of(formula: Formula) -> tuple[Proof, ...]:
-    """The proofs of a formula, found once in a process."""
+    """Prove a formula, once in a process; later calls return the same proofs."""
     return tuple(prove(formula))
 
 
 def prove(formula: Formula) -> Iterable[Proof]:
-    """The proofs of one formula, by its name: what a program of that name must compute and must decide."""
+    """Yield the proofs of one formula: that its program computes and decides what a formula of its name must."""
     for numbers in _REQUIREMENTS[formula.name][0]:
         yield from (_prove_number(formula, obligation) for obligation in numbers())
     for decision in decisions(formula.name):
@@ -387,6 +397,7 @@ def prove(formula: Formula) -> Iterable[Proof]:
 
 
 def _prove_number(formula: Formula, obligation: Obligation) -> Proof:
+    """Compare a step of the formula's program with the expression that it must equal."""
     step, letters = obligation.step, obligation.letters
     part = cut(formula.program, letters, (step,))
     (value,) = outputs(part, SYMBOLIC, {name: letter(name) for name in part.inputs}, (step,))
@@ -396,21 +407,22 @@ def _prove_number(formula: Formula, obligation: Obligation) -> Proof:
 
 
 def _equal(value: sympy.Expr, expected: sympy.Expr) -> bool:
-    """Whether the two are one function; a value that is nowhere defined equals nothing."""
+    """Decide whether the two are the same function; a value that is nowhere defined equals nothing."""
     return not value.has(sympy.zoo, sympy.nan) and bool(pencil.difference(value, expected) == 0)
 
 
 def _prove_decision(formula: Formula, decision: DecisionRule) -> Proof:
+    """Compare a decision of the formula's program with its rule, on every case."""
     part = cut(formula.program, decision.letters, (decision.step,))
-    # Nothing but the letters may have a say in the decision.
+    # The decision may depend on nothing but the letters.
     holds = part.inputs == decision.letters and _decides(part, decision)
     return Proof(formula.name, decision.step, holds, f"{decision.statement} ({len(decision.cases)} cases)")
 
 
 def _decides(part: Program, decision: DecisionRule) -> bool:
-    """Whether the program decides every case by the rule; all cases are evaluated at once, as arrays.
+    """Decide whether the program follows the rule in every case; all cases are evaluated at once, as arrays.
 
-    Whole numbers below 2⁵³ are exact in float64, and what is not a whole number there proves nothing.
+    Whole numbers below 2⁵³ are exact in float64. Where any value is not such a number, nothing is proved: False.
     """
     columns = np.array(decision.cases, dtype=np.float64).T
     values = evaluate(part, float_arithmetic("float64"), dict(zip(decision.letters, columns, strict=True)))

@@ -1,5 +1,8 @@
 """Chains about the roots of g: their places beside −A, 0 and B, what the positions mean for them, the propositions.
 
+Letters: A = (α/b)², B = (γ/d)², P = (x0² + y0²)/b² and Q = (z0/d)²; r1 and r2 are the two smaller roots of g and s is
+the largest one.
+
 First come links about any cubic with real roots (Vieta's formulas, signs between roots, Δ), then the chain "roots":
 signs of g at three places and Vieta's product; then the chain "positions", from the rule to the roots, with the cases
 of Δ = 0 that are not contact.
@@ -38,20 +41,20 @@ ROOTS = tuple(symbol(name) for name in ("r1", "r2", "s"))
 
 
 def coefficients_of_roots() -> tuple[sympy.Expr, sympy.Expr, sympy.Expr]:
-    """c2, c1, c0 of (λ − r1)(λ − r2)(λ − s)."""
+    """Return c2, c1 and c0 of (λ − r1)(λ − r2)(λ − s)."""
     r1, r2, s = ROOTS
     _, c2, c1, c0 = sympy.Poly((LAMBDA - r1) * (LAMBDA - r2) * (LAMBDA - s), LAMBDA).all_coeffs()
     return c2, c1, c0
 
 
 def slope_of_roots(at: sympy.Expr) -> sympy.Expr:
-    """g' of (λ − r1)(λ − r2)(λ − s) at a value of λ."""
+    """Return the derivative of (λ − r1)(λ − r2)(λ − s) at a value of λ."""
     r1, r2, s = ROOTS
     return sympy.diff((LAMBDA - r1) * (LAMBDA - r2) * (LAMBDA - s), LAMBDA).subs(LAMBDA, at)
 
 
 def distinct_roots() -> Link:
-    """Δ > 0 means three different real roots."""
+    """Return the link that Δ > 0 means three different real roots."""
     real, imaginary, s = (symbol(name) for name in ("p", "q", "s"))
     of_pair = sympy.Poly(((LAMBDA - real) ** 2 + imaginary**2) * (LAMBDA - s), LAMBDA).all_coeffs()[1:]
     of_pair_discriminant = discriminant_of_cubic().subs(dict(zip((C2, C1, C0), of_pair, strict=True)))
@@ -66,7 +69,7 @@ def distinct_roots() -> Link:
 
 
 def positive_roots_have_signs() -> Link:
-    """Vieta's formulas for three positive roots."""
+    """Return the link about the signs of c2, c1 and c0 for three positive roots, by Vieta's formulas."""
     c2, c1, _ = coefficients_of_roots()
     return link(
         "Three positive roots r1, r2, s mean c2 < 0 and c1 > 0.",
@@ -78,7 +81,7 @@ def positive_roots_have_signs() -> Link:
 
 
 def no_negative_root() -> Link:
-    """Descartes' rule where all signs are alike."""
+    """Return the link that g has no negative root if c2 < 0 and c1 > 0, by Descartes' rule."""
     p, q, r = (symbol(name) for name in ("p", "q", "r"))
     mirrored = -GENERIC_CUBIC.subs({C2: -p, C1: q, C0: -r}, simultaneous=True).subs(LAMBDA, -LAMBDA)
     return link(
@@ -89,7 +92,7 @@ def no_negative_root() -> Link:
 
 
 def positive_between_roots() -> Link:
-    """g > 0 between its two lower roots."""
+    """Return the link that g > 0 between its two smaller roots."""
     u, v, w = (symbol(name) for name in ("u", "v", "w"))
     r1, r2, s = ROOTS
     product = ((LAMBDA - r1) * (LAMBDA - r2) * (LAMBDA - s)).subs({r1: LAMBDA - u, r2: LAMBDA + v, s: LAMBDA + w})
@@ -101,7 +104,7 @@ def positive_between_roots() -> Link:
 
 
 def roots_chain() -> Chain:
-    """One root is at least B; the other two are complex, or lie together in one of four intervals."""
+    """Return the chain "roots": one root is at least B; the others are complex or lie in one of four intervals."""
     return chain(
         "roots",
         "One root s of g is at least B. The other two are complex, or lie together in one of (−∞, −A], [−A, 0), (0, "
@@ -117,6 +120,7 @@ def roots_chain() -> Chain:
 
 
 def _one_root_beyond() -> Link:
+    """Return the link that one root of g is at least B."""
     leading = sympy.Poly(pencil.cubic().g, LAMBDA).LC()
     return link(
         "So one root is at least B: g(B) ≤ 0, and g grows without bound, its leading coefficient being 1. Call the "
@@ -127,6 +131,7 @@ def _one_root_beyond() -> Link:
 
 
 def _same_sign() -> Link:
+    """Return the link that the two smaller roots have one sign if they are real."""
     _, _, c0 = coefficients_of_roots()
     return link(
         "The product of the other two is A·B/s > 0: if they are real they have one sign, and neither is 0.",
@@ -137,7 +142,10 @@ def _same_sign() -> Link:
 
 
 def _same_side() -> Link:
-    """The two smaller roots lie together: of the quadratic k(λ) = g(λ)/(λ − s), with B = s − w."""
+    """Return the link that the two smaller roots are on one side of −A and of B.
+
+    They are the roots of the quadratic k(λ) = g(λ)/(λ − s), and B = s − w.
+    """
     r1, r2, s = ROOTS
     quadratic = (LAMBDA - r1) * (LAMBDA - r2)
     g, w = pencil.cubic().g, symbol("w")
@@ -156,7 +164,10 @@ def _same_side() -> Link:
 
 
 def _together() -> Link:
-    """Two roots beside −A, 0 and B: with A = B = 2 every order of them is that of one of these pairs."""
+    """Return the link that the two smaller roots lie in one of four intervals, by cases.
+
+    With A = B = 2 every order of two roots, −A, 0 and B is that of one of the pairs of whole numbers that are tried.
+    """
     places = (-3, -2, -1, 1, 2, 3)
     return link(
         "Hence they lie together in one of the four intervals.",
@@ -169,7 +180,10 @@ def _together() -> Link:
 
 
 def in_one_interval(r1: int, r2: int) -> bool:
-    """Whether two roots that the three products allow share an interval, for A = B = 2."""
+    """Decide, for A = B = 2, whether the two roots lie in one interval, or break one of the three conditions.
+
+    The conditions are those of the links before: the roots have one sign, and are on one side of −A and of B.
+    """
     if not (r1 * r2 > 0 and (r1 + 2) * (r2 + 2) >= 0 and (r1 - 2) * (r2 - 2) >= 0):
         return True
     return (
@@ -207,7 +221,7 @@ PATTERNS = (
 
 
 def true_of_patterns(statement: str, where: Callable[[Pattern], bool], right: Callable[[Pattern], bool]) -> Link:
-    """A link that holds if `right` is true of every possible pattern of roots that meets the condition `where`."""
+    """Make a link that holds if `right` is true of every possible pattern of roots that meets the condition `where`."""
     possible = tuple((pattern,) for pattern in PATTERNS if where(pattern))
     return link(
         statement, FiniteCases(f"true of each of the {len(possible)} patterns of roots that can occur", possible, right)
@@ -215,7 +229,7 @@ def true_of_patterns(statement: str, where: Callable[[Pattern], bool], right: Ca
 
 
 def no_contact_but_the_ring() -> Link:
-    """The link about Δ ≤ 0 for every size."""
+    """Return the link that for all sizes Δ ≤ 0 means contact, except on the ring."""
     return true_of_patterns(
         "So Δ ≤ 0 means contact or the ring, and for the interior nothing else than “no”.",
         lambda roots: roots.delta <= 0,
@@ -224,7 +238,7 @@ def no_contact_but_the_ring() -> Link:
 
 
 def positions_chain() -> Chain:
-    """The chain that all propositions use."""
+    """Return the chain "positions", which all propositions use."""
     return chain(
         "positions",
         "Exterior has three positive roots, different but on the ring; interior has two different negative roots; and "
@@ -249,7 +263,7 @@ def positions_chain() -> Chain:
 
 
 def exterior_has_positive_roots() -> Link:
-    """From g > 0 in (0, B) to three positive roots."""
+    """Return the link that g > 0 somewhere in (0, B) means three positive roots."""
     _, _, c0 = coefficients_of_roots()
     return link(
         "Exterior means g > 0 somewhere in (0, B), so by its signs at 0 and B two roots r1 < r2 in (0, B]; the third, "
@@ -262,7 +276,7 @@ def exterior_has_positive_roots() -> Link:
 
 
 def only_the_ring() -> Link:
-    """Exterior with a double root."""
+    """Return the link that an exterior position with a double root is on the ring."""
     w, t, m, n = (symbol(name) for name in "wtmn")
     at_B = ((LAMBDA - m) ** 2 * (LAMBDA - n)).subs({LAMBDA: B, m: B + w, n: B - t}, simultaneous=True)
     return link(
@@ -277,7 +291,7 @@ def only_the_ring() -> Link:
 
 
 def ring_is_exterior() -> Link:
-    """The converse: λ between A/B and B."""
+    """Return the link that the ring is exterior: g > 0 for λ between A/B and B."""
     at = symbol("m")
     u, v = symbol("u"), symbol("v")
     g = ((LAMBDA - B) ** 2 * (LAMBDA - at)).subs({LAMBDA: B - u, at: B - u - v}, simultaneous=True)
@@ -291,7 +305,7 @@ def ring_is_exterior() -> Link:
 
 
 def proposition_3() -> Chain:
-    """The chain of Proposition 3: both directions, and the positions with Δ ≤ 0."""
+    """Return the chain of the repaired Proposition 3: both directions, and the positions with Δ ≤ 0."""
     return chain(
         "Proposition 3, repaired",
         "For (γ/d)² ≥ α/b: exterior ⟺ Δ > 0, c2 < 0 and c1 > 0, or the ring (z0 = 0, g'(B) = 0, A < B²). Δ ≤ 0 means "
@@ -314,7 +328,7 @@ def proposition_3() -> Chain:
 
 
 def procedure_1() -> Chain:
-    """The chain of the corrected Procedure 1: both cases."""
+    """Return the chain of the repaired Procedure 1: both cases, Q = 0 and Q ≠ 0."""
     return chain(
         "Procedure 1, repaired",
         "For (γ/d)² ≥ α/b: exterior ⟺ E > 0 and E² > 4·A where Q = 0, with E = P − A − 1; elsewhere Δ > 0, c2 < 0 and "
@@ -338,6 +352,7 @@ def procedure_1() -> Chain:
 
 
 def _in_the_plane_of_the_waist() -> tuple[Link, ...]:
+    """Return the links about Q = 0, where r > a + 1 decides."""
     e, u, v = symbol("E"), symbol("u"), symbol("v")
     return (
         link(
@@ -363,7 +378,7 @@ def _in_the_plane_of_the_waist() -> tuple[Link, ...]:
 
 
 def proposition_5() -> Chain:
-    """The chain of Proposition 5: both directions, and the patterns that the printed statement omits."""
+    """Return the chain of the repaired Proposition 5: both directions, and what the printed statement omits."""
     return chain(
         "Proposition 5, repaired",
         "For α/b ≥ 1: interior ⟺ Δ > 0 and not (c2 < 0 and c1 > 0). Δ ≤ 0 means contact or the ring.",
@@ -385,6 +400,7 @@ def proposition_5() -> Chain:
 
 
 def _two_negative() -> Link:
+    """Return the link that Δ > 0 and not (c2 < 0 and c1 > 0) means two negative roots."""
     r1, r2, s = ROOTS
     return link(
         "Δ > 0 and not (c2 < 0 and c1 > 0): not all roots are positive, by Vieta; none is 0; and the product A·B > 0 "
@@ -396,7 +412,7 @@ def _two_negative() -> Link:
 
 
 def _dropped() -> Link:
-    """The interior positions that the printed condition drops; c0 = −r, r > 0."""
+    """Return the link about the interior positions that the printed condition omits. In it c0 = −r with r > 0."""
     p, q, r = (symbol(name) for name in "pqr")
     generic = discriminant_of_cubic()
     return link(
@@ -416,7 +432,7 @@ def _dropped() -> Link:
 
 
 def only_zeros_are_dropped(c2: int, c1: int) -> bool:
-    """Whether the repaired and the printed condition differ at these signs exactly if one of them is 0."""
+    """Decide whether the repaired and the printed condition differ for these signs only if one of the signs is 0."""
     printed = (c2 > 0 and c1 != 0) or (c2 < 0 and c1 < 0)
     repaired = not (c2 < 0 and c1 > 0)
     return (printed != repaired) == (0 in (c2, c1))

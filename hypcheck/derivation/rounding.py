@@ -38,9 +38,10 @@ POSITIVE_INPUTS = frozenset({*SIZES, "b_s", "d_s", "l"})
 
 @dataclass(frozen=True, slots=True)
 class ErrorCounts:
-    """|computed − exact| ≤ γ_k · M for every number step it covers.
+    """The bound |computed − exact| ≤ γ_k · M of each covered step whose result is a number.
 
-    `counts` has k, and `magnitudes` the name of M in `program`, or M itself where it is an integer, for each name.
+    By the name of the step, `counts` has k, and `magnitudes` has the name of M in `program`, or M itself if it is an
+    integer.
     """
 
     program: Program
@@ -50,11 +51,10 @@ class ErrorCounts:
 
 @dataclass(frozen=True, slots=True)
 class _Term:
-    """Facts about a value: its count of roundings k, the place of its magnitude M, and the common sign of its terms.
+    """Facts about a value: its count of roundings k, its magnitude M, and the common sign of its terms.
 
-    `sign` is +1 or −1, or None if the terms have no common sign that is known.
-
-    `one_signed` without `sign` means that the terms share a sign that is not known beforehand, as in one coordinate.
+    `magnitude` is the name of M, or M itself if it is an integer. `one_signed` is true if all terms have the same sign.
+    `sign` is that sign, +1 or −1, or None if it is not known beforehand, as that of a coordinate.
     """
 
     count: int
@@ -69,7 +69,7 @@ def relative_error_counts(
     positive: Collection[str] = POSITIVE_INPUTS,
     input_roundings: int = 0,
 ) -> ErrorCounts:
-    """The bound for the wanted steps and all the number steps they depend on.
+    """Derive the error bound of the wanted steps and of all number steps that they depend on.
 
     `positive` names the inputs that are always > 0; `input_roundings` is 1 where inputs are rounded on entry.
     Raises ValueError for a step that the claim above does not cover: a division by or a root of what may be a sum of
@@ -98,7 +98,7 @@ def relative_error_counts(
 
 
 def gamma(count: int, unit_roundoff: Fraction) -> Fraction:
-    """γ_k = ku/(1−ku), exactly. Raises ValueError where ku ≥ 1: there the claim says nothing."""
+    """Return γ_k = ku/(1−ku), exactly, for the `count` k. Raises ValueError if ku ≥ 1: then the claim says nothing."""
     product = count * unit_roundoff
     if product >= 1:
         raise ValueError(f"{count} roundings of up to {unit_roundoff} bound nothing")
@@ -106,6 +106,11 @@ def gamma(count: int, unit_roundoff: Fraction) -> Fraction:
 
 
 def _term_of(step: Step, terms: dict[str, _Term], written: list[Step]) -> _Term:
+    """Return the facts about the step's result.
+
+    `terms` has the facts about earlier values by name. If a step is needed to compute the magnitude, it is appended to
+    `written`.
+    """
     rule = RULES.get(step.operation)
     if rule is None:
         raise ValueError(f"step {step.name}: no bound is derived for {step.operation}")
@@ -129,9 +134,11 @@ def _argument(argument: Argument, terms: dict[str, _Term]) -> _Term:
 
 
 _Rule = tuple[int, bool, int | None]
+"""Of a step's result k, whether all terms have one sign, and that sign, None if it is not known."""
 
 
 def _sum(step: Step, terms: list[_Term]) -> _Rule:
+    """Apply the rule for a sum or a difference."""
     left, right = terms
     right_sign = _flipped(right.sign) if step.operation == "sub" else right.sign
     shared = left.sign is not None and left.sign == right_sign

@@ -17,12 +17,15 @@ from hypcheck.derivation.evaluation import Arithmetic
 from hypcheck.derivation.program import BOOLEAN, NUMBER, Argument, Step, kind_of
 
 PAIR, ANSWER = "pair", "answer"
-"""Kinds of names beside NUMBER and BOOLEAN."""
+"""Kinds of names in addition to NUMBER and BOOLEAN."""
 
 
 @dataclass(frozen=True, slots=True)
 class Return:
-    """A whole number by conditions: that of the first one that holds, else the last one."""
+    """A result by conditions: the whole number of the first of `choices` whose condition holds, else `otherwise`.
+
+    A choice is the name of a condition and its number.
+    """
 
     choices: tuple[tuple[str, int], ...]
     otherwise: int
@@ -30,7 +33,7 @@ class Return:
 
 @dataclass(frozen=True, slots=True)
 class Call:
-    """`name` becomes the result of the routine for these arguments, in the order of its inputs."""
+    """A part that gives `name` the result of the routine for these arguments, in the order of its inputs."""
 
     name: str
     routine: Routine
@@ -44,7 +47,7 @@ class Call:
 
 @dataclass(frozen=True, slots=True)
 class Half:
-    """`name` becomes one number of a pair: the first, or with `low` the second."""
+    """A part that gives `name` one number of a pair: the first, or with `low` the second."""
 
     name: str
     pair: str
@@ -58,9 +61,10 @@ class Half:
 
 @dataclass(frozen=True, slots=True)
 class Stored:
-    """`name` becomes the number as it is stored in memory: rounded, even if a compiler could fuse operations.
+    """A part that gives `name` the number as it is stored in memory: rounded, even if a compiler could fuse operations.
 
-    With `opaque` a compiler must not know the number either: it is not computed before the program runs.
+    With `opaque` the compiler must not know the number either, so that it computes nothing from it before the program
+    runs.
     """
 
     name: str
@@ -75,7 +79,7 @@ class Stored:
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """Rows of numbers by name: in the round of a loop over it, `columns` are the numbers of that row."""
+    """Rows of numbers for a loop: in each round the names `columns` have the numbers of one row."""
 
     name: str
     columns: tuple[str, ...]
@@ -86,10 +90,10 @@ class Table:
 class Loop:
     """The parts of `body`, repeated `times` times; at least once.
 
-    `kept` are numbers that go from round to round: the name of each, what it is before the first round, and the name
-    that it has in the body when a round ends. After the loop they are what the last round made of them; what else
-    the body names is forgotten. `until` is a truth value of the body: the round in which it holds is the last.
-    With a `table` the body knows the numbers of a row of it, one row a round.
+    `kept` are numbers that each round passes to the next: of each its name, the name of its value before the first
+    round, and the name in the body of its next value. After the loop they have the values of the last round; other
+    names of the body are not defined there. `until` is a truth value of the body: the round in which it holds is the
+    last. With a `table` the body can read the numbers of a row of it, one row a round.
     """
 
     times: int
@@ -121,8 +125,8 @@ class Routine:
 
     `meaning` is a sentence about the result. Inputs are numbers, or `pairs`; those of `record` are given as one, a
     setting's constants, whose type is called `record_name`. `constants` are numbers that parts may read. Raises
-    ValueError on construction as Program does, and where a loop has no rounds, keeps what is not a number, or a call
-    gives another number of arguments than the routine takes.
+    ValueError on construction as Program does, and where a loop has no rounds or keeps a value that is not a number,
+    and where a call has a wrong number of arguments.
     """
 
     name: str
@@ -220,7 +224,10 @@ class Routine:
 
 
 def kind_of_part(part: Step | Call | Half | Stored, kinds: Mapping[str, str]) -> str:
-    """The kind of a part's result, given the kinds of the names before it. Raises ValueError as Routine does."""
+    """Return the kind of a part's result: NUMBER, BOOLEAN, PAIR or ANSWER.
+
+    `kinds` are the kinds of the names before it. Raises ValueError as Routine does.
+    """
     if isinstance(part, Call):
         return _kind_of_call(part, kinds)
     if isinstance(part, Step):
@@ -233,6 +240,7 @@ def kind_of_part(part: Step | Call | Half | Stored, kinds: Mapping[str, str]) ->
 
 
 def _kind_of_call(call: Call, kinds: Mapping[str, str]) -> str:
+    """Return the kind of the called routine's result. Raises ValueError if the arguments do not fit the routine."""
     takes = call.routine.takes
     if len(call.arguments) != len(takes):
         raise ValueError(f"{call.routine.name} takes {len(takes)} arguments, not {len(call.arguments)}")
@@ -243,7 +251,7 @@ def _kind_of_call(call: Call, kinds: Mapping[str, str]) -> str:
 
 
 def kinds_in(parts: Iterable[Part], before: Mapping[str, str]) -> dict[str, str]:
-    """The kinds of all names after the parts, given the kinds of the names before them."""
+    """Return the kinds of all names that are defined after the parts, given those defined before them."""
     kinds = dict(before)
     for part in parts:
         if isinstance(part, Loop):
@@ -254,14 +262,18 @@ def kinds_in(parts: Iterable[Part], before: Mapping[str, str]) -> dict[str, str]
 
 
 def result_names(result: Result) -> tuple[str, ...]:
-    """The names that a result reads."""
+    """Return the names that a result reads."""
     if isinstance(result, Return):
         return tuple(name for name, _ in result.choices)
     return tuple(name for name in ((result,) if isinstance(result, str) else result) if isinstance(name, str))
 
 
 def needed_parts(parts: tuple[Part, ...], wanted: Iterable[str]) -> tuple[Part, ...]:
-    """The parts that the wanted names depend on, in order; of a loop only steps that no round needs are left out."""
+    """Return the parts that the wanted names depend on, in order.
+
+    A loop that is needed keeps all its rounds and kept numbers; only the parts of its body that no round needs are
+    omitted.
+    """
     alive, parts_needed = set(wanted), list[Part]()
     for part in reversed(parts):
         if isinstance(part, Loop):
@@ -278,6 +290,7 @@ def needed_parts(parts: tuple[Part, ...], wanted: Iterable[str]) -> tuple[Part, 
 
 
 def _read(parts: Iterable[Part]) -> Iterator[str]:
+    """Yield the names that the parts read, of loops too."""
     for part in parts:
         if isinstance(part, Loop):
             yield from (start for _, start, _ in part.kept)
@@ -287,12 +300,12 @@ def _read(parts: Iterable[Part]) -> Iterator[str]:
 
 
 def names_read(routine: Routine) -> frozenset[str]:
-    """All names that the needed parts and the result read."""
+    """Return all names that the needed parts and the result read."""
     return frozenset((*_read(routine.needed), *result_names(routine.result)))
 
 
 def renamed(parts: Iterable[Part], names: Mapping[str, str]) -> Iterator[Part]:
-    """The parts with the names of their arguments replaced by `names`."""
+    """Yield the parts with the names of their arguments replaced by `names`."""
     for part in parts:
         if isinstance(part, Half):
             yield replace(part, pair=names.get(part.pair, part.pair))
@@ -303,7 +316,7 @@ def renamed(parts: Iterable[Part], names: Mapping[str, str]) -> Iterator[Part]:
 
 
 def called(routine: Routine) -> tuple[Routine, ...]:
-    """The routines that it calls, directly or not; each occurs once, before its callers."""
+    """Return the routines that a routine calls, directly or not; each occurs once, before its callers."""
     routines: dict[str, Routine] = {}
     for call in _calls(routine.needed):
         for inner in (*called(call.routine), call.routine):
@@ -312,6 +325,7 @@ def called(routine: Routine) -> tuple[Routine, ...]:
 
 
 def _calls(parts: Iterable[Part]) -> Iterator[Call]:
+    """Yield the calls among the parts and in the bodies of loops."""
     for part in parts:
         if isinstance(part, Loop):
             yield from _calls(part.body)
@@ -320,8 +334,9 @@ def _calls(parts: Iterable[Part]) -> Iterator[Call]:
 
 
 def run(routine: Routine, arithmetic: Arithmetic, inputs: Mapping[str, Any]) -> Any:
-    """The result for these inputs, converted into the arithmetic first, those of the record too.
+    """Evaluate a routine in an arithmetic and return its result.
 
+    `inputs` has a value for each input and for each field of the record; all are converted into the arithmetic first.
     A pair is a tuple of two numbers. Raises KeyError where an input is missing or the arithmetic lacks an operation.
     """
     values = {name: _converted(inputs[name], arithmetic) for name in (*routine.inputs, *routine.record)}

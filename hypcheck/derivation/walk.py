@@ -27,7 +27,7 @@ from hypcheck.derivation.printed_equations import rotor_meanings
 
 
 def rotors() -> Chain:
-    """Equations (15) to (21)."""
+    """Return the section about the rotors, equations (15) to (21)."""
     return chain(
         "The rotors",
         "Four spheroids of semi-axes b_s, b_s, d_s at the ends of arms of length l. One cosine and one sine serve all "
@@ -39,7 +39,7 @@ def rotors() -> Chain:
 
 
 def appendix() -> Chain:
-    """Appendix A with the stray + l of its second display left out."""
+    """Return the section about Appendix A, without the stray + l of its second display."""
     c1 = rotor_meanings()["c1"]
     repaired = identity(
         "c1(g_i) = (α/b_s)²·(1 − (γ/d_s)² − (z0/d_s)²) + (γ/d_s)²·((x0² + y0² + l²)/b_s² − 1) + "
@@ -58,7 +58,7 @@ def appendix() -> Chain:
 
 
 def walk() -> Iterator[Chain]:
-    """The sections in order; each is derived when the iterator reaches it."""
+    """Yield the sections in order; each is derived when the iterator reaches it."""
     yield _surfaces()
     yield _theorem_1()
     yield _matrices()
@@ -199,7 +199,7 @@ def _discriminant() -> Chain:
 
 
 def _roots_in_numbers() -> Chain:
-    """The roots in numbers; with √h1 as a letter of its own, c1 = (c2² − √h1²)/3."""
+    """Return the section about computing the roots. √h1 counts as a letter there, with c1 = (c2² − √h1²)/3."""
     root, cosine = symbol("h"), symbol("k")
     in_root = {C1: (C2**2 - root**2) / 3}
     w = (9 * C1 * C2 - 2 * C2**3 - 27 * C0).subs(in_root)
