@@ -1,1 +1,1 @@
-"""What collision engines do: each installed apart, asked by the protocol of commands, measured near contact."""
+"""Measure collision engines near contact. Each is installed in its own folder and asked as a command is."""

@@ -1,8 +1,8 @@
 """The pictures of the record: a finding as a section through both bodies, and a chart of each engine's own errors.
 
-A finding's gap can be a millionth of its body. So what is near the certificate's point is drawn once more beside the
-bodies, magnified until the gap is seen; how many times is written under it. A picture without that would show bodies
-that touch, and argue for the engine.
+A finding's gap can be a millionth of its body. So the surroundings of the certificate's point are drawn a second time
+beside the bodies, magnified until the gap is visible; the magnification is written below. A picture without that would
+show bodies that seem to touch, as if the engine were right.
 """
 
 from __future__ import annotations
@@ -27,7 +27,10 @@ _SHOWN = 30.0
 
 
 def drawing(finding: Finding) -> str:
-    """An SVG of the section by the plane through the spheroid's axis and the certificate's direction, or point."""
+    """Return an SVG of both bodies, cut by the plane through the spheroid's axis and the certificate's direction.
+
+    For a missed contact the plane goes through the certificate's point.
+    """
     cut, foot = _section_of(finding)
     zoom = 100.0 / max(finding.b, finding.d)
     (u0, v0), (u1, v1) = (cut * zoom).tolist()
@@ -51,7 +54,7 @@ def drawing(finding: Finding) -> str:
 
 
 def _section_of(finding: Finding) -> tuple[Floats, Floats]:
-    """What the picture shows in its plane: the ends (2, 2) of the triangle's section, and the point to be magnified."""
+    """Compute, in the plane of the picture, the ends (2, 2) of the triangle's section, and the point to magnify."""
     corners = np.array(finding.corners)
     point = np.array(finding.shares) @ corners
     toward = point if finding.kind == "missed contact" else np.array(finding.direction)
@@ -67,7 +70,10 @@ def _section_of(finding: Finding) -> tuple[Floats, Floats]:
 
 
 def _section(beside: Floats, points: Floats) -> Floats:
-    """The cut of a triangle by the plane of the picture: the ends (2, 2) of its section, or of its nearest edge."""
+    """Cut a triangle by the plane of the picture; return the ends (2, 2) of its section, or of its nearest edge.
+
+    `beside` (3,) are the signed distances of its corners from the plane, `points` (3, 2) their places in the plane.
+    """
     ends = []
     for i, j in ((0, 1), (1, 2), (2, 0)):
         if (beside[i] < 0) != (beside[j] < 0):
@@ -78,18 +84,21 @@ def _section(beside: Floats, points: Floats) -> Floats:
 
 
 def _magnification(finding: Finding, zoom: float) -> float:
-    """How many times what is near the point is drawn larger: a power of ten that shows the gap, or what is too deep."""
+    """Return the magnification near the point: a power of ten that makes the gap or the depth visible; 1 for none."""
     shown = finding.error_mm / finding.millimetres * zoom
     return 10.0 ** floor(log10(_SHOWN / shown)) if 0 < shown < _SHOWN else 1.0
 
 
 def _inset(finding: Finding, cut: Floats, foot: Floats, zoom: float, times: float) -> Iterator[str]:
-    """The square beside the bodies: what is about the foot, magnified. Only what is near it is drawn, as a polygon."""
+    """Yield the SVG of the square beside the bodies: the surroundings of the point `foot`, magnified `times` times.
+
+    Only the near part of the spheroid is drawn, as a polygon. `zoom` is the scale of the bodies in the picture.
+    """
     reach = 2.0 * _HALF_SIDE / (zoom * times)
     middle = np.arctan2(foot[1] / finding.d, foot[0] / finding.b)
     spread = min(np.pi, 3.0 * reach / min(finding.b, finding.d))
     angles = middle + np.linspace(-spread, spread, 65)
-    # From the foot itself, so that nothing is lost where the gap is a millionth of the body.
+    # Differences from the foot are computed directly, so that no digits are lost if the gap is a millionth of the body.
     half = (angles - middle) / 2
     turned = -2.0 * np.sin(half)[:, np.newaxis] * np.stack([np.sin(middle + half), -np.cos(middle + half)], axis=1)
     rim = np.vstack([turned * [finding.b, finding.d], [-foot]]) * zoom * times
@@ -105,7 +114,7 @@ def _inset(finding: Finding, cut: Floats, foot: Floats, zoom: float, times: floa
 
 
 def _near(ends: Floats, reach: float) -> Floats:
-    """The part of a segment that is within reach of the origin, and a little beyond."""
+    """Return the part of a segment within twice `reach` of its point nearest to the origin."""
     along = ends[1] - ends[0]
     length = float(np.linalg.norm(along))
     if length == 0:
@@ -117,15 +126,16 @@ def _near(ends: Floats, reach: float) -> Floats:
 
 
 def _points(points: Floats) -> str:
+    """Return points (n, 2) as the text of an SVG attribute, whose y axis points down."""
     return " ".join(f"{np.clip(x, -1e4, 1e4):.2f},{np.clip(-y, -1e4, 1e4):.2f}" for x, y in points.tolist())
 
 
 _LEAST, _MOST = -7, 3
-"""The chart's axis, in powers of ten of a millimetre."""
+"""The ends of the chart's axis, as powers of ten of a millimetre."""
 
 
 def chart(record: EngineRecord) -> str:
-    """An SVG of an engine's own worst error in each family: a ring at default settings, a dot at the other ones."""
+    """Return an SVG of an engine's worst own error in each family: a ring at default settings, a dot at the others."""
     names = [name for name in FAMILIES if any(measured.family == name for measured in record.default)]
     bottom = 22 * len(names) + 30
     marks = [f'<text x="10" y="16">{record.name} {record.version}: own worst error, mm at the tower of 2 m</text>']
@@ -149,11 +159,11 @@ def chart(record: EngineRecord) -> str:
 
 
 def _place(millimetres: float) -> float:
-    """The place of an error on the chart's axis; no error is at its left end."""
+    """Return the x coordinate of an error in the chart; an error of 0 is at the left end of its axis."""
     power = log10(millimetres) if millimetres > 0 else _LEAST - 1
     return 130.0 + 370.0 * (min(max(power, _LEAST - 1), _MOST) - (_LEAST - 1)) / (_MOST - _LEAST + 1)
 
 
 def own_worst(measured: Sequence[Measured], family: str) -> float:
-    """The worst own error of a family on any mesh, in millimetres; 0 if there is none."""
+    """Return the worst own error of a family on any mesh, in millimetres; 0 if there is none."""
     return max((measurement.own_worst_mm for measurement in measured if measurement.family == family), default=0.0)

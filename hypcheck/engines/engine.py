@@ -31,7 +31,7 @@ Manager = Literal["pip", "npm", "cargo"]
 
 @dataclass(frozen=True, slots=True)
 class Setting:
-    """What bounds an engine's accuracy, in its own words, and as a length in its own unit; None if it says none."""
+    """A setting of an engine's accuracy: in the engine's words, and as a length in its unit, None if it states none."""
 
     words: str
     tolerance: float | None
@@ -44,11 +44,12 @@ NOT_OFFERED = Setting("it offers no setting", None)
 class Engine:
     """An engine; `package` is its name for the package manager.
 
-    `body` is what stands for a spheroid that is no ball: the engine's own ellipsoid, the convex hull of points on it,
-    or the engine's ball in a space that is scaled for it, in which case no spheroid is tilted. A ball is always the
-    engine's own. `single` says that it computes in float32. `files` are the adapter's, from this folder. An adapter
-    leaves the engine at its `default` settings, or takes the `tightest` that the engine offers. Where the other setting
-    is another way and no tighter one, `tightens` is False, and what the engine is judged by is its default.
+    `body` is the shape that represents a spheroid that is not a ball: the engine's own ellipsoid, the convex hull of
+    points on the spheroid, or the engine's ball in a scaled space, in which no spheroid can be tilted. A ball is always
+    the engine's own. `single` is true if it computes in float32. `files` are the adapter's, from this folder. An
+    adapter leaves the engine at its `default` settings, or takes the `tightest` that the engine offers. `tightens` is
+    False if the other setting selects another method that is not more accurate; then the engine is judged by its
+    default.
     """
 
     name: str
@@ -79,7 +80,7 @@ class Engine:
 
     @property
     def other(self) -> str:
-        """What the setting beside the default is, in a word or two."""
+        """The words for the setting other than the default."""
         return "tightest" if self.tightens else "other solver"
 
 
@@ -155,7 +156,7 @@ ENGINES = {
 
 
 def engines_of(names: Iterable[str]) -> list[Engine]:
-    """The engines of these names, all without any. Raises InputError for a name that is none."""
+    """Return the engines of these names, or all if there are no names. Raises InputError for an unknown name."""
     for name in names:
         if name not in ENGINES:
             raise InputError(f"there is no engine {name!r}; {suggestion(name, ENGINES)}")
@@ -170,18 +171,18 @@ _TOOLS = {
     "npm": (("node", "Node.js"), ("npm", "npm, which comes with Node.js")),
     "cargo": (("cargo", "Rust and its cargo"),),
 }
-"""The programs that each manager needs beside Python, and what to install for them."""
+"""The programs that each package manager needs in addition to Python, and what to install for them."""
 
 
 def cache_folder() -> Path:
-    """The folder in which engines are installed: HYPCHECK_ENGINES, else hypcheck/engines in XDG_CACHE_HOME."""
+    """Return the folder in which engines are installed: HYPCHECK_ENGINES, else hypcheck/engines in XDG_CACHE_HOME."""
     if os.environ.get(VARIABLE):
         return Path(os.environ[VARIABLE])
     return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "hypcheck" / "engines"
 
 
 def missing_tool(engine: Engine) -> str | None:
-    """The sentence about a program that installing or running the engine needs and this machine has not, or None."""
+    """Return a sentence about a program that the engine needs and this machine lacks, or None if nothing is missing."""
     for program, wanted in _TOOLS[engine.manager]:
         if shutil.which(program) is None:
             return f"{engine.name} needs the program {program}, which is not installed; install {wanted}"
@@ -189,13 +190,13 @@ def missing_tool(engine: Engine) -> str | None:
 
 
 def is_installed(engine: Engine, cache: Path) -> bool:
-    """Whether this version of the engine is there, with this version of its adapter."""
+    """Decide whether this version of the engine is installed, with this version of its adapter."""
     ready = cache / engine.name / _READY
     return ready.is_file() and ready.read_text() == _digest(engine)
 
 
 def install(engine: Engine, cache: Path) -> None:
-    """Make the engine's environment anew. Raises UnavailableError where a program or the network is missing."""
+    """Install the engine in a new environment. Raises UnavailableError where a program or the network is missing."""
     trouble = missing_tool(engine)
     if trouble is not None:
         raise UnavailableError(trouble)
@@ -215,7 +216,7 @@ def install(engine: Engine, cache: Path) -> None:
 
 
 def command(engine: Engine, cache: Path, scene: Path, *, tightest: bool = False) -> tuple[str, ...]:
-    """The words that start the engine's adapter on a scene. Raises InputError where it is not installed."""
+    """Return the command line that starts the engine's adapter on a scene. Raises InputError if it is not installed."""
     if not is_installed(engine, cache):
         raise InputError(f"{engine.name} is not installed; type: hypcheck engines install {engine.name}")
     folder = (cache / engine.name).absolute()
@@ -228,11 +229,13 @@ def command(engine: Engine, cache: Path, scene: Path, *, tightest: bool = False)
 
 
 def _python_of(folder: Path) -> Path:
+    """Return the Python of an engine's environment, or ours if it has none."""
     own = folder / "venv" / "bin" / "python"
     return own if own.is_file() else Path(sys.executable)
 
 
 def _steps(engine: Engine, folder: Path) -> list[list[str]]:
+    """Return the command lines that install the engine in the folder."""
     if engine.manager == "npm":
         quiet = ["--ignore-scripts", "--no-audit", "--no-fund", "--loglevel=error"]
         return [["npm", "install", "--prefix", str(folder), *quiet, f"{engine.package}@{engine.version}"]]
@@ -246,7 +249,7 @@ def _steps(engine: Engine, folder: Path) -> list[list[str]]:
 
 
 def _have(engine: Engine) -> bool:
-    """Whether our own Python has this very version: then nothing is installed, and the adapter runs with ours."""
+    """Decide whether our own Python has exactly this version; then nothing is installed, and the adapter uses ours."""
     try:
         return metadata.version(engine.package) == engine.version
     except metadata.PackageNotFoundError:
@@ -254,6 +257,7 @@ def _have(engine: Engine) -> bool:
 
 
 def _digest(engine: Engine) -> str:
+    """Return the digest of the engine's version and its adapter's files."""
     digest = hashlib.sha256(f"{engine.package} {engine.version}".encode())
     for file in engine.files:
         digest.update((FOLDER / file).read_bytes())

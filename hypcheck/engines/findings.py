@@ -38,12 +38,13 @@ KINDS = ("contradiction", "too near", "missed contact", "false contact", "too fa
 
 
 class Finding(Struct):
-    """An engine's answer about the spheroid b, d about the origin and a triangle.
+    """A wrong answer of an engine about the spheroid of semi-axes b, b, d about the origin and a triangle.
 
-    `kind` is one of KINDS. `reported` is the signed distance that is wrong, or None where its word contact or clear is.
-    `error_mm` is proved, in millimetres at the 2 m tower, of which `millimetres` are one unit of the engine;
-    `direction` and `shares` are the certificate. `said` is the answer at the setting that the engine is judged by,
-    `at_other` that at its other one, empty if it offers none.
+    `kind` is one of KINDS. `reported` is the wrong signed distance, or None if the answer contact or clear is wrong.
+    `error_mm` is the proved error in millimetres at the 2 m tower, and `millimetres` is the number of millimetres in
+    one unit of the engine; `direction` and `shares` are the certificate. `said` is the answer, in words, at the setting
+    that the engine is judged by, `at_other` that at its other one, empty if it offers none. `proved` is the proved
+    fact in words; `file` and `picture` are the names of the reproduction and the drawing.
     """
 
     engine: str
@@ -65,12 +66,12 @@ class Finding(Struct):
 
     @property
     def contradicts(self) -> bool:
-        """Whether the engine says contact, and reports that the same bodies are apart."""
+        """Whether the engine says contact and also reports that the same bodies are apart."""
         return self.said.startswith("contact, and")
 
     @property
     def of_body(self) -> float:
-        """The error as a share of the spheroid's least semi-axis."""
+        """The error divided by the spheroid's least semi-axis."""
         return self.error_mm / (self.millimetres * min(self.b, self.d))
 
 
@@ -79,13 +80,13 @@ _BY_DIRECTION = {"contradiction", "false contact", "too near"}
 
 
 def read_findings(folder: Path) -> list[Finding]:
-    """The findings in a folder, none if it has no file of them."""
+    """Read the findings in a folder; the list is empty if it has no file of them."""
     path = folder / "findings" / "findings.json"
     return msgspec.json.decode(path.read_bytes(), type=list[Finding]) if path.is_file() else []
 
 
 def proved(finding: Finding) -> bool:
-    """Whether the certificate proves at least nine tenths of the error, in rationals."""
+    """Decide in rational arithmetic whether the certificate proves at least nine tenths of the error."""
     error = Fraction(finding.error_mm) * 9 / 10 / Fraction(finding.millimetres)
     if finding.kind in _BY_DIRECTION:
         return _direction_proves(finding, error)
@@ -104,7 +105,10 @@ def proved(finding: Finding) -> bool:
 
 
 def _direction_proves(finding: Finding, error: Fraction) -> bool:
-    """Whether s(n) is at least the error, or greater by that than what the engine reported."""
+    """Decide whether s(n) is at least the error, or exceeds the reported distance by at least the error.
+
+    The second holds for the kind "too near". s(n) is the lower bound at the head of this module, n the direction.
+    """
     least, half2, length2 = _along(finding)
     bound = error + (Fraction(finding.reported or 0.0) if finding.kind == "too near" else 0)
     root2 = bound * bound * length2
@@ -112,18 +116,19 @@ def _direction_proves(finding: Finding, error: Fraction) -> bool:
 
 
 def _along(finding: Finding) -> tuple[Fraction, Fraction, Fraction]:
-    """Along the direction n: the least n·v of the corners v, and the squares of h(n) and of |n|."""
+    """Return, for the direction n, the least n·v of the corners v, and the squares of h(n) and of |n|."""
     way = _exactly(finding.direction)
     least = min(_dot(way, _exactly(corner)) for corner in finding.corners)
     return least, _dot(_squares(finding), [number * number for number in way]), _dot(way, way)
 
 
 def _shared_point(finding: Finding) -> list[Fraction]:
-    """The point of the triangle with the shares of the corners."""
+    """Return the point of the triangle with the finding's shares of the corners."""
     return [_dot(_exactly(finding.shares), _exactly(column)) for column in zip(*finding.corners, strict=True)]
 
 
 def _squares(finding: Finding) -> list[Fraction]:
+    """Return b², b² and d², exactly."""
     return [axis * axis for axis in _exactly([finding.b, finding.b, finding.d])]
 
 
@@ -136,18 +141,18 @@ def _dot(first: Sequence[Fraction], second: Sequence[Fraction]) -> Fraction:
 
 
 def _inside(point: Sequence[Fraction], squares: Sequence[Fraction]) -> Fraction:
-    """(x² + y²)/b² + z²/d², which is below 1 inside the spheroid."""
+    """Return (x² + y²)/b² + z²/d² of a point, which is below 1 inside the spheroid; `squares` are b², b² and d²."""
     return _dot([coordinate * coordinate for coordinate in point], [1 / square for square in squares])
 
 
 def _at_least_roots(value: Fraction, first: Fraction, second: Fraction) -> bool:
-    """Whether value ≥ √first + √second."""
+    """Decide whether value ≥ √first + √second."""
     rest = value * value - first - second
     return value >= 0 and rest >= 0 and rest * rest >= 4 * first * second
 
 
 def _root_and(value: Fraction, first: Fraction, second: Fraction) -> bool:
-    """Whether value + √first ≥ √second."""
+    """Decide whether value + √first ≥ √second."""
     rest = second - first - value * value
     if value < 0:
         return rest <= 0 and rest * rest >= 4 * value * value * second
@@ -174,7 +179,7 @@ _RUST = """    println!("contact: {{contact}}, distance: {{distance}}");
 }}
 """
 _ENDS = {".py": ("# ", _PYTHON, "not "), ".mjs": ("// ", _JAVASCRIPT, "!"), ".rs": ("// ", _RUST, "!")}
-"""By the ending of a file: what begins a comment, the last lines, and how a language says not."""
+"""For each ending of a file name: the beginning of a comment, the last lines of a reproduction, the word for not."""
 
 _INSTALLS = {
     "pip": "pip install {package}=={version}",
@@ -184,13 +189,13 @@ _INSTALLS = {
 
 
 def template_of(engine: Engine) -> Path:
-    """The engine's template, reproduction.ENDING.txt."""
+    """Return the path of the engine's template, reproduction.ENDING.txt."""
     folder = FOLDER / Path(engine.files[1 if engine.manager == "cargo" else 0]).parent
     return next(folder.glob("reproduction.*.txt"))
 
 
 def reproduction(finding: Finding) -> str:
-    """The text of a reproduction."""
+    """Return the text of the program that reproduces a finding."""
     engine = ENGINES[finding.engine]
     path = template_of(engine)
     comment, end, negated = _ENDS[Path(path.stem).suffix]
@@ -208,7 +213,7 @@ def reproduction(finding: Finding) -> str:
 
 
 def _settings_of(finding: Finding, engine: Engine) -> list[str]:
-    """What the engine says at which settings, in words, and its unit."""
+    """Return lines with the engine's answers at its settings, in words, and its unit."""
     size = f"b = {finding.b!r}, d = {finding.d!r}"
     unit = f"Lengths are in the engine's unit, {finding.millimetres:g} mm of the tower; {size}."
     if not engine.adjustable:
@@ -227,7 +232,7 @@ def _settings_of(finding: Finding, engine: Engine) -> list[str]:
 
 
 def _wrong(finding: Finding, negated: str) -> str:
-    """The condition that the engine is wrong, in all languages alike but for the word not."""
+    """Return the condition that the engine is wrong, as code. `negated` is the language's word for not."""
     if finding.kind == "contradiction":
         return {"not ": "contact and distance > 0", "!": "contact && distance > 0.0"}[negated]
     if finding.kind in {"false contact", "missed contact"}:
@@ -237,7 +242,7 @@ def _wrong(finding: Finding, negated: str) -> str:
 
 
 def _proof(finding: Finding) -> list[str]:
-    """The certificate in words."""
+    """Return the certificate in words, line by line."""
     n = f"n = ({', '.join(map(repr, finding.direction))})"
     if finding.kind in _BY_DIRECTION:
         least, half2, length2 = _along(finding)

@@ -1,13 +1,14 @@
-"""The record of engines: each asked about each family on each mesh; one file an engine, from which all else is made.
+"""The record of engines. Each engine is asked about each family on each mesh, and its record is one file.
 
-An engine that offers settings is asked twice: at its default settings, and at the tightest that it offers.
+The page and everything else about engines is made from these files. An engine that offers settings is asked twice: at
+its default settings, and at the tightest that it offers.
 
-It says what an engine got wrong, by how much, and what its mesh explains of it. Lengths are millimetres at the tower
-of 2 m. An answer is *wrong* if it is not that of the surface; its error is the row's certified distance from contact
-(placing.py). It is the engine's *own* error if it is not that of its own mesh either, decided exactly (scene.py),
-whether or not the surface happens to agree; its size is then the distance of the body from that mesh, at least. An
-engine that is given a hull may answer for any body between the spheroid and the ball that the hull holds for certain:
-what lies between is explained by the hull.
+The record says what an engine got wrong, by how much, and which part of it the mesh explains. Lengths are millimetres
+at the tower of 2 m. An answer is *wrong* if it differs from that of the surface; its error is the row's certified
+distance from contact (placing.py). It is the engine's *own* error if it differs from that of its own mesh, decided
+exactly (scene.py), even if it agrees with the surface by chance; its size is then at least the distance of the body
+from contact with that mesh. An engine that is given a hull may answer for any body between the spheroid and the scaled
+spheroid that the hull contains for certain; differences between these two are explained by the hull.
 """
 
 from __future__ import annotations
@@ -40,7 +41,7 @@ from hypcheck.version import VERSION
 SCHEMA = "2.0.0"
 
 EACH = 8
-"""Clear rows and contacts of each decade of gaps."""
+"""The number of clear rows, and of contacts, in each decade of gaps."""
 
 _LIMITS = Limits(startup_timeout=120.0, timeout=60.0, restarts=3)
 
@@ -50,11 +51,15 @@ TIMED_ROWS = 64
 _PATIENCE_S = 300.0
 
 NO_DISTANCE = 1e300
-"""What some engines report as large as a float can be is no distance."""
+"""A reported number of this size or larger is no distance: some engines report the largest float if they have none."""
 
 
 class Decade(Struct):
-    """Rows whose distance from contact is from `least_mm` to ten times that: asked, and answered wrongly."""
+    """Counts of rows whose distance from contact is from `least_mm` to ten times that.
+
+    `clear` rows were asked, `false_contacts` of them answered wrongly; `contacts` were asked, `false_clears` of them
+    answered wrongly.
+    """
 
     least_mm: float
     clear: int
@@ -64,11 +69,11 @@ class Decade(Struct):
 
 
 class Reported(Struct):
-    """Distances that the engine reported for so many `rows`, `missing` ones not; errors against the exact ones.
+    """The errors of the distances that an engine reported for `rows` rows; for `missing` rows it reported none.
 
-    Of a ball the mesh's own distance is known: `own_worst_mm` is the worst error against that one. `contradicted`
-    counts the rows of which the engine says contact, but reports a distance above 0; the one farthest above is
-    `contradicted_row`.
+    The errors are differences from the exact distances. For a ball the distance from the mesh is known too:
+    `own_worst_mm` is the worst difference from that. `contradicted` counts the rows for which the engine says contact
+    but reports a distance above 0; `contradicted_row` is the one with the largest such distance.
     """
 
     rows: int
@@ -82,7 +87,11 @@ class Reported(Struct):
 
 
 class Measured(Struct):
-    """An engine, a family, a mesh. `mesh_wrong` and `mesh_worst_mm` are those of exact answers about that very mesh."""
+    """The measurement of one engine for one family on one mesh.
+
+    `mesh_wrong` and `mesh_worst_mm` count and measure the answers that an exact decision about that mesh would get
+    wrong.
+    """
 
     family: str
     triangles: int
@@ -107,14 +116,17 @@ class Measured(Struct):
 
 @dataclass(frozen=True, slots=True)
 class Own:
-    """Where an engine's answers differ from those of its own mesh: a mask, and by how many spheroid radii at least."""
+    """A mask of the answers that differ from those of the engine's own mesh, and the least errors in spheroid radii."""
 
     wrong: Mask
     radii: Floats
 
 
 def own_errors(contacts: Mask, distances: Floats, *, hull: bool) -> Own:
-    """The own errors of an engine that said contact (or not), at these distances from its mesh in spheroid radii."""
+    """Compute the own errors of an engine that answered contact (or not) for bodies at these distances from its mesh.
+
+    Distances are those of the centres, in spheroid radii. With `hull` the engine has a convex hull of the spheroid.
+    """
     false_contact = contacts & (distances > 1.0)
     inner = HULL if hull else 1.0
     missed = ~contacts & (distances < inner)
@@ -131,10 +143,11 @@ def measure(
     distances: Floats,
     beside: tuple[Rows, Floats],
 ) -> Measured:
-    """Ask an engine's adapter, started with `words` and opened, about placed rows; `distances` are those of the mesh.
+    """Ask an engine's adapter about placed rows, and return the measurement.
 
-    `beside` are rows near contact with the mesh itself, and their distances from it: they are asked for own errors
-    alone.
+    `words` start the adapter, and `implementation` is the opened adapter. `distances` are those of the rows from the
+    mesh. `beside` are rows near contact with the mesh itself, with their distances from it; they only serve to find own
+    errors.
     """
     family = placed.family
     answered = implementation.classify(placed.rows)
@@ -177,7 +190,7 @@ def _own(
     answered: Answered,
     others: Answered,
 ) -> dict[str, Any]:
-    """The engine's own errors, as Measured has them: those of the placed rows, and of the rows beside the mesh."""
+    """Return the fields of Measured about own errors, of the placed rows and of the rows beside the mesh together."""
     family, rows = placed.family, np.concatenate([placed.rows, beside[0]])
     errors = own_errors(
         np.concatenate([answered.answers == 1, others.answers == 1]),
@@ -196,11 +209,12 @@ def _own(
 
 
 def hulled(engine: Engine, placed: Placed) -> bool:
-    """Whether the engine replaces these spheroids by a convex hull."""
+    """Decide whether the engine replaces these spheroids by a convex hull."""
     return engine.body == "hull" and placed.family.b != placed.family.d
 
 
 def _decades(placed: Placed, error: Floats, wrong: Mask) -> list[Decade]:
+    """Count rows by the decade of their distance from contact, `error`, the farthest decade first."""
     power = np.array([floor(log10(length)) for length in error])
     decades = []
     for exponent in sorted(set(power.tolist()), reverse=True):
@@ -211,7 +225,10 @@ def _decades(placed: Placed, error: Floats, wrong: Mask) -> list[Decade]:
 
 
 def reported_distances(words: Sequence[str], rows: Rows, patience_s: float = _PATIENCE_S) -> Floats:
-    """The signed distances (n,) that an adapter reports, NaN where it reports none, or ended or hung before it did."""
+    """Ask an adapter for the signed distances (n,) of rows.
+
+    A distance is NaN if the adapter reports none for the row, or ended or took longer than `patience_s` before.
+    """
     lines = "".join(" ".join(map(repr, row)) + "\n" for row in rows.tolist())
     question = f"distance 1 {len(rows)} tilted-text\n{lines}"
     try:
@@ -226,7 +243,11 @@ def reported_distances(words: Sequence[str], rows: Rows, patience_s: float = _PA
 
 
 def _reported(reported: Floats, placed: Placed, distances: Floats, which: Mask, contacts: Mask) -> Reported:
-    """Errors of the distances of these rows; a distance of the wrong sign counts as it is. `said`: contact or not."""
+    """Summarise the errors of the reported distances of the rows in the mask `which`.
+
+    A distance of the wrong sign is compared as it is. `distances` are those from the mesh, and `contacts` is the mask
+    of the rows for which the engine said contact.
+    """
     family = placed.family
     there = which & (np.abs(reported) < NO_DISTANCE)  # false for NaN
     if not there.any():
@@ -244,7 +265,10 @@ def _reported(reported: Floats, placed: Placed, distances: Floats, which: Mask, 
 
 
 def _microseconds(implementation: Implementation, rows: Rows) -> float | None:
-    """Microseconds for a row, by the adapter's own clock: the least of three tries; None where it cannot be timed."""
+    """Measure the microseconds for a row by the adapter's own clock: the least of three tries.
+
+    The result is None if the adapter cannot be timed.
+    """
     some = rows[:: max(1, len(rows) // TIMED_ROWS)]
     try:
         tries = [implementation.time(some, 1) for _ in range(3)]
@@ -254,9 +278,10 @@ def _microseconds(implementation: Implementation, rows: Rows) -> float | None:
 
 
 class EngineRecord(Struct):
-    """What one engine did: the record's file NAME.json. `skipped` are families that it cannot be asked, and why.
+    """The record of one engine, the content of the file NAME.json.
 
-    `tightest` is empty where the engine offers no settings: then `default` is all that it can do.
+    `default` and `tightest` are the measurements at these settings; `tightest` is empty if the engine offers no
+    settings. `skipped` has the families about which the engine cannot be asked, each with the reason.
     """
 
     schema: str
@@ -270,7 +295,7 @@ class EngineRecord(Struct):
 
     @property
     def best(self) -> list[Measured]:
-        """What it did at the setting that it is judged by: the tightest that it offers."""
+        """The measurements at the setting by which the engine is judged: the tightest, or the default without one."""
         return self.tightest if self.tightest and ENGINES[self.name].tightens else self.default
 
 
@@ -281,14 +306,14 @@ def _placed(family: str, count: int) -> Placed:
 
 @cache
 def _mesh(family: str, count: int, triangles: int) -> tuple[SurfaceMesh, Floats, tuple[Rows, Floats]]:
-    """A family's mesh, how far its rows are from it, and half as many rows beside the mesh."""
+    """Return a family's mesh, the distances of its rows from it, and half as many rows near contact with the mesh."""
     mesh = surface_mesh(FAMILIES[family].sizes, triangles)
     spot, gap = drawn(FAMILIES[family], count // 2, seed=2)
     return mesh, distances(_placed(family, count).rows, mesh), rows_near(spot, gap, mesh)
 
 
 def spec_of(words: Sequence[str]) -> str:
-    """The SPEC of a command."""
+    """Return the SPEC of a command line."""
     return f"command:{dumps(list(words))}"
 
 
@@ -301,7 +326,10 @@ def record_of(
     meshes: Sequence[int] = TRIANGLES,
     families: Sequence[str] = tuple(FAMILIES),
 ) -> EngineRecord:
-    """Ask an installed engine everything. Raises InputError where it is not installed."""
+    """Ask an installed engine about these families on these meshes, and return its record.
+
+    `progress` gets a line for each measurement. Raises InputError if the engine is not installed.
+    """
     machine = f"{platform.system()} {platform.machine()}"
     record = EngineRecord(SCHEMA, VERSION, machine, engine.name, engine.version, [], [], {})
     for tightest in (False, True) if engine.adjustable else (False,):
@@ -336,6 +364,7 @@ def _ask_all(
 
 
 def _asked(engine: Engine, cache_folder: Path, name: str, count: int, triangles: int, *, tightest: bool) -> Measured:
+    """Ask an engine about one family on one mesh at one of its settings."""
     mesh, apart, beside = _mesh(name, count, triangles)
     with TemporaryDirectory(prefix="hypcheck-engine-") as folder:
         scene = Path(folder, "scene")
@@ -346,13 +375,13 @@ def _asked(engine: Engine, cache_folder: Path, name: str, count: int, triangles:
 
 
 def write_record(folder: Path, record: EngineRecord) -> None:
-    """Write NAME.json."""
+    """Write the record of an engine to NAME.json in the folder."""
     folder.mkdir(parents=True, exist_ok=True)
     (folder / f"{record.name}.json").write_bytes(msgspec.json.format(msgspec.json.encode(record)) + b"\n")
 
 
 def read_records(folder: Path) -> list[EngineRecord]:
-    """The records in a folder. Raises InputError for a file that is none."""
+    """Read the records of engines in a folder. Raises InputError for a file that is not one."""
     return [_read(path) for path in sorted(folder.glob("*.json")) if not path.name.endswith(".badge.json")]
 
 

@@ -1,16 +1,16 @@
 """Rows at certified distances from contact: the families of the record.
 
-A row is placed from a point P of the hyperboloid and the normal n there: the spheroid that touches at P, moved by `gap`
-along n. What that is worth is proved by exact labels of two spheroids about the same centre (S is the matrix of the
-spheroid, h = √(nᵀSn) its half width along n, g the gap):
+A row is placed from a point P of the hyperboloid and the normal n there: it is the spheroid that touches at P, moved by
+`gap` along n. Exact positions of two spheroids about the same centre prove that `gap` is its distance from contact, or
+its depth. S is the matrix of the spheroid, h = √(nᵀSn) its half width along n, and g the gap:
 
 - A clear row is at least g from contact: the spheroid of (1 + t) S + (1 + 1/t) g² I with t = g/h contains every point
   within g of the body, since (√(nᵀSn) + g |n|)² ≤ (1 + t) nᵀSn + (1 + 1/t) g² |n|² for all n. It must be clear, too.
 - A contact is at least p = −g deep: no move by less than p separates the bodies, since the spheroid with the matrix
   (S − (1 + 1/t) p² I)/(1 + t), t = p/(h − p), and all points within p of it lie in the body. It must be in contact.
 
-Both are sharp at P. The matrices are those of spheroids with the same axis. Rows that are not so certified, as the
-surface is nearer elsewhere, are left out.
+Both are sharp at P. The matrices are those of spheroids with the same axis. Rows for which this is not proved, because
+the surface is nearer elsewhere, are omitted.
 """
 
 from __future__ import annotations
@@ -32,15 +32,15 @@ DECADES = tuple(range(-9, 0))
 """Gaps of a decade k are from 10^k to 10^(k+1) m."""
 
 SLACK, FUZZ = 1e-6, 1e-14
-"""A gap is certified but for this part of it, and for this part of α: the rounding of the centre and of b and d."""
+"""A gap is certified up to these parts of it and of α, for the rounding of the centre and of b and d."""
 
 
 @dataclass(frozen=True, slots=True)
 class SpotFamily:
-    """A column of the record: the spheroid's b and d in metres, and what is special about its rows.
+    """A family of rows about one spheroid, whose b and d are in metres; `text` describes it.
 
-    `unit` is how many metres are one unit of length of the rows; `leans`: axes in all directions; `inside`: the
-    spheroid is inside the tower.
+    `unit` is the length of one unit of the rows in metres; with `leans` the rows have axes in all directions; with
+    `inside` the spheroid is inside the tower.
     """
 
     name: str
@@ -80,7 +80,7 @@ FAMILIES = {
 
 @dataclass(frozen=True, slots=True)
 class Spot:
-    """Where spheroids touch the surface: normals (n, 3) towards the spheroids, their axes, and their centres there."""
+    """Spheroids that touch the surface, with normals (n, 3) towards the spheroids, their axes, and their centres."""
 
     family: SpotFamily
     normal: Floats
@@ -89,7 +89,7 @@ class Spot:
 
     @classmethod
     def at(cls, family: SpotFamily, azimuth: Floats, height: Floats, axis: Floats) -> Spot:
-        """The spots at these azimuths and heights in metres, with these axes (n, 3) of length 1."""
+        """Place spheroids at these azimuths and heights in metres, with these axes (n, 3) of length 1."""
         alpha, gamma, b, d = family.sizes
         z = height / family.unit
         r = alpha * np.hypot(1.0, z / gamma)
@@ -102,18 +102,18 @@ class Spot:
         return cls(family, normal, axis, np.stack([x, y, z], axis=1) + pushed / half)
 
     def half_width(self) -> Floats:
-        """The spheroids' half widths along the normals, (n,)."""
+        """Return the spheroids' half widths along the normals, (n,)."""
         _, _, b, d = self.family.sizes
         along = (self.normal * self.axis).sum(axis=1)
         return np.asarray(np.sqrt(b * b * (1 - along**2) + d * d * along**2))
 
     def rows(self, gap: Floats) -> Rows:
-        """Rows (n, 10) of the spheroids moved by these gaps, in the unit of the rows."""
+        """Return rows (n, 10) of the spheroids moved by these gaps along the normals, in the unit of the rows."""
         sizes = np.tile(self.family.sizes, (len(gap), 1))
         return np.hstack([sizes, self.center + gap[:, np.newaxis] * self.normal, self.axis])
 
     def certifies(self, gap: Floats) -> Mask:
-        """Tell for which gaps it is proved that they are the distances to the other answer, but for SLACK."""
+        """Decide for each gap whether it is proved to be the distance to the other answer, up to SLACK and FUZZ."""
         rows, half = self.rows(gap), self.half_width()
         size = np.abs(gap) * (1 - SLACK) - FUZZ * rows[:, 0]
         grown = size**2 + half * size
@@ -132,7 +132,7 @@ class Spot:
 
 @dataclass(frozen=True, slots=True)
 class Placed:
-    """Rows (n, 10) of a family, each clear by `gap` > 0 or in contact by −`gap` > 0, as is proved."""
+    """Rows (n, 10) of a family: each is proved to be clear by `gap` > 0, or in contact with the depth −`gap` > 0."""
 
     family: SpotFamily
     rows: Rows
@@ -140,19 +140,19 @@ class Placed:
 
     @property
     def contact(self) -> Mask:
-        """Which rows are in contact."""
+        """A mask of the rows in contact."""
         return np.asarray(self.gap < 0)
 
 
 def placed(family: SpotFamily, count: int, seed: int = 1) -> Placed:
-    """Up to `each` clear rows and contacts of every decade; what is not certified is left out."""
+    """Place up to `count` clear rows and `count` contacts in every decade; rows that are not certified are omitted."""
     spot, gap = drawn(family, count, seed)
     good = spot.certifies(gap)
     return Placed(family, spot.rows(gap)[good], gap[good])
 
 
 def drawn(family: SpotFamily, count: int, seed: int = 1) -> tuple[Spot, Floats]:
-    """Spots all over the surface, and `each` gaps of both signs of every decade, in the unit of the rows."""
+    """Draw spots all over the surface, and `count` gaps of each sign in every decade, in the unit of the rows."""
     n = 2 * count * len(DECADES)
     draw = Draw("engines", family.name, 1, seed)
     decade = np.repeat(np.array(DECADES, dtype=np.float64), 2 * count)
@@ -162,6 +162,7 @@ def drawn(family: SpotFamily, count: int, seed: int = 1) -> tuple[Spot, Floats]:
 
 
 def _axes(family: SpotFamily, draw: Draw, n: int) -> Floats:
+    """Draw the axes (n, 3) of spheroids, of length 1: vertical, or uniform over all directions if the family leans."""
     if not family.leans:
         return np.tile([0.0, 0.0, 1.0], (n, 1))
     up, around = 2 * draw.unit(n) - 1, 2 * pi * draw.unit(n)

@@ -1,8 +1,8 @@
-"""From what the record says of an engine to its findings: the worst rows, reduced to one triangle in small numbers.
+"""Find an engine's findings from its record: the worst rows, each reduced to one triangle with short numbers.
 
-An error of a whole mesh is looked for in ever smaller halves of the triangles near the body, by asking the engine's
-adapter about a scene of these alone. What is left of one triangle is moved so that the spheroid is about the origin,
-and the corners are rounded to as few binary digits as keep half of the error.
+An error of a whole mesh is searched in ever smaller halves of the triangles near the body: the engine's adapter is
+asked about a scene of only these triangles. The triangle that remains is moved so that the spheroid is about the
+origin, and its corners are rounded to as few binary digits as keep half of the error.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ _BITS = 44
 
 @dataclass(frozen=True, slots=True)
 class Said:
-    """What an engine says: contact or not, and the signed distance that it reports, or NaN."""
+    """The answer of an engine: contact or not, and the signed distance that it reports, NaN if it reports none."""
 
     contact: bool
     reported: float
@@ -41,10 +41,11 @@ class Said:
 
 @dataclass(frozen=True, slots=True)
 class Asker:
-    """An engine asked about an upright spheroid about the origin, of semi-axes b and d, and triangles.
+    """A function that asks an engine about an upright spheroid about the origin, of semi-axes b and d, and triangles.
 
-    It is asked at the tightest settings that it offers, or at its default ones. `answer` asks it; None: its adapter
-    does.
+    `cache` is the folder in which engines are installed. With `tightest` the engine is asked at the tightest settings
+    that it offers, else at its default ones. `answer` is a function that answers in place of the engine's adapter; with
+    None the adapter is asked.
     """
 
     engine: Engine
@@ -55,7 +56,7 @@ class Asker:
     answer: Callable[[Asker, Floats], Said | None] | None = None
 
     def __call__(self, corners: Floats) -> Said | None:
-        """What it says of triangles (m, 3, 3); None where it ends without an answer."""
+        """Ask about triangles (m, 3, 3); the result is None if the adapter ends without an answer."""
         if self.answer is not None:
             return self.answer(self, corners)
         row = f"1 1 {self.b!r} {self.d!r} 0 0 0 0 0 1\n"
@@ -75,11 +76,11 @@ class Asker:
 
     @property
     def hull(self) -> bool:
-        """Whether the engine has a hull in the spheroid's place: only what holds for all bodies within is an error."""
+        """Whether the engine replaces the spheroid by a hull within it. Then only some kinds of errors are proved."""
         return self.engine.body == "hull" and self.b != self.d
 
     def error(self, kind: str, reply: Said | None, corners: Floats) -> float:
-        """The engine's error of this kind about one triangle (3, 3), in the unit of lengths; 0 without any."""
+        """Compute the error of this kind in a reply about one triangle (3, 3), in the unit of lengths; 0 for none."""
         if reply is None or (self.hull and kind in {"missed contact", "too far"}):
             return 0.0
         if kind == "missed contact":
@@ -99,10 +100,10 @@ class Asker:
 def findings_of(
     record: EngineRecord, cache: Path, answer: Callable[[Asker, Floats], Said | None] | None = None
 ) -> Iterator[Finding]:
-    """The worst finding of each kind that an engine's record leads to, one in metres before any in other units.
+    """Yield the worst finding of each kind that an engine's record leads to; one in metres precedes other units.
 
-    The engine is asked at the setting that it is judged by. What is within the tolerance it states there is none.
-    `answer` asks it in place of its adapter.
+    The engine is asked at the setting by which it is judged. An error within the tolerance that the engine states there
+    is not a finding. `answer` answers in place of the engine's adapter.
     """
     tolerance = ENGINES[record.name].judged.tolerance or 0.0
     for kind in KINDS:
@@ -118,11 +119,12 @@ def findings_of(
 
 
 def _weight(finding: Finding) -> tuple[bool, float]:
+    """Return a key that is greater for a worse finding: metres before other units, then the larger error."""
     return finding.millimetres == 1000.0, finding.error_mm
 
 
 def _candidates(record: EngineRecord, kind: str) -> list[tuple[Measured, list[float]]]:
-    """Rows that may show this kind of error, one a family, the worst first; upright ones outside the tower."""
+    """Select rows that may show this kind of error, upright and outside the tower: one a family, the worst first."""
     hull = ENGINES[record.name].body == "hull" and kind in {"missed contact", "too far"}
     worst: dict[str, tuple[float, Measured, list[float]]] = {}
     for measurement in record.best:
@@ -137,7 +139,10 @@ def _candidates(record: EngineRecord, kind: str) -> list[tuple[Measured, list[fl
 
 
 def _shown(measured: Measured, kind: str) -> list[tuple[float, list[float] | None]]:
-    """The worst rows of one mesh for a kind of error, with their errors in millimetres."""
+    """Return the worst rows of one mesh for a kind of error, each after its size; a row is None if there is none.
+
+    The size is the error in millimetres, or for a contradiction the number of rows that show it.
+    """
     if kind in {"missed contact", "false contact"}:
         return [(measured.own_worst_mm, measured.own_worst_row)]
     if kind == "contradiction":
@@ -149,12 +154,13 @@ def _shown(measured: Measured, kind: str) -> list[tuple[float, list[float] | Non
 def asker_of(
     engine: Engine, cache: Path, measured: Measured, answer: Callable[[Asker, Floats], Said | None] | None
 ) -> Asker:
-    """The engine, asked about the spheroid of a family that was measured."""
+    """Return the function that asks the engine about the spheroid of a measured family."""
     b, d = FAMILIES[measured.family].sizes[2:]
     return Asker(engine, cache, b, d, tightest=engine.tightens, answer=answer)
 
 
 def _reduced(asker: Asker, kind: str, measured: Measured, row: Floats) -> Finding | None:
+    """Reduce a row to a finding about one triangle; None if no triangle shows the error or it cannot be proved."""
     family, engine = FAMILIES[measured.family], asker.engine
     corners = _alone(asker, kind, _near(measured, row))
     if corners is None:
@@ -174,7 +180,10 @@ def _reduced(asker: Asker, kind: str, measured: Measured, row: Floats) -> Findin
 
 
 def _near(measured: Measured, row: Floats) -> Floats:
-    """The triangles nearest to a row's spheroid, or that it touches, (m, 3, 3) from its centre, the nearest first."""
+    """Return the triangles (m, 3, 3) that a row's spheroid touches, or that are nearest to it, the nearest first.
+
+    Corners are relative to the spheroid's centre.
+    """
     sizes = FAMILIES[measured.family].sizes
     mesh = next(
         surface
@@ -188,7 +197,7 @@ def _near(measured: Measured, row: Floats) -> Floats:
 
 
 def _alone(asker: Asker, kind: str, corners: Floats) -> Floats | None:
-    """One of the triangles that shows the error by itself; None if there is none."""
+    """Find one of the triangles that may show the error alone; None if the search by halves ends without one."""
     if kind in {"missed contact", "too far"} or asker.error(kind, asker(corners[:1]), corners[0]) > 0:
         return np.asarray(corners[0])
     while len(corners) > 1:
@@ -202,7 +211,7 @@ def _alone(asker: Asker, kind: str, corners: Floats) -> Floats | None:
 
 
 def _mark(kind: str, reply: Said | None) -> float:
-    """The greater, the more an answer about many triangles looks like this error."""
+    """Rate how much an answer about many triangles looks like this error; −inf if it does not."""
     if reply is None:
         return -np.inf
     if kind == "false contact":
@@ -213,7 +222,7 @@ def _mark(kind: str, reply: Said | None) -> float:
 
 
 def _rounded(asker: Asker, kind: str, corners: Floats, error: float) -> Floats:
-    """The corners in as few binary digits as keep half of the error; as they are where none do."""
+    """Round the corners to as few binary digits as keep half of the error; without such a number they are unchanged."""
     least = min(asker.b, asker.d)
     exponent = floor(log2(least))
     for bits in range(max(2, floor(log2(least / error)) - 1), _BITS, 3):
@@ -225,7 +234,7 @@ def _rounded(asker: Asker, kind: str, corners: Floats, error: float) -> Floats:
 
 
 def _certified(asker: Asker, kind: str, corners: Floats, reply: Said, millimetres: float) -> Finding | None:
-    """The finding with its certificate in few digits; None where rationals do not prove it."""
+    """Make the finding, with its certificate in few digits; None if rational arithmetic does not prove it."""
     error = asker.error(kind, reply, corners)
     way = best_direction(corners, asker.b, asker.d)
     shares = nearest_shares(
@@ -248,7 +257,7 @@ def _certified(asker: Asker, kind: str, corners: Floats, reply: Said, millimetre
 
 
 def _foot(asker: Asker, way: Floats) -> Floats:
-    """The spheroid's point at a direction."""
+    """Return the spheroid's farthest point in a direction n, S n/h(n) in the notation of findings.py."""
     pushed = way * [asker.b**2, asker.b**2, asker.d**2]
     return np.asarray(pushed / np.sqrt(way @ pushed))
 
@@ -275,13 +284,13 @@ def _length(millimetres: float) -> str:
 
 
 def lower_bounds(corners: Floats, b: float, d: float, direction: Floats) -> Floats:
-    """s(n) for directions (m, 3), in floats."""
+    """Compute s(n), the lower bound of the signed distance of findings.py, for directions (m, 3), in floats."""
     half = np.sqrt((direction * direction * [b * b, b * b, d * d]).sum(axis=-1))
     return np.asarray(((corners @ direction.T).min(axis=0) - half) / np.linalg.norm(direction, axis=-1))
 
 
 def best_direction(corners: Floats, b: float, d: float) -> Floats:
-    """A direction n with nearly the greatest s(n), which is the signed distance: many are drawn, the best refined."""
+    """Find a direction n with nearly the greatest s(n), which is the signed distance: draw many, refine the best."""
     rng = np.random.default_rng(1)
     scale = np.array([b, b, d])
     ways = rng.normal(size=(2000, 3))
@@ -298,12 +307,12 @@ def best_direction(corners: Floats, b: float, d: float) -> Floats:
 
 
 def nearest_point(corners: Floats) -> Floats:
-    """The point of a triangle nearest to the origin."""
+    """Return the point of a triangle nearest to the origin."""
     return np.asarray(nearest_shares(corners) @ corners)
 
 
 def nearest_shares(corners: Floats) -> Floats:
-    """The shares of the corners in that point."""
+    """Return the shares of the corners in the point of a triangle nearest to the origin."""
     edges = corners[1:] - corners[0]
     gram = edges @ edges.T
     if np.linalg.det(gram) > 0:

@@ -54,7 +54,7 @@ BODIES = {
         "The spheroid is the engine's ball in a space scaled by 1/b, 1/b, 1/d; no spheroid is tilted.",
     ),
 }
-"""What stands for the spheroid: the heading of its table, and what it is."""
+"""For each shape that represents the spheroid: the heading of its table, and a description."""
 
 MEASURED = "measured.csv"
 """The file of all errors, beside the page."""
@@ -102,12 +102,12 @@ def write_page(folder: Path) -> None:
 
 
 def _rank(finding: Finding) -> tuple[int, float]:
-    """Answers that contradict themselves first, then the greatest error relative to the body."""
+    """Return a key that orders findings: contradictions first, then the greatest error relative to the body."""
     return (not finding.contradicts, -finding.of_body)
 
 
 def write_findings(folder: Path, findings: Sequence[Finding]) -> list[Finding]:
-    """Write the findings' files anew, and findings.json; the findings with the names of their files."""
+    """Write findings.json and new files of the findings; return the findings with the names of their files."""
     shutil.rmtree(folder / "findings", ignore_errors=True)
     (folder / "findings").mkdir(parents=True)
     named = []
@@ -171,7 +171,7 @@ def _found(findings: Sequence[Finding]) -> str:
 
 
 def _settings(findings: Sequence[Finding]) -> list[list[str]]:
-    """The settings of each finding, and what the engine says at them."""
+    """Return rows of a table: the settings of each finding's engine, and its answers at them."""
     rows = []
     for finding in findings:
         engine, name, unit = ENGINES[finding.engine], f"{finding.engine}, {finding.kind}", f"{finding.millimetres:g}"
@@ -190,7 +190,7 @@ def _of_tolerance(finding: Finding) -> str:
 
 
 def _tables_of_own(records: Sequence[EngineRecord]) -> Iterable[str]:
-    """A table of own errors for each kind of body: they are not compared with each other."""
+    """Yield a table of own errors for each kind of body, because different kinds are not compared."""
     for body, (heading, text) in BODIES.items():
         chosen = [record for record in records if ENGINES[record.name].body == body]
         if chosen:
@@ -219,7 +219,7 @@ def _own_cell(record: EngineRecord, family: str) -> str:
 
 
 def _defaults(records: Sequence[EngineRecord]) -> str:
-    """What the default settings of adjustable engines cost, beside the tightest; families in metres alone."""
+    """Return a table of errors of adjustable engines at default and tightest settings, for families in metres."""
     rows = []
     for record in records:
         engine = ENGINES[record.name]
@@ -244,7 +244,7 @@ def _defaults(records: Sequence[EngineRecord]) -> str:
 
 
 def _by_distance(records: Sequence[EngineRecord]) -> Iterable[str]:
-    """False contacts, and false clears, by distance from contact, of all families on the finest meshes."""
+    """Yield tables of false contacts and false clears by distance from contact, for all families on finest meshes."""
     powers = sorted(
         {shown.least_mm for record in records for one in _finest(record) for shown in one.decades},
         reverse=True,
@@ -273,6 +273,7 @@ def _by_distance(records: Sequence[EngineRecord]) -> Iterable[str]:
 
 
 def _finest(record: EngineRecord) -> list[Measured]:
+    """Return the measurements on the mesh with most triangles."""
     most = max(measurement.triangles for measurement in record.best)
     return [measurement for measurement in record.best if measurement.triangles == most]
 
@@ -301,7 +302,7 @@ def _of_engine(record: EngineRecord) -> str:
 
 
 def _of_the_other_setting(record: EngineRecord) -> list[str]:
-    """How wrong the depths of an engine's other setting are, where that is no tighter one."""
+    """Return a sentence about the errors of depths at an engine's other setting, if that is not a tighter one."""
     engine = ENGINES[record.name]
     depths: dict[str, float] = {}
     for measurement in record.tightest:
@@ -318,7 +319,10 @@ def _skipped(reason: str) -> str:
 
 
 def measured_csv(records: Iterable[EngineRecord]) -> str:
-    """The errors of each engine in each family on each mesh, in millimetres, at the settings by which it is judged."""
+    """Return the CSV of the errors of each engine in each family on each mesh, in millimetres.
+
+    They are the errors at the settings by which the engine is judged.
+    """
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
     writer.writerow(HEAD)

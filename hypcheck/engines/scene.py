@@ -1,11 +1,11 @@
-"""What engines are given: the hyperboloid's mesh, points on the spheroid, and how far a body is from that mesh.
+"""The shapes that engines get: the hyperboloid's mesh and points on the spheroid; and the distance from that mesh.
 
 A scene is a folder of three files: sizes.txt (α γ b d), surface.off (the mesh, inscribed in the surface) and body.off
 (points on the spheroid). The mesh is that of implementations/meshes.py, whose deviation from the surface has a bound.
 
-A mesh is decided as the surface is: the spheroid touches it exactly if, in spheroid radii, the mesh is not farther
-than 1 from the centre. That distance is the least of the distances to triangles, computed here with numpy alone, and
-by none of the engines. So an engine's error divides: what its mesh explains, and what it does wrong with the mesh.
+The exact answer about a mesh is known too: the spheroid touches it exactly if, in spheroid radii, the mesh is not
+farther than 1 from the centre. That distance is the least of the distances to triangles. It is computed here with
+numpy, without any engine. So an engine's error has two parts: one that its mesh explains, and its own with that mesh.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from hypcheck.implementations.meshes import grid_of, turns_of
 from hypcheck.truth.mesh import Triangles, Vertices
 
 TRIANGLES = (500, 5_000, 50_000)
-"""The three resolutions of the mesh, about."""
+"""The approximate numbers of triangles of the three meshes."""
 
 _RINGS, _AROUND = 11, 20
 
@@ -32,7 +32,7 @@ _SECANTS = 4
 
 
 def ball_points() -> Vertices:
-    """Points of the unit sphere: poles and rings, the equator too; 222, as some engines take 256 at most."""
+    """Return 222 points of the unit sphere: poles and rings, the equator too. Some engines take at most 256 points."""
     rings = [pi * (k + 1) / (_RINGS + 1) for k in range(_RINGS)]
     turns = [2 * pi * k / _AROUND for k in range(_AROUND)]
     around = [(sin(p) * cos(t), sin(p) * sin(t), cos(p)) for p in rings for t in turns]
@@ -40,14 +40,14 @@ def ball_points() -> Vertices:
 
 
 HULL = cos(pi / (2 * (_RINGS + 1))) * cos(pi / _AROUND)
-"""The hull of these points holds the ball of this radius. It holds, in each ring's plane, the disc of cos(π/20) times
-the ring's radius; so it holds the body of revolution of the meridian's polygon, narrowed by that factor; and the
-polygon, whose corners are π/12 apart, holds the disc of radius cos(π/24)."""
+"""The hull of these points contains the ball of this radius. In each ring's plane it contains the disc of cos(π/20)
+times the ring's radius. So it contains the body of revolution of the meridian's polygon, narrowed by that factor; and
+the polygon, whose corners are π/12 apart, contains the disc of radius cos(π/24)."""
 
 
 @dataclass(frozen=True)
 class SurfaceMesh:
-    """A mesh of the surface; `deviation` bounds how far it is from the surface, in the unit of its vertices."""
+    """A mesh of the surface; `deviation` is an upper bound of its distance from the surface, in the vertices' unit."""
 
     vertices: Vertices
     triangles: Triangles
@@ -60,20 +60,20 @@ class SurfaceMesh:
 
     @cached_property
     def radii(self) -> Floats:
-        """How far the corners of the triangles are from their middles at most."""
+        """The largest distance of a corner from the middle of its triangle, for each triangle."""
         apart = self.vertices[self.triangles] - self.middles[:, np.newaxis]
         return np.asarray(np.linalg.norm(apart, axis=2).max(axis=1))
 
 
 def surface_mesh(sizes: Sizes, triangles: int) -> SurfaceMesh:
-    """The inscribed mesh of the whole tower, from −γ to γ, with about so many triangles."""
+    """Make the inscribed mesh of the whole tower, from −γ to γ, with about this number of triangles."""
     alpha, gamma, _, _ = sizes
     grid = grid_of(alpha, gamma, gamma, triangles)
     return SurfaceMesh(*grid.mesh(), grid.deviation)
 
 
 def write_scene(folder: Path, sizes: Sizes, mesh: SurfaceMesh) -> None:
-    """Write the files of a scene."""
+    """Write the three files of a scene."""
     folder.mkdir(parents=True, exist_ok=True)
     _, _, b, d = sizes
     (folder / "sizes.txt").write_text(" ".join(map(repr, sizes)) + "\n")
@@ -82,21 +82,23 @@ def write_scene(folder: Path, sizes: Sizes, mesh: SurfaceMesh) -> None:
 
 
 def _off(vertices: Vertices, triangles: Triangles) -> str:
+    """Return a mesh in the format OFF."""
     lines = [" ".join(map(repr, vertex)) for vertex in vertices.tolist()]
     lines += [f"3 {i} {j} {k}" for i, j, k in triangles.tolist()]
     return f"OFF\n{len(vertices)} {len(triangles)} 0\n" + "\n".join(lines) + "\n"
 
 
 def distances(rows: Rows, mesh: SurfaceMesh) -> Floats:
-    """The distances (n,) of the centres of rows (n, 10) from a mesh, each in radii of its own spheroid."""
+    """Compute the distances (n,) of the centres of rows (n, 10) from a mesh, each in radii of its own spheroid."""
     return np.array([_distance(row, mesh) for row in rows])
 
 
 def _distance(row: Floats, mesh: SurfaceMesh) -> float:
-    """The distance of a row's centre from the mesh, in spheroid radii.
+    """Compute the distance of a row's centre from the mesh, in spheroid radii.
 
-    Some triangle's middle is `reach` radii away; so what is nearest is no farther, which is reach times the longer
-    semi-axis at most, and its triangle's middle is no farther than that and the triangle's own size.
+    The nearest middle of a triangle is `reach` radii away, so the nearest point of the mesh is not farther. That is at
+    most reach times the longer semi-axis, so the middle of the nearest triangle is not farther than this plus the
+    triangle's size. Only triangles with such middles are measured.
     """
     reach = float(np.linalg.norm(seen_from(row, mesh.middles), axis=1).min())
     away = np.linalg.norm(mesh.middles - row[4:7], axis=1)
@@ -106,10 +108,10 @@ def _distance(row: Floats, mesh: SurfaceMesh) -> float:
 
 
 def rows_near(spot: Spot, gap: Floats, mesh: SurfaceMesh) -> tuple[Rows, Floats]:
-    """Rows (n, 10) about these gaps from contact with the mesh itself, and how far they are from it in spheroid radii.
+    """Return rows (n, 10) at about these gaps from contact with the mesh, and their distances in spheroid radii.
 
-    What touches the surface is moved along its normal until it touches the mesh, by the secant method. The distances
-    are those of the rows, whatever it came to.
+    A spheroid that touches the surface is moved along the normal until it touches the mesh, by the secant method. The
+    distances are computed from the rows, so they are right even if the method did not converge.
     """
     half = spot.half_width()
     shift, before = np.zeros(len(gap)), half * 1e-3
@@ -123,15 +125,16 @@ def rows_near(spot: Spot, gap: Floats, mesh: SurfaceMesh) -> tuple[Rows, Floats]
 
 
 def seen_from(row: Floats, points: Vertices) -> Vertices:
-    """Points (m, 3) relative to a row's centre, in radii of its spheroid: it is the unit ball there."""
+    """Return points (m, 3) relative to a row's centre, in coordinates in which its spheroid is the unit ball."""
     turn = turns_of(row[np.newaxis, 7:])[0]
     return np.asarray((points - row[4:7]) @ turn / row[[2, 2, 3]])
 
 
 def to_triangles(corners: Floats) -> Floats:
-    """Squares of the distances from the origin to triangles (n, 3, 3): to their edges, or to the plane if it is nearer.
+    """Compute the squares of the distances from the origin to triangles (n, 3, 3).
 
-    Each is a distance to a point of the triangle, up to rounding, and the least of them is to the nearest one.
+    A distance is the least of those to the three edges, and to the plane if its nearest point lies in the triangle.
+    Each of these is, up to rounding, the distance to a point of the triangle.
     """
     edges = corners[:, [1, 2, 0]] - corners
     along = -(corners * edges).sum(axis=2) / (edges**2).sum(axis=2)
