@@ -69,7 +69,7 @@ class EndVerdicts(VerdictCounts):
 
 
 def _reaching(craft: Craft, z: Floats) -> Mask:
-    """A mask of the bodies that may reach beyond an end at these heights; for other bodies an end does not matter."""
+    """Return a mask of the bodies that may extend beyond an end at these heights; ends do not matter for the others."""
     if craft.height is None:
         return np.zeros(z.shape, dtype=np.bool_)
     d = max(craft.sizes[3], craft.rotor[3])
@@ -78,17 +78,18 @@ def _reaching(craft: Craft, z: Floats) -> Mask:
 
 
 def valid_between(craft: Craft, at: Columns, heading: Direction) -> Mask:
-    """A mask of the exactly valid positions beside the wall that ends: the body or every rotor is interior."""
+    """Return a mask of the exactly valid positions beside the wall that ends: the body or every rotor is interior."""
     return body_or_rotors(craft, at, heading, lambda sizes, at: _positions(craft, sizes, at) == Position.INTERIOR)
 
 
 def _positions(craft: Craft, sizes: Sizes, at: Columns) -> Positions:
+    """Decide the positions of spheroids of these sizes beside the wall that ends, exactly."""
     low, high = (-np.inf, np.inf) if craft.height is None else (craft.height.low, craft.height.high)
     return positions(sizes, at, np.tile((*UPRIGHT, low, high, float(craft.solid)), (len(at[0]), 1)))
 
 
 def beside_trees(scene: SceneModel, at: Floats, at_height: Mask, exterior: Mask) -> dict[str, Any]:
-    """The errors of the test by the centre's height at these places, (n, 3), for the trees, (m,), for JSON.
+    """Return the errors of the test by the centre's height at these places, (n, 3), for the trees, (m,), for JSON.
 
     `at_height` (n, m) is a mask of centres at a tree's height, `exterior` (n, m) a mask of movers that are exterior to
     the tree without ends.
@@ -112,6 +113,7 @@ def beside_trees(scene: SceneModel, at: Floats, at_height: Mask, exterior: Mask)
 
 
 def _differing(by_center: Mask, by_ends: Mask) -> dict[str, int]:
+    """Count the needless and the dangerous answers of the test by the centre's height; masks are of valid positions."""
     return {
         "needless": int(np.count_nonzero(by_ends & ~by_center)),
         "dangerous": int(np.count_nonzero(by_center & ~by_ends)),

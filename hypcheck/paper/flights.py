@@ -76,7 +76,7 @@ class Tallies:
 
     @classmethod
     def of(cls, lanes: int) -> Tallies:
-        """Tallies of zeros for this many flights."""
+        """Make tallies of zeros for this many flights."""
         return cls(*(np.zeros(lanes, dtype=np.int64) for _ in fields(cls)))
 
     def add(self, moves: Moves) -> None:
@@ -105,7 +105,7 @@ class _State:
     idle: Counts
 
     def kept(self, those: Mask) -> _State:
-        """The state reduced to the flights of the mask."""
+        """Return the state reduced to the flights of the mask."""
         (x, y, z), (cosine, sine) = self.at, self.heading
         return _State(
             self.lane[those],
@@ -161,6 +161,7 @@ def fly(
 
 
 def _begin(craft: quadcopter.Craft, start: Start, draw: Draw, lanes: int, moves: int) -> _State:
+    """Draw the start and the heading of each flight."""
     z = draw.between(LANES, start.z.low, start.z.high)
     radius = quadcopter.rims(craft, start, z) * np.sqrt(draw.unit(LANES))
     (cosine, sine), heading = _anywhere(draw), _anywhere(draw)
@@ -175,7 +176,7 @@ def _begin(craft: quadcopter.Craft, start: Start, draw: Draw, lanes: int, moves:
 
 
 def _anywhere(draw: Draw) -> quadcopter.Direction:
-    """Directions, uniform over the circle."""
+    """Draw directions, uniform over the circle."""
     words = draw.words(LANES)
     return quadcopter.quarter_turns(
         *quadcopter.small_angle((2 * unit_of(words) - 1) * quadcopter.EIGHTH), (words & np.uint64(3)).astype(np.int64)
@@ -183,7 +184,7 @@ def _anywhere(draw: Draw) -> quadcopter.Direction:
 
 
 def _choose(flight: Flight, due: Mask, words: NDArray[np.uint64]) -> _Chosen:
-    """The choice from the two words of each flight. A step ahead that is due replaces this choice."""
+    """Return the choice from the two words of each flight. A step ahead that is due replaces this choice."""
     chance, sense = unit_of(words[0]), np.where(words[0] & np.uint64(1) == 0, 1.0, -1.0)
     straight = ~due & (chance < flight.straight)
     vertical = ~due & ~straight & (chance < flight.straight + flight.vertical)
@@ -228,12 +229,13 @@ def _advance(
 
 
 def _moved(start: Columns, heading: quadcopter.Direction, chosen: _Chosen, step: float) -> Columns:
+    """Return the places to which the chosen steps of length `step` lead."""
     (x, y, z), along = start, chosen.ahead * step
     return x + along * heading[0], y + along * heading[1], z + chosen.up * step
 
 
 def _beyond(craft: quadcopter.Craft, at: Columns) -> Mask:
-    """A mask of the positions outside the modelled height."""
+    """Return a mask of the positions outside the modelled height."""
     z = at[2]
     if craft.height is None:
         return np.zeros(z.shape, dtype=np.bool_)
@@ -241,7 +243,7 @@ def _beyond(craft: quadcopter.Craft, at: Columns) -> Mask:
 
 
 def _turned(heading: quadcopter.Direction, degrees: Floats) -> quadcopter.Direction:
-    """The headings after a turn; one that does not turn stays as it is, bit for bit."""
+    """Return the headings after a turn; one that does not turn stays as it is, bit for bit."""
     some = np.flatnonzero(degrees)
     cosine, sine = heading[0].copy(), heading[1].copy()
     cosine[some], sine[some] = quadcopter.turned((cosine[some], sine[some]), quadcopter.any_angle(degrees[some]))
@@ -249,5 +251,6 @@ def _turned(heading: quadcopter.Direction, degrees: Floats) -> quadcopter.Direct
 
 
 def _where(those: Mask, one: Columns, other: Columns) -> Columns:
+    """Return the points of `one` in the mask and those of `other` elsewhere."""
     x, y, z = (np.where(those, a, b) for a, b in zip(one, other, strict=True))
     return x, y, z

@@ -84,7 +84,9 @@ class Trees:
         ]
 
     def ring(self, tree: int, height: float) -> float | None:
-        """The radius of the ring about a tree, on which Δ = 0 for a clear walker at this height; None without a ring.
+        """Return the radius of the ring about a tree for a walker at this height, or None if there is no ring.
+
+        On the ring Δ = 0 although the walker is clear.
 
         There is a ring only if the walker's centre is at the height of the tree's centre (docs/mathematics.md, "The
         ring").
@@ -96,36 +98,42 @@ class Trees:
         return b * math.sqrt((c * c + 1) * (a * a + c * c)) / c
 
     def offsets(self, at: Places) -> tuple[Floats, Floats, Floats]:
-        """The walker's centres relative to each tree's centre, rounded; (n, m) each."""
+        """Return the walker's centres relative to each tree's centre, rounded; (n, m) each."""
         x, y, z = np.moveaxis(at[:, None, :] - self.centers, 2, 0)
         return x, y, z
 
     def modelled(self, at: Places) -> Mask:
-        """A mask of the trees that exist at the height of the walker's centre, (n, m)."""
+        """Return a mask of the trees that exist at the height of the walker's centre, (n, m)."""
         level = at[:, None, 2] - self.centers[:, 2]
         return np.asarray((level >= self._heights[:, 0]) & (level <= self._heights[:, 1]))
 
     def proved_by_line(self, at: Places) -> Mask:
-        """A mask of trees to which one line proves the walker exterior, (n, m): 2 products, 2 sums, a comparison."""
+        """Return a mask (n, m) of the trees to which one line proves the walker exterior.
+
+        The proof takes 2 products, 2 sums and a comparison.
+        """
         x, y, z = self.offsets(at)
         return np.asarray(x * x + y * y > self._lines[:, 0] + self._lines[:, 1] * (z * z))
 
     def exterior(self, at: Places) -> Mask:
-        """A mask of the trees to which the walker is exterior, exactly, (n, m)."""
+        """Return a mask of the trees to which the walker is exterior, exactly, (n, m)."""
         n, m = len(at), len(self.sizes)
         places = np.repeat(at, m, axis=0)
         positions = positions_beside(np.tile(self.sizes, (n, 1)), places, np.tile(self.centers, (n, 1)))
         return np.asarray(positions.reshape(n, m) == Position.EXTERIOR)
 
     def gaps(self, at: Places) -> Floats:
-        """The approximate gap between the walker and each trunk at the walker's height, (n, m); for people only."""
+        """Estimate the gap between the walker and each trunk at the walker's height, (n, m). No decision uses it."""
         x, y, z = self.offsets(at)
         alpha, gamma, b, _ = self.sizes.T
         return np.asarray(np.hypot(x, y) - alpha * np.hypot(1.0, z / gamma) - b)
 
 
 class Procedure1:
-    """Table 2 as printed, or the repaired Procedure 1, in one format; steps on trees' sizes are before the loop."""
+    """Table 2 as printed, or the repaired Procedure 1, in one float format.
+
+    Steps that depend only on trees' sizes are computed once, before the loop over places.
+    """
 
     def __init__(self, trees: Trees, precision: str, *, repaired: bool = False) -> None:
         columns = dict(zip(("alpha", "gamma", "b", "d"), trees.sizes.T, strict=True))
@@ -134,7 +142,7 @@ class Procedure1:
         self._body = loop_body(formula.program, float_arithmetic(precision), columns, (formula.answer,))
 
     def valid(self, at: Places) -> Mask:
-        """A mask of the trees that allow the movement, (n, m): the procedure takes the walker as exterior to them."""
+        """Return a mask (n, m) of the trees that allow the movement: the walker is exterior to them by the procedure."""
         (answer,) = self._body(dict(zip("xyz", self._trees.offsets(at), strict=True)))
         return np.asarray(answer)
 
@@ -180,7 +188,7 @@ class Verdicts:
     repaired: dict[str, Mask]
 
     def by_all(self, answers: Mask) -> Mask:
-        """A mask of the steps that are allowed by the answers about all tested trees, (n,)."""
+        """Return a mask of the steps that are allowed by the answers about all tested trees, (n,)."""
         return np.asarray((answers | ~self.asked).all(axis=1))
 
 
@@ -213,7 +221,7 @@ def walk(
 
 
 def judged(trees: Trees, at: Places) -> Verdicts:
-    """The verdicts about a walker at these places."""
+    """Return the verdicts about a walker at these places."""
     printed, repaired = (
         {
             precision: _in_parts(trees, at, Procedure1(trees, precision, repaired=put_right).valid)
@@ -227,12 +235,13 @@ def judged(trees: Trees, at: Places) -> Verdicts:
 
 
 def _in_parts(trees: Trees, at: Places, ask: Callable[[Places], Mask]) -> Mask:
-    """The answers of `ask` for many places, CHUNK of them at a time, (n, m)."""
+    """Return the answers of `ask` for many places, CHUNK of them at a time, (n, m)."""
     none = np.empty((0, len(trees.sizes)), dtype=np.bool_)
     return np.concatenate([none, *(ask(at[place : place + CHUNK]) for place in range(0, len(at), CHUNK))])
 
 
 def _inside(region: Region, at: Places) -> Mask:
+    """Return a mask of the places in the region, (n,)."""
     inside = np.ones(len(at), dtype=np.bool_)
     for column, span in zip(at.T, region.spans, strict=True):
         if span is not None:
@@ -244,7 +253,7 @@ CELLS = 121
 
 
 def phantom_wall(trees: Trees, place: Floats, half: float) -> dict[str, Any]:
-    """The answers over a square around a place at its height: lines of letters from the least y to the greatest.
+    """Return the answers over a square around a place at its height: lines of letters from the least y to the greatest.
 
     e: exterior to every tree, c: not; upper case if float32 answers differently. x varies along a line.
     """
@@ -267,7 +276,7 @@ def phantom_wall(trees: Trees, place: Floats, half: float) -> dict[str, Any]:
 
 
 def steps_in_contact(trees: Trees, steps: WalkSteps) -> dict[str, Any]:
-    """The number of made steps that touch an existing tree, decided exactly, and first contacts of some of them."""
+    """Count the made steps that touch an existing tree, decided exactly; return also first contacts of some of them."""
     start, end = steps.start[steps.made], steps.end[steps.made]
     here, there = ((x, y, z) for x, y, z in (start.T, end.T))
     at_height, touched = trees.modelled(end), np.zeros((len(end), len(trees.sizes)), dtype=np.bool_)
@@ -283,7 +292,7 @@ def steps_in_contact(trees: Trees, steps: WalkSteps) -> dict[str, Any]:
 
 
 def _contact(trees: Trees, start: Columns, end: Columns, step: int, touched: Mask) -> dict[str, Any]:
-    """The first contact on a step that touches these trees."""
+    """Return the first contact on a step that touches these trees."""
     bodies = [(place, trees.scene.hyperboloids[place]) for place in np.flatnonzero(touched).tolist()]
     (lower, upper), name = min(
         (first_contact(_four(trees.sizes[place]), start, end, step, tree.center), tree.name) for place, tree in bodies
@@ -340,7 +349,10 @@ class ForestPlan:
 
 
 def simulate_forest(plan: ForestPlan, advance: Callable[[int], object] = lambda _: None) -> dict[str, Any]:
-    """The result in the form of schemas/simulate-forest-1.1.0.json; `advance` counts tried steps. Raises InputError."""
+    """Simulate a walk; return the result in the form of schemas/simulate-forest-1.1.0.json.
+
+    `advance` gets the number of tried steps. Raises InputError for a plan that is not valid.
+    """
     require_ordinary(plan.scene)
     if plan.ends:
         require_ends(plan.scene)
@@ -383,6 +395,7 @@ def simulate_forest(plan: ForestPlan, advance: Callable[[int], object] = lambda 
 
 
 def _trees(trees: Trees, rules: Walk, blocking: set[str]) -> list[dict[str, Any]]:
+    """Describe each tree for JSON; `blocking` has the names of those that refused a step."""
     return [
         {
             "name": tree.name,
@@ -399,6 +412,7 @@ def _trees(trees: Trees, rules: Walk, blocking: set[str]) -> list[dict[str, Any]
 
 
 def _steps(steps: WalkSteps, phantom: Mask, free: Mask) -> dict[str, int]:
+    """Count the tried steps by what happened to them, for JSON."""
     return {
         "tried": len(steps.edge),
         "made": _count(steps.made),
@@ -410,7 +424,7 @@ def _steps(steps: WalkSteps, phantom: Mask, free: Mask) -> dict[str, int]:
 
 
 def _phantoms(verdicts: Verdicts, free: Mask) -> dict[str, int]:
-    """The numbers of steps to a free place that are refused: by each procedure, and by Table 2 after the line test."""
+    """Count the refused steps to a free place: those of each procedure, and those of Table 2 after the line test."""
     answers = {
         **verdicts.printed,
         "float32_after_line": verdicts.printed["float32"] | verdicts.line,
@@ -420,7 +434,7 @@ def _phantoms(verdicts: Verdicts, free: Mask) -> dict[str, int]:
 
 
 def _stops(trees: Trees, steps: WalkSteps, phantom: Mask) -> list[dict[str, Any]]:
-    """Every refusal inside the region: its cause, and the gap to the nearest tree that refused."""
+    """Return every refusal inside the region: its cause, and the gap to the nearest tree that refused."""
     refused = np.flatnonzero(steps.refused)
     verdicts, gaps = judged(trees, steps.end[refused]), trees.gaps(steps.end[refused])
     against = verdicts.asked & ~verdicts.printed["float32"]
@@ -437,7 +451,7 @@ def _stops(trees: Trees, steps: WalkSteps, phantom: Mask) -> list[dict[str, Any]
 
 
 def _wall(trees: Trees, stops: Sequence[dict[str, Any]]) -> dict[str, Any] | None:
-    """The invisible wall that stopped the walker with the largest gap; None if there was none."""
+    """Return the invisible wall that stopped the walker with the largest gap; None if there was none."""
     phantoms = [stop for stop in stops if stop["kind"] == "phantom"]
     if not phantoms:
         return None

@@ -49,7 +49,7 @@ MARGIN = 64 * 2.0**-53
 def stays_on_side(
     side: Position, sizes: Sizes, start: Columns, end: Columns, center: tuple[float, float, float] = (0.0, 0.0, 0.0)
 ) -> Mask:
-    """A mask of the spheroids that stay on `side`, INTERIOR or EXTERIOR, on the whole segment from start to end; (n,).
+    """Return a mask (n,) of the spheroids that stay on `side`, INTERIOR or EXTERIOR, all the way from start to end.
 
     `center` is the hyperboloid's; the bounds include the rounding of its subtraction.
     """
@@ -66,25 +66,31 @@ def stays_on_side(
 def first_contact(
     sizes: Sizes, start: Columns, end: Columns, lane: int, center: tuple[float, float, float] = (0.0, 0.0, 0.0)
 ) -> tuple[float, float]:
-    """Bounds of the time of first contact on the sweep number `lane`, 0 ≤ time ≤ 1; inf twice if it has none."""
+    """Return bounds of the time of first contact on the sweep number `lane`, 0 ≤ time ≤ 1; inf twice if it has none."""
     sweep = passage(sizes, _exactly(center, start, lane), _exactly(center, end, lane))
     return (sweep.first_lower, sweep.first_upper) if sweep.hit else (inf, inf)
 
 
 def _favoured(side: Position, at: Columns) -> Columns:
-    """A position slightly nearer to that side: if it is not on the side, the exact position is not either."""
+    """Return a position slightly nearer to that side: if it is not on the side, the exact position is not either."""
     more, less = (1 - MARGIN, 1 + MARGIN) if side is Position.INTERIOR else (1 + MARGIN, 1 - MARGIN)
     return at[0] * more, at[1] * more, at[2] * less
 
 
 def _inner_corner(start: Columns, end: Columns) -> Columns:
-    """A position whose interior answer proves the whole sweep interior: the sweep's largest radius and least height."""
+    """Return the corner of the sweep with the largest radius and the least height.
+
+    If that corner is interior, the whole sweep is interior.
+    """
     radius = np.maximum(np.hypot(start[0], start[1]), np.hypot(end[0], end[1])) * (1 + MARGIN)
     return radius, np.zeros_like(radius), _least_height(start[2], end[2]) * (1 - MARGIN)
 
 
 def _outer_corner(start: Columns, end: Columns) -> Columns:
-    """A position whose exterior answer proves the whole sweep exterior: the sweep's least radius and largest height."""
+    """Return the corner of the sweep with the least radius and the largest height.
+
+    If that corner is exterior, the whole sweep is exterior.
+    """
     x, y = start[0] + end[0], start[1] + end[1]
     length = np.hypot(x, y)
     length = np.where(length > 0, length, 1.0)
@@ -94,11 +100,15 @@ def _outer_corner(start: Columns, end: Columns) -> Columns:
 
 
 def _along(ahead: Floats, aside: Floats, at: Columns) -> Floats:
-    """A lower bound, safe against rounding, of ahead·x + aside·y for centres `at`; (ahead, aside) is a unit vector."""
+    """Return a lower bound of ahead·x + aside·y for centres `at`, where (ahead, aside) is a unit vector.
+
+    The bound holds in spite of rounding.
+    """
     return np.asarray(ahead * at[0] + aside * at[1] - MARGIN * (np.abs(at[0]) + np.abs(at[1])))
 
 
 def _from(center: tuple[float, float, float], at: Columns) -> Columns:
+    """Return the points relative to the centre, rounded."""
     x, y, z = (column - origin for column, origin in zip(at, center, strict=True))
     return x, y, z
 
@@ -109,12 +119,13 @@ def _exactly(center: tuple[float, float, float], at: Columns, lane: int) -> tupl
 
 
 def _least_height(first: Floats, second: Floats) -> Floats:
+    """Return the least size of the heights between the two: 0 if their signs differ."""
     crossing = (first > 0) != (second > 0)
     return np.where(crossing, 0.0, np.minimum(np.abs(first), np.abs(second)))
 
 
 def stays_on_side_turning(sizes: Sizes, arm: float, at: Columns, direction: Direction, degrees: Floats) -> Mask:
-    """A mask of the parts that stay interior while an arm in `direction` turns by `degrees` (−180 … 180); (n,).
+    """Return a mask of the parts that stay interior while an arm in `direction` turns by `degrees` (−180 … 180); (n,).
 
     The largest distance from the axis is ρ + l if the arm points outward at some time of the turn, else it is reached
     at an end. Rounding may wrongly find that an arm nearly, but never, points outward. There the distance hardly
@@ -136,7 +147,7 @@ def stays_on_side_turning(sizes: Sizes, arm: float, at: Columns, direction: Dire
 
 
 def _comes_by(x: Floats, y: Floats, direction: Direction, degrees: Floats) -> Mask:
-    """Whether an arm points away from the axis at some time of the turn."""
+    """Decide whether an arm points away from the axis at some time of the turn."""
     cosine, sine = direction
     angle = np.degrees(np.arctan2(x * sine - y * cosine, x * cosine + y * sine))  # angle of the arm from outward
     return np.asarray(
@@ -145,6 +156,7 @@ def _comes_by(x: Floats, y: Floats, direction: Direction, degrees: Floats) -> Ma
 
 
 def _at(point: Columns, lane: int) -> tuple[float, float, float]:
+    """Return the point number `lane`."""
     x, y, z = (float(column[lane]) for column in point)
     return x, y, z
 
@@ -256,12 +268,15 @@ class MoveVerdicts(VerdictCounts):
 
 
 def valid(craft: Craft, at: Columns, heading: Direction) -> Mask:
-    """A mask of exactly valid positions: the body or every rotor is interior; rotors' centres are floats from (15)."""
+    """Return a mask of the valid positions, decided exactly: the body or every rotor is interior.
+
+    Rotors' centres are floats computed by equation (15).
+    """
     return body_or_rotors(craft, at, heading, lambda sizes, at: classify_scene(sizes, *at) == Position.INTERIOR)
 
 
 def body_or_rotors(craft: Craft, at: Columns, heading: Direction, interior: Callable[[Sizes, Columns], Mask]) -> Mask:
-    """A mask of the crafts of which the body, or else every rotor, is interior by the function `interior`."""
+    """Return a mask of the crafts of which the body, or else every rotor, is interior by the function `interior`."""
 
     def all_rotors(near: NDArray[np.int64]) -> Mask:
         return interior(craft.rotor, craft.rotors(of(at, near), headed(heading, near)))
@@ -270,7 +285,7 @@ def body_or_rotors(craft: Craft, at: Columns, heading: Direction, interior: Call
 
 
 def _or_all_four(bodies: Mask, rotors: Callable[[NDArray[np.int64]], Mask]) -> Mask:
-    """A mask of the crafts whose body has the answer, or else all four rotors.
+    """Return a mask of the crafts whose body has the answer, or else all four rotors.
 
     `rotors` gets the indices of the crafts whose body does not have it, and answers in the order of `Craft.rotors`.
     """
@@ -281,12 +296,15 @@ def _or_all_four(bodies: Mask, rotors: Callable[[NDArray[np.int64]], Mask]) -> M
 
 
 def all_four(rotors: Mask) -> Mask:
-    """For each craft, whether all four rotors have the answer; `rotors` has all first ones, all second, and so on."""
+    """Return a mask of the crafts all of whose four rotors have the answer.
+
+    `rotors` has the answers for all first rotors, then for all second ones, and so on.
+    """
     return np.asarray(rotors.reshape(ROTORS, -1).all(axis=0))
 
 
 def _judged(craft: Craft, start: Columns, end: Columns, heading: Direction) -> tuple[Mask, Mask, Mask]:
-    """Masks of the sweeps that are valid everywhere, at their beginning, and at their end."""
+    """Return masks of the sweeps that are valid everywhere, at their beginning, and at their end."""
     bodies = stays_on_side(Position.INTERIOR, craft.sizes, start, end)
     begun, ended = bodies.copy(), bodies.copy()
     near = np.flatnonzero(~bodies)
@@ -298,7 +316,7 @@ def _judged(craft: Craft, start: Columns, end: Columns, heading: Direction) -> t
 
 
 def _contacts(craft: Craft, start: Columns, end: Columns, heading: Direction) -> tuple[Contact, ...]:
-    """The first contact of each move, with its rotor."""
+    """Return the first contact of each move, with its rotor."""
     first, last = craft.rotors(start, heading), craft.rotors(end, heading)
     contacts = []
     for move in range(len(start[0])):
@@ -312,18 +330,18 @@ def _contacts(craft: Craft, start: Columns, end: Columns, heading: Direction) ->
 
 
 def of(point: Columns, indices: NDArray[np.int64]) -> Columns:
-    """The points at these indices."""
+    """Return the points at these indices."""
     x, y, z = point
     return x[indices], y[indices], z[indices]
 
 
 def headed(direction: Direction, indices: NDArray[np.int64]) -> Direction:
-    """The directions at these indices."""
+    """Return the directions at these indices."""
     return direction[0][indices], direction[1][indices]
 
 
 def tilted_interior(sizes: Sizes, at: Columns, axis: Columns) -> Mask:
-    """A mask of the interior spheroids, decided exactly, (n,); each has a centre and an axis."""
+    """Return a mask of the interior spheroids, decided exactly, (n,); each has a centre and an axis."""
     alpha, gamma, b, d = sizes
     longest = max(b, d)
     inside = np.asarray(classify_scene((alpha, gamma, longest, longest), *at) == Position.INTERIOR)
@@ -333,7 +351,7 @@ def tilted_interior(sizes: Sizes, at: Columns, axis: Columns) -> Mask:
 
 
 def positions(sizes: Sizes, at: Columns, *further: Floats) -> Positions:
-    """The exact positions of spheroids of one size, (n,); `further` are the columns of a row behind the centre."""
+    """Decide the exact positions of spheroids of one size, (n,); `further` are a row's columns after the centre."""
     return np.asarray(classify(np.column_stack([np.tile(sizes, (len(at[0]), 1)), *at, *further])), dtype=np.int8)
 
 
@@ -347,7 +365,7 @@ class Tilt:
 
     @classmethod
     def by(cls, degrees: float, toward: Direction) -> Tilt:
-        """Quadcopters tilted by `degrees` from the vertical."""
+        """Return the tilt by `degrees` from the vertical."""
         cosine, sine = any_angle(np.array(degrees))
         return cls(toward, float(cosine), float(sine))
 
@@ -357,7 +375,7 @@ class Tilt:
         return self.sine * self.toward[0], self.sine * self.toward[1], np.full_like(self.toward[0], self.cosine)
 
     def tilted(self, along: Floats, aside: Floats) -> Columns:
-        """Horizontal vectors (along, aside) of the upright craft, once it is tilted: turned about its side.
+        """Return what horizontal vectors (along, aside) of the upright craft become when it tilts about its side.
 
         The part towards the tilt, (along, aside)·toward, is shortened by the cosine and goes down by the sine.
         """
@@ -367,12 +385,12 @@ class Tilt:
         return shortened * ahead - across * beside, shortened * beside + across * ahead, -self.sine * forward
 
     def of(self, indices: NDArray[np.int64]) -> Tilt:
-        """The tilts at these indices."""
+        """Return the tilts at these indices."""
         return Tilt(headed(self.toward, indices), self.cosine, self.sine)
 
 
 def valid_tilted(craft: Craft, at: Columns, heading: Direction, tilt: Tilt) -> tuple[Mask, Mask]:
-    """Masks of the valid positions (the body or every rotor is interior), and of positions with an interior body."""
+    """Return masks of the valid positions, where the body or every rotor is interior, and of interior bodies."""
 
     def all_rotors(near: NDArray[np.int64]) -> Mask:
         arms, four = craft.arms(headed(heading, near)), tilt.of(np.tile(near, ROTORS))
@@ -424,7 +442,7 @@ VERSION = 1
 
 
 def near_wall(craft: Craft, degrees: float, seed: int, count: int = CENTRES) -> dict[str, Any]:
-    """The numbers of the body's positions near the wall that a tilt changes: in any direction, and radially outward.
+    """Count the body's positions near the wall that a tilt changes, a tilt in any direction and one radially outward.
 
     Heights are uniform over the tower's (from −γ to γ where it has no end), distances from the axis uniform within ±b
     of the wall's. A change is `dangerous` if the upright body is clear and the tilted one is not.

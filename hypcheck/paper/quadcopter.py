@@ -46,11 +46,11 @@ _COSINE = (
 )
 
 Direction = tuple[Floats, Floats]
-"""Cosine and sine."""
+"""The cosines and the sines of horizontal directions."""
 
 
 def small_angle(angle: Floats) -> Direction:
-    """(cosine, sine) of angles up to π/4 in size, in radians."""
+    """Compute the cosine and the sine of angles up to π/4 in size, in radians."""
     square = angle * angle
     return 1 - 0.5 * square + square * square * _polynomial(_COSINE, square), (
         angle + angle * square * _polynomial(_SINE, square)
@@ -58,14 +58,14 @@ def small_angle(angle: Floats) -> Direction:
 
 
 def any_angle(degrees: Floats) -> Direction:
-    """(cosine, sine) of angles in degrees; exact for multiples of 90."""
+    """Compute the cosine and the sine of angles in degrees; they are exact for multiples of 90."""
     quarters = np.rint(degrees / 90)
     cosine, sine = small_angle((degrees - 90 * quarters) * (EIGHTH / 45))
     return quarter_turns(cosine, sine, quarters.astype(np.int64))
 
 
 def quarter_turns(cosine: Floats, sine: Floats, quarters: np.typing.NDArray[np.int64]) -> Direction:
-    """The direction turned by `quarters` quarter turns, counterclockwise."""
+    """Return the direction turned by `quarters` quarter turns, counterclockwise."""
     odd = quarters % 2 == 1
     cosine, sine = np.where(odd, -sine, cosine), np.where(odd, cosine, sine)
     back = quarters // 2 % 2 == 1
@@ -73,7 +73,7 @@ def quarter_turns(cosine: Floats, sine: Floats, quarters: np.typing.NDArray[np.i
 
 
 def turned(direction: Direction, by: Direction) -> Direction:
-    """A direction turned by another, of length 1 again."""
+    """Return a direction turned by another, of length 1 again."""
     (cosine, sine), (other_cosine, other_sine) = direction, by
     ahead, aside = cosine * other_cosine - sine * other_sine, sine * other_cosine + cosine * other_sine
     length = np.sqrt(ahead * ahead + aside * aside)
@@ -113,13 +113,13 @@ class Craft:
     solid: bool = False
 
     def rotors(self, at: Columns, heading: Direction) -> Columns:
-        """The centres of all first rotors, then of all second ones, and so on, by equation (15); (4 n,) each."""
+        """Return the centres of all first rotors, then of all second ones, and so on, by equation (15); (4 n,) each."""
         x, y, z = (np.tile(column, ROTORS) for column in at)
         cosine, sine = self.arms(heading)
         return x + self.arm * cosine, y + self.arm * sine, z
 
     def arms(self, heading: Direction) -> Direction:
-        """The directions of the arms, (√2/2) (T1(g_i), T2(g_i)), in the order of `rotors`."""
+        """Return the directions of the arms, (√2/2) (T1(g_i), T2(g_i)), in the order of `rotors`."""
         cosine, sine = turned(heading, self.offset)
         half = np.sqrt(2.0) / 2
         along, aside = half * (cosine - sine), half * (cosine + sine)
@@ -147,11 +147,14 @@ class Procedures:
         self._rotors = loop_body(small, arithmetic, rotor, ("valid",))
 
     def discriminant(self, at: Columns) -> Floats:
-        """Δ of the body's cubic, equation (13)."""
+        """Compute Δ of the body's cubic, equation (13)."""
         return np.asarray(self._body(dict(zip("xyz", at, strict=True)))[0])
 
     def ask(self, at: Columns, heading: Direction) -> tuple[Mask, Mask]:
-        """Procedure 2.b: masks of valid positions, and of positions whose rotors were tested (printed: for Δ ≤ 0)."""
+        """Ask Procedure 2.b; return masks of the valid positions, and of the positions whose rotors were tested.
+
+        The printed procedure tests the rotors if Δ ≤ 0, the repaired one if the body is not interior.
+        """
         _, within, valid = self._body(dict(zip("xyz", at, strict=True)))
         if within.any():
             some = np.flatnonzero(within)
@@ -160,14 +163,14 @@ class Procedures:
         return valid, within
 
     def ask_rotors(self, at: Columns, heading: Direction) -> Mask:
-        """Procedure 2.a: a mask of the positions at which it finds all four rotors interior."""
+        """Ask Procedure 2.a; return a mask of the positions at which it finds all four rotors interior."""
         cosine, sine = turned(heading, self._offset)
         (valid,) = self._rotors({**dict(zip("xyz", at, strict=True)), "cosine": cosine, "sine": sine})
         return np.asarray(valid)
 
 
 def craft_of(scene: SceneModel) -> Craft:
-    """The quadcopter of a scene. Raises InputError if Procedures 2.a and 2.b do not apply to the scene."""
+    """Return the quadcopter of a scene. Raises InputError if Procedures 2.a and 2.b do not apply to the scene."""
     if len(scene.hyperboloids) != 1:
         raise InputError(
             f"the scene {scene.name!r} has {len(scene.hyperboloids)} hyperboloids; it must have one, the tower"
@@ -213,7 +216,7 @@ def require_ordinary(scene: SceneModel) -> None:
 
 
 def _places(scene: SceneModel) -> Iterator[tuple[str, float]]:
-    """Every start or limiting coordinate of a simulation, each with a name for messages."""
+    """Yield every start or limiting coordinate of a simulation, each with a name for messages."""
     for body in scene.hyperboloids:
         yield from ((f"the centre of {body.name!r}", value) for value in body.center)
         yield from _ends(f"the height of {body.name!r}", body.height)
@@ -241,7 +244,7 @@ def _require_regime(scene: SceneModel, tower: Hyperboloid) -> None:
 
 
 def _first_of_four(scene: SceneModel) -> MoverPart:
-    """The first rotor. Raises InputError unless there are four equal rotors, each a quarter turn from the last."""
+    """Return the first rotor. Raises InputError unless the parts are four equal rotors a quarter turn apart."""
     parts = scene.mover.parts
     if len(parts) != ROTORS or not _equal(parts) or not _quarters(parts):
         raise InputError(
@@ -252,15 +255,17 @@ def _first_of_four(scene: SceneModel) -> MoverPart:
 
 
 def _equal(parts: Sequence[MoverPart]) -> bool:
+    """Decide whether the parts have the same sizes and arms."""
     return len({(part.b, part.d, part.arm) for part in parts}) == 1
 
 
 def _quarters(parts: Sequence[MoverPart]) -> bool:
+    """Decide whether each part is a quarter turn further than the one before."""
     return all((part.angle - parts[0].angle - 90 * place) % 360 == 0 for place, part in enumerate(parts))
 
 
 def rims(craft: Craft, start: Start, z: Floats) -> Floats:
-    """The radius of the disc that a flight starts in, at each height (n,)."""
+    """Return the radius of the disc that a flight starts in, at each height (n,)."""
     if start.margin is None:
         return np.full(z.shape, start.radius)
     alpha, gamma, _, _ = craft.sizes
@@ -281,7 +286,7 @@ def require_valid_start(scene: str, craft: Craft, start: Start) -> None:
 
 
 def _interior(craft: Craft, start: Start, b: float, d: float, beyond: float) -> bool:
-    """Whether a spheroid is interior everywhere on the rims of the discs, and `beyond` them (≥ 0, outwards).
+    """Decide whether a spheroid is interior everywhere on the rims of the discs, and `beyond` them (≥ 0, outwards).
 
     With its centre at radius r and height z it is interior iff r + b √(1 − w²/d²) < R(z + w) for all |w| ≤ d; the
     wall's radius R is even and convex. If r is the same at all heights, the height nearest the waist decides. If r is R

@@ -18,7 +18,7 @@ SHOWN_OF_FLIGHTS = 6
 
 
 def forest_lines(result: dict[str, Any]) -> Iterator[str]:
-    """The result of a walk, line by line."""
+    """Yield the lines of the text about a walk. `result` is that of `simulate_forest`, in the form of its JSON."""
     trees, walker, steps = result["trees"], result["walker"], result["steps"]
     wide = sum(tree["type"] == 1 for tree in trees)
     yield (
@@ -57,7 +57,7 @@ def forest_lines(result: dict[str, Any]) -> Iterator[str]:
 
 
 def _ends_of_trees(ends: dict[str, Any]) -> Iterator[str]:
-    """The lines about the errors of a test by the centre's height for trees that end."""
+    """Yield the lines about the errors of a test by the centre's height for trees that end."""
     yield "Trees as they end, where the walk asks for the height of the centre alone:"
     for name, what in (("steps", "step"), ("questions", "question")):
         questions, needless, dangerous = (ends[name][key] for key in ("asked", "needless", "dangerous"))
@@ -72,7 +72,7 @@ def _ends_of_trees(ends: dict[str, Any]) -> Iterator[str]:
 
 
 def _ends_of_tower(ends: dict[str, Any]) -> Iterator[str]:
-    """The lines about the errors of a test by the centre's height for a tower that ends."""
+    """Yield the lines about the errors of a test by the centre's height for a tower that ends."""
     yield "The tower as it ends, where the flights ask for the height of the centre alone:"
     for name, what in (("flights", "of the figure"), ("table_5", "of the table")):
         counts = ends[name]
@@ -123,7 +123,7 @@ _TURNS = {
 
 
 def tower_lines(result: dict[str, Any]) -> Iterator[str]:
-    """The result of flights, line by line."""
+    """Yield the lines of the text about flights. `result` is that of `simulate_tower`, in the form of its JSON."""
     yield from _assumed(result["assumptions"], result["seed"])
     yield ""
     yield from _flown(result["flights"])
@@ -273,7 +273,7 @@ def _ways(ways: dict[str, Any]) -> Iterator[str]:
 
 
 def pitch_lines(tilt: dict[str, Any]) -> Iterator[str]:
-    """The changes that a tilted quadcopter causes, line by line."""
+    """Yield the lines about the answers that change if the quadcopter tilts; `tilt` is the part `pitch` of a result."""
     yield f"Tilted by {tilt['degrees']:g} degrees into each movement ahead or back, which Procedure 2.b does not know:"
     total, moves = tilt["total"], tilt["total"]["moves"]
     for name, what, refused in (

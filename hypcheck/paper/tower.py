@@ -33,10 +33,11 @@ POSITIONS = 25
 
 @dataclass(frozen=True, slots=True)
 class Questions:
-    """What is decided exactly about flights, beside the answers of Procedure 2.b.
+    """The questions about flights that are decided exactly, in addition to the answers of Procedure 2.b.
 
-    `continuous`: the sweeps between positions. `pitch`: positions of a quadcopter tilted by so many degrees in
-    horizontal movements, or None for no tilt. `ends`: positions beside the tower with its ends.
+    `continuous`: whether the sweeps between positions are decided. `pitch`: the tilt of the quadcopter in horizontal
+    movements, in degrees; with None, no tilted positions are decided. `ends`: whether positions beside the tower with
+    its ends are decided.
     """
 
     continuous: bool = False
@@ -63,7 +64,7 @@ class FlightVerdicts:
 
     @classmethod
     def total(cls, several: Iterable[FlightVerdicts]) -> FlightVerdicts:
-        """The sum of all counts."""
+        """Return the sum of all counts."""
         added = cls()
         for verdicts in several:
             added.ways.add(verdicts.ways)
@@ -75,7 +76,7 @@ class FlightVerdicts:
 def paths(
     craft: Craft, flight: Flight, step: float, seed: int, questions: Questions
 ) -> tuple[list[dict[str, Any]], FlightVerdicts]:
-    """Three flights of 25 positions, from the tower's centre, for JSON; and exact verdicts on them.
+    """Return three flights of 25 positions, from the tower's centre, for JSON; and exact verdicts on them.
 
     Each has `positions` [x, y, z], `discriminant` (equation (13) at each of them), and numbers: `executions`,
     executions with Δ ≤ 0 (`touching`), `refused` movements, and draws that lead outside the height (`outside_height`).
@@ -116,13 +117,13 @@ def _columns(track: list[tuple[float, ...]]) -> Columns:
 
 
 SPEEDS = (5, 6, 7, 8, 9, 10)
-"""v, metres a second: the columns."""
+"""The speeds v of the columns of Table 5, in metres a second."""
 
 TIMES = (0.1, 0.2, 0.3)
-"""t, seconds: the rows."""
+"""The response times t of the rows of Table 5, in seconds."""
 
 SECOND_READING = 0.25
-"""The t of the second row, if the one that is printed, 0.2, is a misprint."""
+"""The response time of the second row if the printed one, 0.2, is a misprint."""
 
 PRINTED = (
     (13.9532, 13.9029, 13.5640, 13.1907, 12.9477, 12.4708),
@@ -138,7 +139,7 @@ STATEMENT = (
 
 
 def statement(craft: Craft) -> str:
-    """The statement to show with every table; it also mentions rotors that overlap or leave the body."""
+    """Return the statement to show with every table; it also mentions rotors that overlap or leave the body."""
     (_, _, b, _), (_, _, small, _) = craft.sizes, craft.rotor
     apart, inside = math.sqrt(2.0) * craft.arm >= 2 * small, craft.arm + small <= b
     if apart and inside:
@@ -186,7 +187,7 @@ class FlightShare:
 
 
 def moves_of(flight: Flight, step: float) -> int:
-    """The number of steps that cover the distance; a last step that is needed only because of rounding is left out.
+    """Return the number of steps that cover the distance, without a last step that only a rounding makes necessary.
 
     Raises InputError if there are more than MOST_MOVES.
     """
@@ -200,7 +201,7 @@ def moves_of(flight: Flight, step: float) -> int:
 
 
 def fly_block(block: FlightBlock) -> tuple[Tallies, FlightVerdicts]:
-    """The events of a block's runs, counted, and the exact verdicts on them."""
+    """Return the events of a block's runs, counted, and the exact verdicts on them."""
     verdicts = FlightVerdicts()
     draw = Draw("tower-flight", VERSION, block.seed, float(block.speed), float(block.time), block.number)
     step = block.speed * block.time
@@ -214,7 +215,7 @@ def fly_block(block: FlightBlock) -> tuple[Tallies, FlightVerdicts]:
 def blocks(
     craft: Craft, flight: Flight, seed: int, runs: int, questions: Questions = Questions()
 ) -> dict[tuple[float, float], list[FlightBlock]]:
-    """The blocks of each cell (t, v): the cells of the table, and its second row read as t = 0.25."""
+    """Return the blocks of each cell (t, v): the cells of the table, and its second row read as t = 0.25."""
     return {
         (time, speed): [
             FlightBlock(craft, flight, speed, time, seed, number, min(LANES, runs - number * LANES), questions)
@@ -228,7 +229,10 @@ def blocks(
 def table_5(
     cells: Mapping[tuple[float, float], Sequence[FlightBlock]], executor: Executor | None, advance: Advance
 ) -> dict[tuple[float, float], FlightShare]:
-    """The results of every cell, flown by the executor's processes; `advance` gets a block's moves when it is done."""
+    """Fly the blocks of every cell, in the executor's processes if there is one, and return the figures of the cells.
+
+    `advance` gets the number of moves of a block when the block is done.
+    """
     tasks = sorted((block for cell_blocks in cells.values() for block in cell_blocks), key=lambda block: -block.moves)
     results = {}
     for block, result in perform(fly_block, tasks, executor):
@@ -241,6 +245,7 @@ def table_5(
 
 
 def _cell(results: Sequence[tuple[Tallies, FlightVerdicts]]) -> FlightShare:
+    """Combine the results of the blocks of a cell into its figure."""
     executions, touching, refused, redrawn = (
         np.concatenate([getattr(tallies, name) for tallies, _ in results])
         for name in ("executions", "touching", "refused", "redrawn")
@@ -266,7 +271,7 @@ _FURTHER_COLUMNS = "difference_in_standard_errors", "executions", "refused", "ou
 def as_json(
     cells: Mapping[tuple[float, float], FlightShare], runs: int, craft_words: str, ways: MoveVerdicts | None
 ) -> dict[str, Any]:
-    """The table with rows t and columns v, in the form of docs/simulate.md, with the statement to show with it."""
+    """Return the table with rows t and columns v, in the form of docs/simulate.md, and the statement for it."""
     rows = [[cells[time, speed] for speed in SPEEDS] for time in (*TIMES, SECOND_READING)]
     columns: dict[str, list[list[float | None]]] = {
         name: [[getattr(cell, name) for cell in row] for row in rows]
@@ -296,7 +301,10 @@ def as_json(
 
 
 def _difference(cell: FlightShare, figure: float, runs: int) -> float | None:
-    """Our figure minus the paper's, over its standard error; the paper's figure is as uncertain as 1000 of our runs."""
+    """Return our figure minus the paper's, divided by the standard error of the difference.
+
+    The paper's figure is taken to be as uncertain as the mean of 1000 of our runs. The result is None without a standard error.
+    """
     if not cell.standard_error:
         return None
     return (cell.percent - figure) / (cell.standard_error * math.sqrt(1 + runs / PRINTED_RUNS))
@@ -343,7 +351,7 @@ class TowerPlan:
         return self.scene.flight
 
     def blocks(self) -> dict[tuple[float, float], list[FlightBlock]]:
-        """The blocks of Table 5 by cell; none if the table is not requested. Raises InputError."""
+        """Return the blocks of Table 5 by cell; none if the table is not requested. Raises InputError."""
         if not self.runs:
             return {}
         return blocks(self.craft, self.flight, self.seed, self.runs, self.questions)
@@ -370,7 +378,7 @@ def _require_room(scene: SceneModel, flight: Flight) -> None:
 
 
 def simulate_tower(plan: TowerPlan, executor: Executor | None, advance: Advance) -> dict[str, Any]:
-    """The result in the form of schemas/simulate-tower-1.2.0.json. Raises InputError."""
+    """Return the result in the form of schemas/simulate-tower-1.2.0.json. Raises InputError."""
     craft, flight, step, asked = plan.craft, plan.flight, plan.speed * plan.time, plan.questions
     if asked.ends:
         require_ends(plan.scene)
@@ -412,7 +420,7 @@ _RULES = ("distance", "straight", "vertical", "largest_turn", "refused_turn", "b
 
 
 def _assumptions(scene: SceneModel, craft: Craft, flight: Flight) -> dict[str, Any]:
-    """The assumptions of the scene: the sizes that the paper prints, and the values that it leaves open."""
+    """Return the assumptions of the scene: the sizes that the paper prints, and the values that it leaves open."""
     alpha, gamma, b, d = craft.sizes
     _, _, small_b, small_d = craft.rotor
     height, start = None if craft.height is None else [craft.height.low, craft.height.high], flight.start

@@ -58,13 +58,13 @@ class Claim(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 @cache
 def claims() -> dict[str, Claim]:
-    """The claims by number, in the ledger's order."""
+    """Return the claims by number, in the ledger's order."""
     return {claim.number: claim for claim in msgspec.convert(_content()["claim"], list[Claim])}
 
 
 @cache
 def faults() -> dict[str, str]:
-    """The faults behind false statements, in order, by the names that claims use; the faults are independent."""
+    """Return the faults behind false statements, in order, by the names that claims use; the faults are independent."""
     return msgspec.convert(_content()["fault"], dict[str, str])
 
 
@@ -78,13 +78,13 @@ def _text(name: str) -> str:
 
 @cache
 def entries() -> tuple[LedgerEntry, ...]:
-    """Every entry, in order."""
+    """Return every entry, in order."""
     formulas = {_in_brackets(checked.number): checked for checked in check_equations()}
     return tuple(equation(formulas[number]) if number in formulas else statement(number) for number in claims())
 
 
 def statement(number: str) -> LedgerEntry:
-    """The entry of a statement in words. Raises KeyError if there is none."""
+    """Return the entry of a statement in words. Raises KeyError if there is none."""
     claim = claims()[number]
     why, follows, correction = (_filled_in(text) for text in (claim.why, claim.follows, claim.correction))
     return LedgerEntry(
@@ -102,7 +102,7 @@ def statement(number: str) -> LedgerEntry:
 
 
 def equation(checked: EquationCheck) -> LedgerEntry:
-    """The entry of one formula; its expected verdict is confirmed if the check gives the same verdict."""
+    """Return the entry of one formula; its expected verdict is confirmed if the check gives the same verdict."""
     entry = statement(_in_brackets(checked.number))
     expected = "misprint" if entry.verdict == MISPRINT else "holds"
     evidence = Evidence("identity", checked.finding, checked.verdict == expected)
@@ -116,11 +116,12 @@ def equation(checked: EquationCheck) -> LedgerEntry:
 
 
 def _in_brackets(number: str) -> str:
-    """A formula's number in the form of the ledger: (12), but A.2b without brackets."""
+    """Return a formula's number in the form of the ledger: (12), but A.2b without brackets."""
     return number if number.startswith("A") else f"({number})"
 
 
 def _filled_in(text: str) -> str:
+    """Replace names in braces by their numbers."""
     return text.format_map(counts.figures()) if "{" in text else text
 
 
@@ -128,21 +129,25 @@ _PROGRAMS = {**FORMULAS, **REPAIRED, ROOTS_TRIGONOMETRIC.name: ROOTS_TRIGONOMETR
 
 
 def _statements(names: str) -> list[Statement]:
+    """Return the statements of statements.py by these names, which commas separate."""
     return [getattr(statements, name) for name in names.split(", ")]
 
 
 def _harmless(what: str) -> Evidence:
+    """Return the evidence of the text "STATEMENT where CONDITION": the false statement holds under the condition."""
     name, _, where = what.partition(" where ")
     condition: Condition = getattr(statements, where)
     return harmless_where(getattr(statements, name), condition)
 
 
 def _errs(what: str) -> Evidence:
+    """Return the evidence of the text "PROGRAM about STATEMENTS": the program errs where the statements are false."""
     program, _, about = what.partition(" about ")
     return errs(program, *_statements(about))
 
 
 def _check(name: str) -> Evidence:
+    """Return the evidence of the check by that name, a function of checks.py, counts.py or statements.py."""
     module = next(module for module in (checks, counts, statements) if hasattr(module, name))
     found: Callable[[], Evidence] = getattr(module, name)
     return found()
@@ -161,16 +166,17 @@ _GROUNDS: dict[str, Callable[[str], Evidence]] = {
     "errs": _errs,
     "check": _check,
 }
-"""What each kind of evidence in claims.toml rests on; the comment there describes them."""
+"""For each kind of evidence in claims.toml the function that makes it; the comment there describes the kinds."""
 
 
 def _evidence(line: str) -> Evidence:
+    """Return the evidence that a line "KIND: …" of claims.toml describes."""
     kind, _, what = line.partition(": ")
     return _GROUNDS[kind](what)
 
 
 def entries_of(claim: str) -> tuple[LedgerEntry, ...]:
-    """The entries of one number; "Proposition 3" has several. Raises InputError if there is none."""
+    """Return the entries of one number; "Proposition 3" has several. Raises InputError if there is none."""
     claimed = _plain(claim)
     matching = tuple(entry for entry in entries() if _is_of(_plain(entry.number), claimed))
     if not matching:
@@ -179,7 +185,7 @@ def entries_of(claim: str) -> tuple[LedgerEntry, ...]:
 
 
 def _plain(number: str) -> str:
-    """A claim's number in a normal form, so that different spellings agree: "(12)", "eq. 12" and "12" are equal."""
+    """Return a claim's number in a normal form, which is the same for "(12)", "eq. 12" and "12"."""
     bare = re.sub(r"[()§]", " ", number.lower()).strip()
     bare = re.sub(r"^(equation|eq\.?|appendix)\s*(?=[\da])", "", bare)
     bare = re.sub(r"^prop(\.|\s)\s*", "proposition ", bare)
@@ -187,11 +193,12 @@ def _plain(number: str) -> str:
 
 
 def _is_of(number: str, claimed: str) -> bool:
-    """Whether a number is the claimed one or one of its parts: "proposition 3" has the part "proposition 3.1"."""
+    """Decide whether a number is the claimed one or a part of it: "proposition 3.1" is a part of "proposition 3"."""
     return number == claimed or bool(claimed and re.match(re.escape(claimed) + r"[.,:]\s?", number))
 
 
 def _advice(claimed: str) -> str:
+    """Return a suggestion for a claim's number that does not exist: a similar one, or examples."""
     numbers = {_plain(entry.number): entry.number for entry in entries()}
     near = get_close_matches(claimed, numbers, n=1)
     if near:
@@ -200,7 +207,7 @@ def _advice(claimed: str) -> str:
 
 
 def faults_with_entries() -> tuple[tuple[str, str, tuple[str, ...]], ...]:
-    """Each fault: its name, what it is, and the numbers of the statements that it makes false."""
+    """Return each fault: its name, what it is, and the numbers of the statements that it makes false."""
     return tuple(
         (name, what, tuple(entry.number for entry in entries() if name in entry.faults))
         for name, what in faults().items()
@@ -214,12 +221,16 @@ REASONS = {
     "choice": "states a choice of the authors: a model, a rule or a size",
     "proposal": "says what could be done, not that it is so",
 }
-"""Why a sentence has no row, by a word."""
+"""The reasons why no entry of the ledger judges a sentence: a word for each, and its meaning."""
 
 
 @dataclass(frozen=True)
 class Sentence:
-    """A sentence of the paper: its section, its first words, and the `rows` that judge it, or a `reason` for none."""
+    """A sentence of the paper: its section and its first words.
+
+    `rows` are the numbers of the ledger's entries that judge it. If there are none, `reason` is a word of REASONS, else
+    it is "".
+    """
 
     section: str
     words: str
@@ -229,11 +240,12 @@ class Sentence:
 
 @cache
 def sentences() -> tuple[Sentence, ...]:
-    """All sentences, in the paper's order."""
+    """Return all sentences, in the paper's order."""
     return tuple(map(_sentence, _text("sentences.txt").splitlines()))
 
 
 def _sentence(line: str) -> Sentence:
+    """Read a line of sentences.txt."""
     section, words, judged = line.split(" | ")
     if judged.startswith("="):
         return Sentence(section, words, (), judged[1:])
@@ -241,7 +253,7 @@ def _sentence(line: str) -> Sentence:
 
 
 def coverage() -> str:
-    """A text with the number of sentences that the ledger judges, and the reasons for the others."""
+    """Return a text with the number of sentences that the ledger judges, and the reasons for the others."""
     every = sentences()
     without = [sentence.reason for sentence in every if sentence.reason]
     counted = ", ".join(f"{without.count(word)} {word} ({meaning})" for word, meaning in REASONS.items())

@@ -24,10 +24,10 @@ PROVED, DEFINITION, MISPRINT, FALSE, QUESTION, NOT_CHECKABLE = VERDICTS = (
 )
 
 HOLDS = "right − left = 0"
-"""Why a displayed formula is proved."""
+"""The reason for which a displayed formula counts as proved."""
 
 KINDS = ("identity", "chain", "programs", "search", "count", "exhaustive", "coq", "text")
-"""What evidence can be: equal expressions, a chain of links, proved programs, a search of pairs, counted steps, all of
+"""The kinds of evidence: equal expressions, a chain of links, proved programs, a search of pairs, counted steps, all of
 finitely many cases, theorems of the Coq sources, two places of the paper's text compared by reading."""
 
 _PROVED_BY = {"identity": "sympy", "chain": "sympy", "programs": "sympy", "exhaustive": "exhaustive", "coq": "Coq"}
@@ -77,9 +77,7 @@ class LedgerEntry:
     def proved_by(self) -> tuple[str, ...]:
         """The means by which the verdict is proved: Coq, sympy, exhaustive, witness.
 
-        A search that finds nothing does not prove anything.
-
-        A definition needs none.
+        A search that finds nothing proves nothing. A definition needs no proof.
         """
         if self.verdict == DEFINITION:
             return ()
@@ -97,35 +95,35 @@ class LedgerEntry:
 
 
 def by_chain(name: str) -> Evidence:
-    """Evidence that a chain of the derivation holds, with all chains that it needs."""
+    """Return evidence that a chain of the derivation holds, with all chains that it needs."""
     links = len(chains()[name].links)
     return Evidence("chain", f"{name}: {links} links hold", proved(name), chain=name)
 
 
 def by_identity(text: str) -> Evidence:
-    """Evidence that one of the derivation's own identities holds, by its sentence."""
+    """Return evidence that one of the derivation's own identities holds, by its sentence."""
     return Evidence("identity", text, known(text).holds)
 
 
 def by_printed(text: str) -> Evidence:
-    """Evidence that the displayed formulas whose numbers the text names hold as printed: "(7) and (8) hold"."""
+    """Return evidence that the displayed formulas whose numbers the text names hold as printed: "(7) and (8) hold"."""
     parts = (part for number in re.findall(r"\((\d+)\)", text) for part in printed(number))
     return Evidence("identity", text, all(part.holds for part in parts))
 
 
 def by_reading(text: str) -> Evidence:
-    """Evidence that two places of the paper's text were compared by reading."""
+    """Return evidence that two places of the paper's text were compared by reading."""
     return Evidence("text", text, holds=True)
 
 
 def by_coq(theorem: str) -> Evidence:
-    """Evidence that a Coq file has a complete theorem, "File.theorem"; `make prove` checks it."""
+    """Return evidence that a Coq file has a complete theorem, "File.theorem"; `make prove` checks it."""
     file, _, name = theorem.partition(".")
     return Evidence("coq", f"{name} in proofs/{file}.v, which `make prove` checks", proves(file, name))
 
 
 def by_programs(*formulas: Formula) -> Evidence:
-    """Evidence that programs compute the right values and decisions."""
+    """Return evidence that programs compute the right values and decisions."""
     proofs = [proof for formula in formulas for proof in proofs_of(formula)]
     names = ", ".join(formula.name for formula in formulas)
     text = f"{len(proofs)} proofs of the program{'s' * (len(formulas) > 1)} {names}"
@@ -133,7 +131,7 @@ def by_programs(*formulas: Formula) -> Evidence:
 
 
 def without_counterexample(statement: points.Statement) -> Evidence:
-    """Evidence that no point of the whole space contradicts the statement."""
+    """Return evidence that no point of the whole space contradicts the statement."""
     search = points.counterexample(statement)
     return Evidence(
         "search", f"no counterexample among {search.tried:,} pairs", search.found is None and search.tried > 0
@@ -141,18 +139,19 @@ def without_counterexample(statement: points.Statement) -> Evidence:
 
 
 def harmless_where(statement: points.Statement, where: points.Condition) -> Evidence:
-    """Evidence that a false statement holds at all points at which `where` holds."""
+    """Return evidence that a false statement holds at all points at which `where` holds."""
     evidence = without_counterexample(replace(statement, where=lambda facts: statement.where(facts) and where(facts)))
     return replace(evidence, text=f"harmless there: {evidence.text}")
 
 
 def with_counterexample(*statements: points.Statement) -> Evidence:
-    """Evidence that each statement is false: the simplest point that contradicts it, with a certified position."""
+    """Return evidence that each statement is false: the simplest counterexample, with a certified position."""
     searches = [(statement, points.counterexample(statement)) for statement in statements]
     return _found([(search, f"contradicts: {statement.text}") for statement, search in searches])
 
 
 def _found(searches: list[tuple[points.Search[points.PointFacts], str]]) -> Evidence:
+    """Return the witnesses of searches as evidence. It holds if every search found a point and all witnesses hold."""
     witnesses = tuple(points.witness(search.found, shows) for search, shows in searches if search.found is not None)
     tried = [search.tried for search, _ in searches]
     holds = len(witnesses) == len(searches) > 0 and all(witness.holds for witness in witnesses)
@@ -161,12 +160,15 @@ def _found(searches: list[tuple[points.Search[points.PointFacts], str]]) -> Evid
 
 
 def described(facts: points.PointFacts) -> str:
-    """A point, its position and its numbers: "a = 1, c = 2, C = (5/2, 0, 0): exterior, Δ = 0, c2 = −33/4, c1 = 18"."""
+    """Return a point, its position and its numbers as text.
+
+    An example is "a = 1, c = 2, C = (5/2, 0, 0): exterior, Δ = 0, c2 = −33/4, c1 = 18".
+    """
     point = facts.point
     text = f"a = {point.a}, c = {point.c}, C = ({point.r}, 0, {point.z}): {facts.position.label}, {signs(facts)}"
     return text.replace("-", "−")
 
 
 def signs(facts: points.PointFacts) -> str:
-    """The numbers whose signs the propositions test, as text: "Δ = 0, c2 = −33/4, c1 = 18"."""
+    """Return the numbers whose signs the propositions test, as text: "Δ = 0, c2 = −33/4, c1 = 18"."""
     return f"Δ = {facts.delta}, c2 = {facts.c2}, c1 = {facts.c1}".replace("-", "−")

@@ -101,18 +101,18 @@ class SquaredRatios:
 
 
 def coefficients(pair: SquaredRatios) -> tuple[Fraction, Fraction, Fraction]:
-    """c2, c1 and c0 of a pair's g, by the derivation's polynomials."""
+    """Compute c2, c1 and c0 of a pair's g, by the derivation's polynomials."""
     c2, c1, c0 = (_polynomials()[name](pair.A, pair.B, pair.P, pair.Q) for name in ("c2", "c1", "c0"))
     return c2, c1, c0
 
 
 def discriminant(pair: SquaredRatios) -> Fraction:
-    """Δ of a pair's g."""
+    """Compute Δ of a pair's g."""
     return _polynomials()["delta"](*coefficients(pair))
 
 
 def facts(point: Point) -> PointFacts:
-    """The facts of a point."""
+    """Compute the facts of a point."""
     A, B, P, Q = point.a**2, point.c**2, point.r**2, point.z**2
     c0, c1, c2 = (_polynomials()[name](A, B, P, Q) for name in ("c0", "c1", "c2"))
     pair = Lengths.of((point.a, point.c, 1, 1, point.r, 0, point.z))
@@ -120,7 +120,7 @@ def facts(point: Point) -> PointFacts:
 
 
 def with_c2(facts: PointFacts, c2: Fraction) -> PointFacts:
-    """The facts with another c2; the position is unchanged."""
+    """Return the facts with another c2; the position is unchanged."""
     return _of_coefficients(facts.point, facts.c0, facts.c1, c2, facts.position)
 
 
@@ -133,6 +133,7 @@ def _of_coefficients(point: Point, c0: Fraction, c1: Fraction, c2: Fraction, pos
 
 @cache
 def _polynomials() -> dict[str, Rational]:
+    """Return functions for c0, c1, c2, Δ and g' by name, from the derivation's polynomials."""
     derived = pencil.cubic()
     polynomials = {
         name: rational((pencil.A, pencil.B, pencil.P, pencil.Q), getattr(derived, name)) for name in ("c0", "c1", "c2")
@@ -143,9 +144,9 @@ def _polynomials() -> dict[str, Rational]:
 
 
 def rational(letters: tuple[sympy.Symbol, ...], expression: sympy.Expr) -> Rational:
-    """A function of rationals for an expression with whole coefficients; sums and products of Fractions are exact.
+    """Return a function that computes an expression in these letters exactly, from Fractions.
 
-    Raises ValueError for other coefficients, which would be written as floats.
+    Raises ValueError for coefficients that are not whole, which would become floats.
     """
     if any(not number.is_Integer for number in expression.atoms(sympy.Number)):
         raise ValueError(f"{expression} has a coefficient that is not a whole number")
@@ -164,13 +165,13 @@ class PointStratum:
 
 
 def numbers(height: int) -> tuple[Fraction, ...]:
-    """The positive rationals in lowest terms whose numerator and denominator are at most `height`."""
+    """Return the positive rationals in lowest terms whose numerator and denominator are at most `height`."""
     sizes = range(1, height + 1)
     return tuple(Fraction(top, bottom) for top, bottom in product(sizes, sizes) if gcd(top, bottom) == 1)
 
 
 def strata() -> tuple[PointStratum, ...]:
-    """All strata."""
+    """Return all strata."""
     return (
         PointStratum("anywhere", lambda: _grid(numbers(3), numbers(3), _with_0(3), _with_0(3))),
         PointStratum("the waist, z = 0", lambda: _grid(numbers(4), numbers(4), _with_0(6), (ZERO,))),
@@ -192,12 +193,12 @@ def strata() -> tuple[PointStratum, ...]:
 
 @cache
 def space() -> tuple[Point, ...]:
-    """The points of all strata, each once, the simplest first."""
+    """Return the points of all strata, each once, the simplest first."""
     return tuple(sorted({point for stratum in strata() for point in stratum.points()}, key=lambda point: point.cost))
 
 
 def facts_in_order() -> Iterator[PointFacts]:
-    """The facts of every point of the space, the simplest first; each is found once in a process."""
+    """Yield the facts of every point of the space, the simplest first; each is found once in a process."""
     for place, point in enumerate(space()):
         if place == len(_FOUND):
             _FOUND.append(facts(point))
@@ -212,20 +213,22 @@ def _slope() -> sympy.Expr:
 
 
 def _with_0(height: int) -> tuple[Fraction, ...]:
+    """Return 0 and the numbers up to `height`."""
     return (ZERO, *numbers(height))
 
 
 def _parts(most: int) -> tuple[Fraction, ...]:
-    """1/4, 1/5, … down to one part in `most`."""
+    """Return the fractions 1/4, 1/5, … 1/`most`."""
     return tuple(Fraction(1, parts) for parts in range(4, most + 1))
 
 
 def _grid(*values: Iterable[Fraction]) -> Iterator[Point]:
+    """Return the points with all combinations of these values of a, c, r and z."""
     return (Point(*point) for point in product(*values))
 
 
 def _solved(condition: sympy.Expr, height: int = 4, heights: Iterable[Fraction] = ()) -> Iterator[Point]:
-    """The points at which the expression in A, B, P and Q, which is linear in P, vanishes."""
+    """Yield the points at which the expression in A, B, P and Q, which is linear in P, vanishes."""
     (solution,) = sympy.solve(condition, P)
     value = rational((A, B, Q), solution)
     for a, c, z in product(numbers(height), numbers(height), heights or _with_0(height)):
@@ -235,7 +238,7 @@ def _solved(condition: sympy.Expr, height: int = 4, heights: Iterable[Fraction] 
 
 
 def _double_roots() -> Iterator[Point]:
-    """Pairs whose g has the double root m: g(m) = g'(m) = 0 is linear in P and Q."""
+    """Yield points whose g has a double root m, from g(m) = g'(m) = 0, which is linear in P and Q."""
     g = pencil.cubic().g
     solution = sympy.solve([g, g.diff(LAMBDA)], [P, Q], dict=True)[0]
     radius, height = (rational((A, B, LAMBDA), solution[letter]) for letter in (P, Q))
@@ -249,7 +252,7 @@ def _double_roots() -> Iterator[Point]:
 
 
 def root(value: Fraction) -> Fraction | None:
-    """The square root of a rational if it is rational, else None."""
+    """Return the square root of a rational if it is rational, else None."""
     if value < 0:
         return None
     candidate = Fraction(isqrt(value.numerator), isqrt(value.denominator))
@@ -295,12 +298,12 @@ class Search(Generic[Found]):
 
 
 def counterexample(statement: Statement) -> Search[PointFacts]:
-    """The simplest point of the space at which the statement is false."""
+    """Return the simplest point of the space at which the statement is false."""
     return first_point(lambda facts: not statement.says(facts), statement.where)
 
 
 def first_point(wanted: Condition, where: Condition = lambda _: True) -> Search[PointFacts]:
-    """The simplest point with `wanted` of those for which `where` holds; `tried` counts these up to it."""
+    """Return the simplest point with `wanted` of those for which `where` holds; `tried` counts these up to it."""
     tried = 0
     for facts in facts_in_order():
         if where(facts):
@@ -311,7 +314,7 @@ def first_point(wanted: Condition, where: Condition = lambda _: True) -> Search[
 
 
 def witness(facts: PointFacts, shows: str) -> PointWitness:
-    """The point with a certificate of its position."""
+    """Return the point with a certificate of its position."""
     return PointWitness(facts, prove(facts.point.pair), shows)
 
 
@@ -360,13 +363,13 @@ class TiltedWitness:
 
 
 def sizes_and_centre(pair: Pair) -> str:
-    """The first seven numbers of a pair in words: "α = 3, γ = 1, b = 3, d = 2, C = (1, 0, 1)"."""
+    """Return the first seven numbers of a pair in words: "α = 3, γ = 1, b = 3, d = 2, C = (1, 0, 1)"."""
     alpha, gamma, b, d, *center = (f"{number:g}" for number in pair.row[:7])
     return f"α = {alpha}, γ = {gamma}, b = {b}, d = {d}, C = ({', '.join(center)})".replace("-", "−")
 
 
 def first_change(before: Position, after: Position, shows: str, largest: int = LARGEST) -> Search[TiltedWitness]:
-    """The simplest pair with the position `before` upright and `after` tilted, both proved."""
+    """Return the simplest pair with the position `before` upright and `after` tilted, both proved."""
     tried = 0
     for numbers in quadcopter_pairs(largest):
         vertical = Pair.from_row(numbers)
@@ -381,7 +384,10 @@ def first_change(before: Position, after: Position, shows: str, largest: int = L
 
 
 def quadcopter_pairs(largest: int) -> Iterator[tuple[float, ...]]:
-    """Sizes and centres (x, 0, z) with α ≥ b, the regime of Procedures 2.a and 2.b, and b > d, as a quadcopter has."""
+    """Yield α, γ, b, d, x, 0 and z in whole numbers up to `largest`, the simplest first.
+
+    α ≥ b is the regime of Procedures 2.a and 2.b, and b > d is the shape of a quadcopter.
+    """
     sizes = range(1, largest + 1)
     whole = (numbers for numbers in product(sizes, repeat=6) if numbers[0] >= numbers[2] > numbers[3])
     for alpha, gamma, b, d, x, z in sorted(whole, key=lambda numbers: (sum(numbers), max(numbers), numbers)):

@@ -29,72 +29,72 @@ from hypcheck.truth import exact
 
 
 def tall(facts: PointFacts) -> bool:
-    """(γ/d)² ≥ α/b, the regime of Proposition 3."""
+    """Decide whether (γ/d)² ≥ α/b, the regime of Proposition 3."""
     return facts.B >= facts.point.a
 
 
 def wide(facts: PointFacts) -> bool:
-    """α/b ≥ 1, the regime of Proposition 5 and of Procedures 2.a and 2.b."""
+    """Decide whether α/b ≥ 1, the regime of Proposition 5 and of Procedures 2.a and 2.b."""
     return facts.point.a >= 1
 
 
 def wider(facts: PointFacts) -> bool:
-    """α/b > 1, the regime that Proposition 5 prints."""
+    """Decide whether α/b > 1, the regime that Proposition 5 prints."""
     return facts.point.a > 1
 
 
 def very_tall(facts: PointFacts) -> bool:
-    """(γ/d)² > (α/b)² + 1, where c2 < 0 for every centre."""
+    """Decide whether (γ/d)² > (α/b)² + 1, where c2 < 0 for every centre."""
     return facts.B > facts.A + 1
 
 
 def off_the_waist(facts: PointFacts) -> bool:
-    """z0 ≠ 0, where there is no ring."""
+    """Decide whether z0 ≠ 0, where there is no ring."""
     return facts.Q != 0
 
 
 def three_real_roots(facts: PointFacts) -> bool:
-    """Whether Δ > 0: three different real roots."""
+    """Decide whether Δ > 0: three different real roots."""
     return facts.delta > 0
 
 
 def exterior(facts: PointFacts) -> bool:
-    """Whether the spheroid is exterior."""
+    """Decide whether the spheroid is exterior."""
     return facts.position is Position.EXTERIOR
 
 
 def interior(facts: PointFacts) -> bool:
-    """Whether the spheroid is interior."""
+    """Decide whether the spheroid is interior."""
     return facts.position is Position.INTERIOR
 
 
 def contact(facts: PointFacts) -> bool:
-    """Whether there is contact."""
+    """Decide whether there is contact."""
     return facts.position is Position.CONTACT
 
 
 def not_exterior(facts: PointFacts) -> bool:
-    """Whether the spheroid is interior or in contact; it always is if its centre is inside the hyperboloid."""
+    """Decide whether the spheroid is interior or in contact; it always is if its centre is inside the hyperboloid."""
     return not exterior(facts)
 
 
 def inside_a_tall_one(facts: PointFacts) -> bool:
-    """Whether the spheroid is not exterior to a hyperboloid of both regimes, as in the paper's tower."""
+    """Decide whether the spheroid is not exterior to a hyperboloid of both regimes, as in the paper's tower."""
     return tall(facts) and wide(facts) and not exterior(facts)
 
 
 def three_positive(facts: PointFacts) -> bool:
-    """Whether the coefficients have the signs that Proposition 3 requires in addition to Δ > 0."""
+    """Decide whether the coefficients have the signs that Proposition 3 requires in addition to Δ > 0."""
     return facts.c2 < 0 and facts.c1 > 0
 
 
 def printed_interior(facts: PointFacts) -> bool:
-    """Whether the coefficients have the signs that Proposition 5 requires in addition to Δ > 0."""
+    """Decide whether the coefficients have the signs that Proposition 5 requires in addition to Δ > 0."""
     return (facts.c2 > 0 and facts.c1 != 0) or (facts.c2 < 0 and facts.c1 < 0)
 
 
 def ring(facts: PointFacts) -> bool:
-    """The exterior positions with Δ = 0: Q = 0, g'(B) = 0 and A < B²."""
+    """Decide whether the pair is on the ring, exterior with Δ = 0: Q = 0, g'(B) = 0 and A < B²."""
     return facts.Q == 0 and facts.slope_at_B == 0 and facts.A < facts.B**2
 
 
@@ -122,7 +122,7 @@ REMARK_4 = Statement(
 
 
 def _proposition_5_1(text: str, zero: Callable[[PointFacts], bool]) -> Statement:
-    """The printed statement, for the pairs in which one of the coefficients is 0."""
+    """Return the printed Proposition 5.1 restricted to pairs for which `zero` holds, in which a coefficient is 0."""
     return Statement(
         text,
         lambda facts: wider(facts) and zero(facts),
@@ -159,7 +159,10 @@ REPAIRED_5 = Statement(
 
 
 def _valid(where: Condition, text: str) -> Statement:
-    """Procedure 1 and Table 2 are proved to decide by Proposition 3.1; the program is tested at a witness."""
+    """Return the statement that Procedure 1 or Table 2 is right for the pairs in `where`.
+
+    Both are proved to decide by Proposition 3.1; their programs are tested at a witness.
+    """
     return Statement(f"{text} a movement is valid ⟺ the spheroid is exterior", where, PROPOSITION_3_1.says)
 
 
@@ -170,7 +173,7 @@ VALID_IF_NARROW = _valid(lambda facts: tall(facts) and facts.point.a < 1, "for �
 
 
 def _procedure_2a_says(facts: PointFacts) -> bool:
-    """Procedure 2.a's answer for a quadcopter on the axis, whose four rotors all have the position of this point."""
+    """Return Procedure 2.a's answer for a quadcopter on the axis all of whose rotors have this point's position."""
     point = facts.point
     inputs = {"alpha": point.a, "gamma": point.c, "b_s": 1, "d_s": 1, "x": 0, "y": 0, "z": point.z, "l": point.r}
     return bool(answers(FORMULAS["procedure-2a"], EXACT, {**inputs, "cosine": 1, "sine": 0}))
@@ -197,12 +200,12 @@ CLEAR_IS_POSITIVE = Statement("interior or exterior ⟺ Δ > 0", wide, lambda fa
 
 
 def program_says(name: str, facts: PointFacts) -> int:
-    """The answer of the formula with this name for a point, in exact arithmetic."""
+    """Return the answer of the formula with this name for a point, in exact arithmetic."""
     return int(answers(FORMULAS[name], EXACT, dict(zip(COLUMNS, facts.point.pair.row, strict=True))))
 
 
 def errs(name: str, *about: Statement) -> Evidence:
-    """Evidence that a printed program for exterior positions errs exactly at a counterexample to each statement."""
+    """Return evidence that a printed program for exterior positions errs at a counterexample to each statement."""
     witnesses = with_counterexample(*about).witnesses
     wrong = [program_says(name, witness.facts) != exterior(witness.facts) for witness in witnesses]
     return Evidence("programs", f"{name} errs there in exact arithmetic", bool(wrong) and all(wrong))
@@ -223,9 +226,10 @@ class Quadcopter:
 
     @property
     def farthest(self) -> Point:
-        """A rotor at the hull's radius and an arm more, scaled to the unit sphere: no rotor is farther from the axis.
+        """A rotor whose radius is that of the hull plus an arm, scaled to the unit sphere.
 
-        If it is interior so is every rotor, for interior positions stay interior when r falls (docs/mathematics.md).
+        No rotor is farther from the axis. If this one is interior, every rotor is interior, because an interior
+        position stays interior when r falls (docs/mathematics.md).
         """
         hull = self.hull.point
         lengths = (hull.a, hull.c, hull.r + self.arm, hull.z)
@@ -241,13 +245,13 @@ class Quadcopter:
 
 
 def quadcopters(hull: PointFacts) -> tuple[Quadcopter, ...]:
-    """The quadcopters tried with one hull: arms of a half, a quarter, … and rotors half as large as the arms."""
+    """Return the quadcopters tried with one hull: arms of a half, a quarter, … and rotors half as large as the arms."""
     tried = (Quadcopter(hull, Fraction(2, halvings), Fraction(1, halvings)) for halvings in (4, 8, 16, 32))
     return tuple(quadcopter for quadcopter in tried if quadcopter.fits)
 
 
 def refused_though_inside(hull: PointFacts) -> Quadcopter | None:
-    """A quadcopter that Procedure 2.b refuses by its hull alone although its four rotors are interior."""
+    """Return a quadcopter that Procedure 2.b refuses by its hull alone although its four rotors are interior."""
     if hull.delta <= 0 or printed_interior(hull):
         return None
     inside = (
@@ -264,7 +268,7 @@ def _hull_and_rotor(
     shows: str,
     text: Callable[[PointWitness, Quadcopter], str],
 ) -> Evidence:
-    """The simplest hull in a regime with a quadcopter that is decided wrongly, and its farthest rotor.
+    """Return the simplest hull in a regime with a quadcopter that is decided wrongly, and its farthest rotor.
 
     `shows` says what the hull shows, and `text` what the hull and its quadcopter show together.
     """
@@ -278,7 +282,7 @@ def _hull_and_rotor(
 
 
 def refusal(where: Condition, shows: str) -> Evidence:
-    """The simplest hull in a regime at which Procedure 2.b refuses four interior rotors, and the farthest rotor."""
+    """Find the simplest hull in a regime at which Procedure 2.b refuses four interior rotors, and one of these rotors."""
     return _hull_and_rotor(
         refused_though_inside,
         where,
@@ -292,12 +296,15 @@ def _small_rotors(quadcopter: Quadcopter) -> str:
 
 
 def refused_for_a_zero_coefficient() -> Evidence:
-    """Evidence that Procedure 2.b refuses an interior hull in the regimes of Propositions 3 and 5, and its rotors."""
+    """Return evidence that Procedure 2.b refuses an interior hull, and its rotors, in the regimes of both propositions.
+
+    These are Propositions 3 and 5.
+    """
     return refusal(lambda hull: wide(hull) and tall(hull), "interior, and refused for a zero coefficient")
 
 
 def refused_though_the_hull_is_in_contact() -> Evidence:
-    """Evidence that Procedure 2.b refuses interior rotors in a low hyperboloid: hulls in contact can have Δ > 0."""
+    """Return evidence that Procedure 2.b refuses interior rotors in a low hyperboloid, where Δ > 0 can mean contact."""
     return refusal(
         lambda hull: wide(hull) and not tall(hull) and contact(hull),
         "contact with Δ > 0, refused, rotors unasked",
@@ -305,7 +312,7 @@ def refused_though_the_hull_is_in_contact() -> Evidence:
 
 
 def valid_though_the_body_meets_the_wall() -> Evidence:
-    """Evidence that Procedure 2.b calls a movement valid though a part of the body beside the rotors is past the wall.
+    """Return evidence that Procedure 2.b calls a movement valid although a part of the body is beyond the wall.
 
     The body is in contact, the rotors are interior, and the certificate of contact has a point of the body's spheroid
     beyond the wall: a part at this point would collide.
@@ -327,17 +334,20 @@ def _beside_the_rotors(body: PointWitness, quadcopter: Quadcopter) -> str:
 
 
 def _crossing(hull: PointFacts) -> bool:
-    """Whether it is contact with Δ < 0 in the regimes of Propositions 3 and 5: no tangency; rotors are tested."""
+    """Decide whether the hull crosses the wall with Δ < 0, in the regimes of Propositions 3 and 5.
+
+    Such contact is not a tangency, and Procedure 2.b tests the rotors.
+    """
     return wide(hull) and tall(hull) and contact(hull) and hull.delta < 0
 
 
 def cleared_by_its_rotors(hull: PointFacts) -> Quadcopter | None:
-    """A quadcopter with this hull, which is in contact, that Procedure 2.b calls valid."""
+    """Return a quadcopter with this hull, which is in contact, that Procedure 2.b calls valid."""
     return next((quadcopter for quadcopter in quadcopters(hull) if quadcopter.answer), None)
 
 
 def part_beyond_the_wall(body: PointWitness) -> tuple[Fraction, ...]:
-    """The point of a certificate of contact that is outside the hyperboloid, in radii of the body."""
+    """Return the point of a certificate of contact that is outside the hyperboloid, in radii of the body."""
     pair = body.facts.point.pair
     alpha, gamma, b, d = map(Fraction, pair.row[:4])
     (beyond,) = ((x, y, z) for x, y, z in body.certificate.points if (x * x + y * y) / alpha**2 - (z / gamma) ** 2 > 1)
