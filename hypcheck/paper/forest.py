@@ -142,7 +142,7 @@ class Procedure1:
         self._body = loop_body(formula.program, float_arithmetic(precision), columns, (formula.answer,))
 
     def valid(self, at: Places) -> Mask:
-        """Return a mask (n, m) of the trees that allow the movement: the walker is exterior to them by the procedure."""
+        """Return a mask (n, m) of the trees that allow the movement, for which the procedure says exterior."""
         (answer,) = self._body(dict(zip("xyz", self._trees.offsets(at), strict=True)))
         return np.asarray(answer)
 

@@ -303,7 +303,8 @@ def as_json(
 def _difference(cell: FlightShare, figure: float, runs: int) -> float | None:
     """Return our figure minus the paper's, divided by the standard error of the difference.
 
-    The paper's figure is taken to be as uncertain as the mean of 1000 of our runs. The result is None without a standard error.
+    The paper's figure is taken to be as uncertain as the mean of PRINTED_RUNS of our runs. The result is None if the
+    cell has no standard error.
     """
     if not cell.standard_error:
         return None

@@ -282,7 +282,7 @@ def _hull_and_rotor(
 
 
 def refusal(where: Condition, shows: str) -> Evidence:
-    """Find the simplest hull in a regime at which Procedure 2.b refuses four interior rotors, and one of these rotors."""
+    """Find the simplest hull in a regime at which Procedure 2.b refuses four interior rotors, and a rotor of it."""
     return _hull_and_rotor(
         refused_though_inside,
         where,
