@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+import shutil
 from importlib import resources
 from pathlib import Path
 
@@ -15,7 +16,7 @@ from hypcheck.cli.paper import derive
 from hypcheck.derivation.chain_book import chains
 from hypcheck.derivation.program import Operations
 from hypcheck.derivation.walk import walk
-from hypcheck.paper.derive import FORMATS, PARTS, as_json
+from hypcheck.paper.derive import FORMATS, PARTS, as_json, erratum
 from hypcheck.paper.derive.content import Selection
 from hypcheck.paper.derive.formats import WRITERS
 from hypcheck.paper.derive.latex import UnknownCharacterError, formula, sentence
@@ -88,6 +89,14 @@ def test_derive_latex_is_ascii_with_balanced_braces_and_environments(chosen):
     assert opened == []
     assert document.count("$") % 2 == 0
     assert document.startswith(r"\documentclass")
+
+
+@pytest.mark.skipif(shutil.which(erratum.COMPILER) is None, reason="LaTeX is not installed here: nothing compiles")
+@pytest.mark.parametrize("chosen", [pytest.param(ALL, marks=pytest.mark.thorough), CLAIM], ids=["all", "claim"])
+def test_derive_latex_compiles(chosen, tmp_path):
+    target = tmp_path / "derivation.tex"
+    target.write_text("\n".join(written("latex", chosen)), encoding="utf-8")
+    assert erratum.compile_note(target) == f"wrote {target.with_suffix('.pdf')}"
 
 
 def formulas():
