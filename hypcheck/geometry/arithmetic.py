@@ -19,12 +19,12 @@ if TYPE_CHECKING:
 
 
 def sign_of(number: Fraction | int | QuadraticSurd) -> int:
-    """The sign: 1, 0 or −1."""
+    """Return the sign: 1, 0 or −1."""
     return (number > 0) - (number < 0)
 
 
 def sign_with_root(u: Fraction | int, v: Fraction | int, w: Fraction | int) -> int:
-    """The sign of u + v √w, w > 0 or v = 0."""
+    """Return the sign of u + v √w, where w > 0 or v = 0."""
     if u >= 0 and v >= 0:
         return int(u > 0 or v > 0)
     if u <= 0 and v <= 0:
@@ -33,7 +33,7 @@ def sign_with_root(u: Fraction | int, v: Fraction | int, w: Fraction | int) -> i
 
 
 def changes_of_sign(numbers: Iterable[int]) -> int:
-    """The number of changes of sign in a sequence, without zeros."""
+    """Count the changes of sign in a sequence; zeros are left out."""
     signs = [number > 0 for number in numbers if number]
     return sum(one != other for one, other in pairwise(signs))
 
@@ -43,33 +43,33 @@ Matrix = Sequence[Vector]
 
 
 def dot(p: Vector, q: Vector) -> Any:  # noqa: ANN401 - a number of the vectors' kind
-    """p·q."""
+    """Return the scalar product p·q."""
     return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
 
 
 def cross(p: Vector, q: Vector) -> list[Any]:
-    """p × q."""
+    """Return the vector product p × q."""
     return [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
 
 
 def times(matrix: Matrix, vector: Vector) -> list[Any]:
-    """The product of a matrix and a vector."""
+    """Return the product of a matrix and a vector."""
     return [dot(row, vector) for row in matrix]
 
 
 def adjugate(matrix: Matrix) -> list[list[Any]]:
-    """The adjugate of a symmetric matrix."""
+    """Return the adjugate of a symmetric matrix."""
     first, second, third = matrix
     return [cross(second, third), cross(third, first), cross(first, second)]
 
 
 def precisions(start: int = 1) -> Iterator[int]:
-    """Numbers of bits, each twice the previous one, without end."""
+    """Yield numbers of bits from `start` on, each twice the previous one, without end."""
     return (start << doubling for doubling in count())
 
 
 def root_of(value: Fraction, bits: int, *, upward: bool = False) -> Fraction:
-    """√value, exact if it is rational, else to about `bits` bits; with `upward` never less than the root."""
+    """Return √value, exact if it is rational, else to about `bits` bits, rounded down, or up with `upward`."""
     root = Fraction(math.isqrt(value.numerator), math.isqrt(value.denominator))
     if root * root == value:
         return root
@@ -79,30 +79,30 @@ def root_of(value: Fraction, bits: int, *, upward: bool = False) -> Fraction:
 
 
 def floor_root(square: Fraction, bits: int) -> Fraction:
-    """√square rounded down to about `bits` bits."""
+    """Return √square rounded down to about `bits` bits."""
     shift = max(0, bits + (square.denominator.bit_length() - square.numerator.bit_length()) // 2 + 1)
     return Fraction(math.isqrt((square.numerator << 2 * shift) // square.denominator), 1 << shift)
 
 
 def exponent_of(value: Fraction) -> int:
-    """An e with 2^(e−1) < value < 2^(e+1), of a value > 0."""
+    """Return an e with 2^(e−1) < value < 2^(e+1), of a value > 0."""
     return value.numerator.bit_length() - value.denominator.bit_length()
 
 
 def power_of_two(exponent: int) -> Fraction:
-    """2^exponent, in a tenth of the time of a power of fractions."""
+    """Return 2^exponent, in a tenth of the time of a power of fractions."""
     return Fraction(1 << exponent) if exponent >= 0 else Fraction(1, 1 << -exponent)
 
 
 def power_near(low: Fraction, high: Fraction) -> Fraction:
-    """A power of two about midway between two exponents, strictly between low and high > 4 low."""
+    """Return a power of two strictly between low and high > 4 low, about midway between their exponents."""
     # 2^(e−1) < value < 2^(e+1) for the exponent e of a value: e(low) + 1 ≤ k ≤ e(high) − 1 is strictly between.
     first, last = exponent_of(low) + 1, exponent_of(high) - 1
     return power_of_two((first + last) // 2)
 
 
 def last(holds: Callable[[int], bool], low: int, high: int) -> int:
-    """The last number from low to high − 1 for which `holds`, by bisection; it holds for low, and not for high."""
+    """Find by bisection the last number from low to high − 1 for which `holds`; it holds for low, and not for high."""
     while high - low > 1:
         middle = (low + high) // 2
         low, high = (middle, high) if holds(middle) else (low, middle)
@@ -110,7 +110,9 @@ def last(holds: Callable[[int], bool], low: int, high: int) -> int:
 
 
 def octave(reached: Callable[[Fraction], bool], step: int = 1) -> int:
-    """The exponent k < 0 with 2^(k + 1) reached and 2^k not; 1 is reached, and so are all numbers above such a one.
+    """Find the exponent k < 0 for which `reached` is true of 2^(k + 1) and false of 2^k.
+
+    It must be true of 1, and of all numbers above one of which it is true.
 
     The search begins at −10, in steps that double; the first is `step`.
     """
@@ -125,20 +127,20 @@ def octave(reached: Callable[[Fraction], bool], step: int = 1) -> int:
 
 
 def shortened(top: int, bottom: int, bits: int) -> Fraction:
-    """top/bottom, bottom > 0, cut off after about `bits` significant bits."""
+    """Return top/bottom, bottom > 0, rounded down to about `bits` significant bits."""
     shift = bits + bottom.bit_length() - abs(top).bit_length()
     whole = (top << shift) // bottom if shift >= 0 else top // (bottom << -shift)
     return Fraction(whole, 1 << shift) if shift >= 0 else Fraction(whole << -shift)
 
 
 def rounded(value: Fraction, bits: int) -> Fraction:
-    """`value` to `bits` significant bits."""
+    """Round `value` to the nearest number of about `bits` significant bits."""
     unit = power_of_two(exponent_of(value) - bits)
     return Fraction(round(value / unit)) * unit
 
 
 def rounded_toward(number: Fraction, infinity: float) -> float:
-    """The nearest float64 that is not beyond the number on the side away from `infinity`; ±inf is one."""
+    """Round a number to float64 towards `infinity`, which is inf or −inf; the result may be infinite."""
     try:
         near = float(number)
     except OverflowError:
@@ -148,7 +150,7 @@ def rounded_toward(number: Fraction, infinity: float) -> float:
 
 
 def fraction(number: mpf) -> Fraction:
-    """The exact value of a number of mpmath, whose mantissa is stored without its sign."""
+    """Return the exact value of a number of mpmath, whose mantissa is stored without its sign."""
     size = Fraction(int(number.man)) * power_of_two(int(number.exp))
     return -size if number < 0 else size
 
@@ -202,7 +204,7 @@ class QuadraticSurd:
         return self.reciprocal * other
 
     def conjugate(self) -> QuadraticSurd:
-        """p − q√h."""
+        """Return p − q√h."""
         return QuadraticSurd(self.p, -self.q, self.h)
 
     @property
@@ -229,7 +231,7 @@ class QuadraticSurd:
         return hash((self.p, self.q, self.h))
 
     def _compare(self, other: object) -> int | None:
-        """The sign of self − other, or None where `other` is of another type."""
+        """Return the sign of self − other, or None if `other` is of another type."""
         difference = self.__sub__(other)
         if difference is NotImplemented:
             return None
@@ -246,11 +248,11 @@ class QuadraticSurd:
 
 
 def surd(p: Fraction, q: Fraction, h: Fraction) -> Fraction | QuadraticSurd:
-    """p + q√h, as a Fraction where q is 0; `h` must be no square of a rational."""
+    """Return p + q√h, as a Fraction if q is 0; `h` must not be the square of a rational."""
     return QuadraticSurd(p, q, h) if q else p
 
 
 def exact_root(square: Fraction) -> Fraction | QuadraticSurd:
-    """√square, square ≥ 0, exactly."""
+    """Return √square, square ≥ 0, exactly."""
     root = Fraction(math.isqrt(square.numerator), math.isqrt(square.denominator))
     return root if root * root == square else QuadraticSurd(Fraction(0), Fraction(1), square)

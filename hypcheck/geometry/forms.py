@@ -41,7 +41,7 @@ from hypcheck.geometry.rows import PAIRS, Floats, Layout, Rows, as_columns, as_n
 from hypcheck.messages import counted, escaped
 
 Argument: TypeAlias = Any
-"""A number, a column (n,), points, rows or a table, as said above."""
+"""A number, a column (n,), points, rows or a table, as the module's docstring says."""
 
 Answers: TypeAlias = Any
 """An array with an answer for each pair, or a number for one pair of numbers."""
@@ -51,8 +51,8 @@ Answers: TypeAlias = Any
 class CallForm:
     """The form of one kind of question: the layout of its rows, the points after the sizes, a sentence for messages.
 
-    `points` stand for three columns each, in their order; `apart`: these columns may be given in place of the points.
-    `other_names` are those of columns that have two.
+    `points` are the names of points in order, each with its three columns. `apart` are the columns that may be given in
+    place of the points. `other_names` are second names of columns, each with the name that the layout has.
     """
 
     layout: Layout
@@ -87,7 +87,7 @@ SWEEP = CallForm(
 
 @dataclass(frozen=True)
 class Questions:
-    """The pairs or sweeps of a call: a value for each name of a column, or rows that were given whole."""
+    """The pairs or sweeps of a call: a value for each name of a column, or else `given`, an array of rows."""
 
     columns: Mapping[str, Argument]
     given: Rows | None = None
@@ -110,7 +110,7 @@ class Questions:
         )
 
     def rows(self) -> Rows:
-        """The rows, float64, of any width that the layout has. Raises InputError; their values are not checked."""
+        """Make the rows, float64, of any width that the layout has. Raises InputError; their values are not checked."""
         if self.given is not None:
             return self.given
         return as_rows(self.columns, ALL_GROUPS, self.form.layout)
@@ -131,7 +131,7 @@ def questions_of(
     heights: Sequence[Argument] = WITHOUT_ENDS,
     form: CallForm = PAIR,
 ) -> Questions:
-    """The pairs or sweeps of a call. Raises InputError for a wrong number of arguments, and for a value given twice."""
+    """Read the pairs or sweeps of a call. Raises InputError for a wrong number of arguments, or a value given twice."""
     columns: dict[str, Argument] = {}
     _require_known(named, form)
     _add(columns, _by_position(arguments, named, form))
@@ -161,7 +161,7 @@ def _require_known(named: Mapping[str, Argument], form: CallForm) -> None:
 
 
 def _spread(named: Mapping[str, Argument], form: CallForm) -> dict[str, Argument]:
-    """Values by the names of columns; some names mean three columns. Raises InputError for a column given twice."""
+    """Return values by names of columns; some names mean three columns. Raises InputError for a column given twice."""
     columns: dict[str, Argument] = {}
     for keyword, value in named.items():
         name = form.other_names.get(keyword, keyword)
@@ -170,7 +170,7 @@ def _spread(named: Mapping[str, Argument], form: CallForm) -> dict[str, Argument
 
 
 def mean_no_ends(heights: Sequence[Argument]) -> bool:
-    """Whether z_min, z_max and solid are the numbers that a hyperboloid without ends has."""
+    """Decide whether z_min, z_max and solid are the numbers that a hyperboloid without ends has."""
     low, high, solid = heights
     return all(np.ndim(height) == 0 for height in heights) and low == -math.inf and high == math.inf and not solid
 
@@ -183,7 +183,7 @@ def _add(columns: dict[str, Argument], others: Mapping[str, Argument]) -> None:
 
 
 def _by_position(arguments: Sequence[Argument], named: Mapping[str, Argument], form: CallForm) -> dict[str, Argument]:
-    """The columns of the arguments without names; of points, the last may be among the named."""
+    """Return the columns of the arguments without names; the last points may be among `named`. Raises InputError."""
     count, unnamed = len(arguments), tuple(takewhile(lambda name: name not in named, form.points))
     if count == 0:
         return {}
@@ -206,7 +206,7 @@ def _by_position(arguments: Sequence[Argument], named: Mapping[str, Argument], f
 
 
 def _whole(value: Argument, form: CallForm) -> dict[str, Argument]:
-    """A table by its columns; an array of rows, or one row."""
+    """Read one argument that is a table or one row, by columns, or an array of rows, under the name rows."""
     names = names_of(value)
     if names is not None:
         return _spread({name: value[name] for name in names}, form)
@@ -224,7 +224,7 @@ def _whole(value: Argument, form: CallForm) -> dict[str, Argument]:
 
 
 def sizes_of(sizes: Argument) -> dict[str, Argument]:
-    """Four numbers or columns, or an array (n, 4), whose rows are sizes."""
+    """Read sizes by name: four numbers or columns, or an array (n, 4) whose rows are sizes. Raises InputError."""
     wanted = f"they must be four: {', '.join(SIZES)}, numbers or columns (n,), or an array (n, 4) of numbers"
     if isinstance(sizes, (str, bytes)) or not isinstance(sizes, (Sequence, np.ndarray)):
         raise InputError(f"the sizes are {escaped(reprlib.repr(sizes), 60)}; {wanted}")
@@ -239,7 +239,7 @@ def sizes_of(sizes: Argument) -> dict[str, Argument]:
 
 
 def named_points(subject: str, points: ArrayLike, names: Sequence[str] = CENTER) -> dict[str, Argument]:
-    """One point (3,), or points (n, 3), as values of three columns; an empty list has no points."""
+    """Return one point (3,), or points (n, 3), as values of three columns; an empty list has no points."""
     wanted = f"it must be three numbers, {', '.join(names)}, or an array (n, 3) of them"
     numbers = as_numbers(f"{subject} is", points, wanted)
     if numbers.shape == (0,) and names == CENTER:
@@ -251,7 +251,7 @@ def named_points(subject: str, points: ArrayLike, names: Sequence[str] = CENTER)
 
 
 def points_or_columns(x: ArrayLike, y: ArrayLike | None, z: ArrayLike | None) -> tuple[Any, Any, Any]:
-    """Three columns: the arguments, or the columns of points if only those are given."""
+    """Return three columns: the arguments, or those of the points `x` if y and z are None. Raises InputError."""
     if y is None and z is None:
         x, y, z = named_points("the centre", x).values()
     if y is None or z is None:
@@ -263,12 +263,12 @@ POINTS = f"it must be three numbers, {', '.join(CENTER)}, or an array (n, 3) of 
 
 
 def are_one(center: Sequence[ArrayLike], heading: ArrayLike, axis: ArrayLike | None) -> bool:
-    """Whether a query is one centre given as numbers; its answer then is a number, too."""
+    """Decide whether a query is one centre given as numbers; then its answer is a number, too."""
     return not any(map(np.ndim, (*center, heading))) and np.ndim(() if axis is None else axis) == 1
 
 
 def sweeps_of(start: ArrayLike, end: ArrayLike, heading: ArrayLike, axes: Sequence[ArrayLike]) -> tuple[Floats, ...]:
-    """The ends of sweeps, (n, 3) each, headings (n,), and the numbers of axes. Raises InputError where they are not."""
+    """Return starts and ends of sweeps, (n, 3) each, headings (n,), and the columns of axes. Raises InputError."""
     points = []
     for name, value in (("start", start), ("end", end)):
         point = as_numbers(f"{name} is", value, POINTS)
@@ -285,7 +285,7 @@ def sweeps_of(start: ArrayLike, end: ArrayLike, heading: ArrayLike, axes: Sequen
 
 
 def finite_columns(names: Sequence[str], arguments: Sequence[ArrayLike]) -> tuple[Floats, ...]:
-    """The columns as as_columns makes them. Raises InputError about the first number that is not finite."""
+    """Return columns as as_columns makes them. Raises InputError about the first number that is not finite."""
     columns = as_columns(names, arguments)
     for name, values in zip(names, columns, strict=True):
         finite = np.isfinite(values)
@@ -296,7 +296,7 @@ def finite_columns(names: Sequence[str], arguments: Sequence[ArrayLike]) -> tupl
 
 
 def directions(columns: Sequence[Floats]) -> Floats:
-    """The axes as (n, 3). Raises InputError about the first that is 0, 0, 0."""
+    """Return the axes as (n, 3). Raises InputError about the first that is 0, 0, 0."""
     axes = np.stack(columns, axis=1)
     nowhere = np.flatnonzero(~(axes != 0).any(axis=1))
     if len(nowhere):
@@ -305,7 +305,7 @@ def directions(columns: Sequence[Floats]) -> Floats:
 
 
 def finite_numbers(x: object, y: object, z: object, heading: object) -> tuple[float, float, float, float]:
-    """The four as finite float64. Raises InputError about anything else."""
+    """Return the four values as finite float64. Raises InputError about anything else."""
     if (
         type(x) is type(y) is type(z) is type(heading) is float
         and (math.isfinite(x) and math.isfinite(y) and math.isfinite(z) and math.isfinite(heading))
@@ -316,7 +316,7 @@ def finite_numbers(x: object, y: object, z: object, heading: object) -> tuple[fl
 
 
 def _number_of(name: str, value: object) -> float:
-    """The value as a finite float64; raises InputError about anything else."""
+    """Return the value as a finite float64. Raises InputError about anything else."""
     if not isinstance(value, (int, float)):
         array = as_numbers(f"{name} is", value, "it must be a number")
         if array.size != 1:

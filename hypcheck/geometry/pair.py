@@ -31,7 +31,7 @@ SWEEP_COLUMNS = SIZES + START + END
 """The names of the ten numbers of a straight sweep: the spheroid's centre goes from (x0, y0, z0) to (x1, y1, z1)."""
 
 TILTED_SWEEP_COLUMNS = SWEEP_COLUMNS + AXIS
-"""Those of the sweep of a tilted spheroid, whose axis stays as it is on the way."""
+"""The names of the thirteen numbers of a sweep of a tilted spheroid, whose axis keeps its direction."""
 
 ENDS = ("z_min", "z_max")
 HEIGHTS = (*ENDS, "solid")
@@ -118,14 +118,14 @@ class Pair:
 
     @classmethod
     def from_row(cls, row: Iterable[float]) -> Pair:
-        """The pair of a row of seven numbers, of ten with an axis, or of thirteen with an axis and heights."""
+        """Make the pair of a row of seven numbers, of ten with an axis, or of thirteen with an axis and heights."""
         return cls(*row)
 
     @property
     def row(self) -> tuple[float, ...]:
-        """The numbers in the order of COLUMNS, followed by those of the axis unless it is UPRIGHT, then by the heights.
+        """The numbers in the order of COLUMNS, followed by those of the axis unless it is UPRIGHT.
 
-        Where the hyperboloid ends, both are there.
+        If the hyperboloid ends, axis and heights follow in any case.
         """
         if self.has_ends:
             return self._seven + self.axis + self.heights
@@ -199,7 +199,7 @@ class Lengths:
 
     @classmethod
     def of(cls, row: Sequence[float | Fraction], upward: Sequence[float | Fraction] = UPRIGHT) -> Lengths:
-        """The integers of seven valid numbers, float64 or rational; an axis may follow them, and then heights."""
+        """Make the integers of seven valid numbers, float64 or rational; an axis may follow them, and then heights."""
         (lengths,) = cls.at_centers(row[:4], (row[4:7],), row[7:10] or UPRIGHT, upward, row[10:] or WITHOUT_ENDS)
         return lengths
 
@@ -212,7 +212,7 @@ class Lengths:
         upward: Sequence[float | Fraction],
         heights: Sequence[float | Fraction],
     ) -> list[Lengths]:
-        """The integers of valid numbers about one spheroid at some centres, all in the same units."""
+        """Make the integers of valid numbers about one spheroid at some centres, all in the same units."""
         alpha, gamma, b, d = sizes
         radial, axial = [alpha, b], [gamma, d]
         for x, y, z in centers:
@@ -234,7 +234,7 @@ class Lengths:
         return [cls(p, q, x, y, s, t, z, *axes, low, high, solid) for x, y, z in places]
 
     def finer(self, factor: int, step: Vector = (0, 0, 0)) -> Lengths:
-        """The same pair in units that are `factor` times as fine, its centre moved by a step in these units."""
+        """Return the same pair in units that are `factor` times as fine, its centre moved by a step in these units."""
         (u, v, w), low, high = step, self.low, self.high
         low, high = None if low is None else low * factor, None if high is None else high * factor
         radial = (self.alpha * factor, self.b * factor, self.x * factor + u, self.y * factor + v)
@@ -256,14 +256,14 @@ class Lengths:
 def counted_along(
     axis: Vector, upward: Sequence[float | Fraction], low: int | None, high: int | None
 ) -> tuple[int | None, int | None]:
-    """Two heights along a vector, as heights along a parallel axis, which may point the other way; None is infinite."""
+    """Turn heights along `upward` into heights along a parallel `axis`, maybe opposite; None is infinite."""
     if sum(a * b for a, b in zip(axis, upward, strict=True)) > 0:
         return low, high
     return None if high is None else -high, None if low is None else -low
 
 
 def trouble_with(name: str, value: object) -> str | None:
-    """Why `value` is not valid in column `name`, as the end of a sentence; None if it is valid."""
+    """Say why `value` is not valid in column `name`, as the end of a sentence; None if it is valid."""
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         return f"{name} is {value!r}; it must be a number"
     try:
@@ -278,13 +278,13 @@ def trouble_with(name: str, value: object) -> str | None:
 
 
 def trouble_with_axis(axis: Sequence[object]) -> str | None:
-    """Why three values are not an axis, as the end of a sentence; None if they are one."""
+    """Say why three values are not an axis, as the end of a sentence; None if they are one."""
     troubles = (trouble_with(name, part) for name, part in zip(AXIS, axis, strict=True))
     return next((trouble for trouble in troubles if trouble), None if any(axis) else NO_DIRECTION)
 
 
 def trouble_with_heights(heights: Sequence[object]) -> str | None:
-    """Why three values are not valid as z_min, z_max, solid, as the end of a sentence; None if they are."""
+    """Say why three values are not valid as z_min, z_max, solid, as the end of a sentence; None if they are."""
     low, high, solid = heights
     for name, value in zip(HEIGHTS, heights, strict=True):
         infinite = value in (-math.inf, math.inf) and name != "solid"
@@ -297,7 +297,7 @@ def trouble_with_heights(heights: Sequence[object]) -> str | None:
 
 
 def trouble_with_row(row: Sequence[object], columns: Sequence[str] = COLUMNS) -> str | None:
-    """The first trouble with the values of a row, as the end of a sentence; None for a valid row.
+    """Say the first trouble with the values of a row, as the end of a sentence; None for a valid row.
 
     Values of an axis may follow those of these columns, and values of heights may follow those of the axis. By default
     the row is one of seven, ten or thirteen numbers.
@@ -312,19 +312,19 @@ def trouble_with_row(row: Sequence[object], columns: Sequence[str] = COLUMNS) ->
 
 
 def to_integers(values: Sequence[float | Fraction]) -> Any:  # noqa: ANN401 - as many integers as values
-    """The values times the least number that makes each an integer."""
+    """Multiply the values by the least whole number that makes each an integer."""
     return tuple(over_one_denominator(values)[0])
 
 
 def over_one_denominator(values: Sequence[float | Fraction]) -> tuple[list[int], int]:
-    """Numbers as integers over their least common denominator, and that."""
+    """Return the numbers as integers over their least common denominator, and that denominator."""
     ratios = [value.as_integer_ratio() for value in values]
     unit = math.lcm(*(denominator for _, denominator in ratios))
     return [numerator * (unit // denominator) for numerator, denominator in ratios], unit
 
 
 def reduced(values: Sequence[float | Fraction]) -> Any:  # noqa: ANN401 - as many integers as values
-    """The values over the largest number of which all are integer multiples, up to an odd factor; not all are 0."""
+    """Scale the values to integers that are not all even, by multiplying with a positive number; not all are 0."""
     multiples = to_integers(values)
     union = 0
     for multiple in multiples:

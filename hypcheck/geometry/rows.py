@@ -42,7 +42,7 @@ Integers = NDArray[np.int64]
 Indices = NDArray[np.intp]
 Mask = NDArray[np.bool_]
 Rows = NDArray[np.float64]
-"""Shape (n, 7), unless a function says otherwise."""
+"""Rows of numbers, of shape (n, 7) unless a function says otherwise."""
 
 Row = tuple[float, ...]
 """The numbers of one row."""
@@ -61,8 +61,8 @@ CANNOT_SAY = 2
 class Layout:
     """The columns of rows: `upright` are the names for upright spheroids; for tilted ones, AXIS follows them.
 
-    Where hyperboloids end, HEIGHTS are behind AXIS, which is there for upright spheroids too. `subjects` say in a word
-    what rows with none, one or both of these groups are about: of hyperboloids that end no cause is known.
+    Where hyperboloids end, HEIGHTS are behind AXIS, which is there for upright spheroids too. `subjects` are words for
+    what rows with none, with one or with both of these groups are about.
     """
 
     upright: tuple[str, ...]
@@ -74,12 +74,12 @@ class Layout:
         return len(self.upright), len(self.tilted), len(self.ended)
 
     def groups(self, rows: Rows | Sequence[object]) -> Groups:
-        """The groups of columns that the rows, or one row, have."""
+        """Return the groups of columns that the rows, or one row, have."""
         there = {"end": self.has_end, "axis": self.has_axis(rows), "heights": self.has_heights(rows)}
         return frozenset(name for name, has in there.items() if has)
 
     def subject(self, rows: Rows | Sequence[object]) -> str:
-        """The subject of the rows, or of one row."""
+        """Return the word of `subjects` for the rows, or for one row."""
         return self.subjects[self.has_axis(rows) + self.has_heights(rows)]
 
     @property
@@ -103,20 +103,20 @@ class Layout:
         return self.tilted + HEIGHTS
 
     def columns(self, width: int) -> tuple[str, ...]:
-        """The names of the columns of a row with that many numbers."""
+        """Return the names of the columns of a row with that many numbers."""
         return self.ended[:width]
 
     def split(self, row: Sequence[Any]) -> tuple[Sequence[Any], Sequence[Any], Sequence[Any]]:
-        """The numbers of a row in three parts: sizes and centres, the axis, the heights; a missing part is empty."""
+        """Split a row into three parts: sizes and centres, the axis, the heights; a missing part is empty."""
         upright, tilted = len(self.upright), len(self.tilted)
         return row[:upright], row[upright:tilted], row[tilted:]
 
     def has_axis(self, rows: Rows | Sequence[object]) -> bool:
-        """Whether the rows, or one row, have the columns of an axis."""
+        """Decide whether the rows, or one row, have the columns of an axis."""
         return _width_of(rows) > len(self.upright)
 
     def has_heights(self, rows: Rows | Sequence[object]) -> bool:
-        """Whether the rows, or one row, have the columns of heights."""
+        """Decide whether the rows, or one row, have the columns of heights."""
         return _width_of(rows) > len(self.tilted)
 
 
@@ -125,32 +125,32 @@ def _width_of(rows: Rows | Sequence[object]) -> int:
 
 
 PAIRS = Layout(COLUMNS)
-"""One position of a spheroid: (n, 7), or (n, 10) with its axis."""
+"""The layout of pairs: (n, 7), (n, 10) with an axis, or (n, 13) with an axis and heights."""
 
 SWEEPS = Layout(SWEEP_COLUMNS, ("way", "way", "way"))
-"""The sweep between two positions of a spheroid: (n, 10), or (n, 13) with its axis."""
+"""The layout of sweeps: (n, 10), (n, 13) with an axis, or (n, 16) with an axis and heights."""
 
 
 def layout_with(groups: Groups) -> Layout:
-    """The layout of rows with these groups."""
+    """Return the layout of rows with these groups."""
     return SWEEPS if "end" in groups else PAIRS
 
 
 def columns_with(groups: Groups) -> tuple[str, ...]:
-    """The names of the columns of rows with these groups; where heights are, an axis is."""
+    """Return the names of the columns of rows with these groups; rows with heights also have an axis."""
     layout = layout_with(groups)
     return layout.ended if "heights" in groups else layout.tilted if "axis" in groups else layout.upright
 
 
 def fits(groups: Groups, taken: Groups) -> bool:
-    """Whether an implementation that takes the groups `taken` can answer rows with these groups."""
+    """Decide whether an implementation that takes the groups `taken` can answer rows with these groups."""
     return groups <= taken and layout_with(groups) == layout_with(taken)
 
 
 def as_rows(values: Table | ArrayLike, taken: Groups = NO_GROUPS, layout: Layout = PAIRS) -> Rows:
-    """`values` as a float64 array (n, 7), also (n, 10) where an axis is taken; contiguous float64 input is not copied.
+    """Return `values` as a float64 array (n, 7), or also (n, 10) if an axis is taken, (n, 13) if heights are.
 
-    Where heights are taken, also (n, 13). With another layout, the widths are those of its columns. `values` may also
+    Contiguous float64 input is not copied. With another layout, the widths are those of its columns. `values` may also
     be a table of the columns by name: a dict, a data frame, a structured array, or whatever else has names and gives a
     column for each; columns and numbers are broadcast, and where heights are given what is missing of them and of an
     axis is filled in. Raises InputError if the shape or the type is another, a name is unknown or missing, or values
@@ -175,7 +175,7 @@ Table = Mapping[str, ArrayLike]
 
 
 def names_of(values: object) -> list[str] | None:
-    """The names of a table's columns; None if the value is not a table."""
+    """Return the names of a table's columns; None if the value is not a table."""
     if isinstance(values, np.ndarray):
         return None if values.dtype.names is None else list(values.dtype.names)
     names = getattr(values, "keys", None)
@@ -183,7 +183,7 @@ def names_of(values: object) -> list[str] | None:
 
 
 def _rows_of_table(table: Table, names: Sequence[object], layout: Layout, known: tuple[str, ...]) -> Rows:
-    """The rows of a table of these columns, of which those of an axis and of heights may be missing."""
+    """Make the rows of a table of these columns; those of an axis and of heights may be missing. Raises InputError."""
     for name in names:
         if name not in known:
             raise InputError(f"there is no column {escaped(repr(name), 60)}; the columns are {', '.join(known)}")
@@ -203,7 +203,7 @@ _DEFAULTS: Mapping[str, float] = dict(zip((*AXIS, *HEIGHTS), (*UPRIGHT, *WITHOUT
 
 
 def as_columns(names: Sequence[str], arguments: Sequence[ArrayLike]) -> tuple[Floats, ...]:
-    """The values of x, y, z …, each a number or an array (n,), as float64 columns of one length n.
+    """Return values, each a number or an array (n,), as float64 columns of one length n.
 
     Raises InputError naming the value that is neither, or the shapes that do not fit together.
     """
@@ -226,7 +226,7 @@ def as_columns(names: Sequence[str], arguments: Sequence[ArrayLike]) -> tuple[Fl
 
 
 def tilted_rows(sizes: Sizes, center: Columns, axis: Sequence[float | Floats]) -> Rows:
-    """One spheroid at many centres as rows (n, 10); x, y, z are (n,) each, an axis' numbers (n,) or one for all."""
+    """Make rows (n, 10) of one spheroid at many centres; each number of the axis is (n,) or one for all."""
     rows = np.empty((len(center[0]), len(TILTED_COLUMNS)))
     for column, value in enumerate((*sizes, *center, *axis)):
         rows[:, column] = value
@@ -234,7 +234,7 @@ def tilted_rows(sizes: Sizes, center: Columns, axis: Sequence[float | Floats]) -
 
 
 def as_numbers(subject: str, values: object, wanted: str) -> Floats:
-    """`values` as float64 of their own shape. Raises InputError, "<subject> …; <wanted>", unless all are real numbers.
+    """Return `values` as float64 of their own shape. Raises InputError, "<subject> …; <wanted>", unless all are real.
 
     A number beyond the range of float64 becomes infinite. Texts, truth values and masked values are not numbers.
     """
@@ -253,7 +253,7 @@ def as_numbers(subject: str, values: object, wanted: str) -> Floats:
 
 
 def truth_values_as_numbers(values: ArrayLike) -> ArrayLike:
-    """`values`, true and false as 1 and 0."""
+    """Return `values`, with 1 and 0 for true and false."""
     array = np.asarray(values)
     return array.astype(np.float64) if array.dtype == np.bool_ else values
 
@@ -267,7 +267,7 @@ def require_unmasked(subject: str, values: object) -> None:
 
 
 def invalid(rows: Rows, layout: Layout = PAIRS) -> Mask:
-    """A mask (n,) of the invalid rows: see pair.Pair."""
+    """Return a mask (n,) of the invalid rows; pair.Pair says what is valid."""
     others, axis, heights = parts_of(rows, layout)
     valid = np.isfinite(rows[:, : len(layout.tilted)]).all(axis=1) & (others[:, : len(SIZES)] > 0).all(axis=1)
     if layout.has_axis(rows):
@@ -279,29 +279,29 @@ def invalid(rows: Rows, layout: Layout = PAIRS) -> Mask:
 
 
 def parts_of(rows: Rows, layout: Layout = PAIRS) -> tuple[Rows, Rows, Rows]:
-    """The columns of rows in three parts: sizes and centres, the axis, the heights; a missing part is (n, 0)."""
+    """Split columns of rows into three parts: sizes and centres, the axis, the heights; a missing part is (n, 0)."""
     places = len(layout.upright), len(layout.tilted)
     return rows[:, : places[0]], rows[:, places[0] : places[1]], rows[:, places[1] :]
 
 
 def with_axis(rows: Rows, layout: Layout = PAIRS) -> Rows:
-    """The same queries with an axis: rows without one get the axis 0, 0, 1, others are returned as they are."""
+    """Give rows without an axis the axis 0, 0, 1; return other rows as they are."""
     return _widened(rows, len(layout.tilted), layout)
 
 
 def with_heights(rows: Rows, layout: Layout = PAIRS) -> Rows:
-    """The same queries with an axis and heights: rows without them get those that mean upright and without ends."""
+    """Give rows without an axis or heights those that mean upright and without ends."""
     return _widened(rows, len(layout.ended), layout)
 
 
 def as_wide(parts: Sequence[Rows], layout: Layout = PAIRS) -> list[Rows]:
-    """The parts with columns alike: with heights if one of them has heights, with an axis if one has an axis."""
+    """Give all parts the same columns: heights if one of them has heights, an axis if one has an axis."""
     widest = max((part.shape[1] for part in parts), default=0)
     return [_widened(part, widest, layout) for part in parts]
 
 
 def _widened(rows: Rows, width: int, layout: Layout) -> Rows:
-    """The same queries with that many columns at least, contiguous; missing ones get their defaults."""
+    """Give rows at least that many columns, contiguous; missing ones get their defaults."""
     missing = [_DEFAULTS[name] for name in layout.ended[rows.shape[1] : width]]
     if not missing:
         return rows
@@ -309,14 +309,14 @@ def _widened(rows: Rows, width: int, layout: Layout) -> Rows:
 
 
 def upright_mask(rows: Rows) -> Mask:
-    """A mask (n,) of the rows about pairs whose spheroid is upright: the axis is vertical, or b = d."""
+    """Return a mask (n,) of the pairs whose spheroid is upright: the axis is vertical, or b = d."""
     if not PAIRS.has_axis(rows):
         return np.ones(len(rows), dtype=np.bool_)
     return np.asarray((rows[:, 7:9] == 0).all(axis=1) | (rows[:, 2] == rows[:, 3]))
 
 
 def scenes_of(rows: Rows) -> list[Indices]:
-    """The indices of the rows of each scene, the largest scene first: rows of a scene differ only in their centres."""
+    """Group rows that differ only in their centres; return the indices of each group, the largest group first."""
     fixed = np.delete(rows, (4, 5, 6), axis=1)
     _, scene = np.unique(fixed, axis=0, return_inverse=True)
     order = np.argsort(scene.reshape(-1), kind="stable")
@@ -325,7 +325,7 @@ def scenes_of(rows: Rows) -> list[Indices]:
 
 
 def first_trouble(rows: Rows, first_number: int = 0, layout: Layout = PAIRS) -> str | None:
-    """The sentence about the first invalid row, counted from `first_number`, or None where all rows are valid."""
+    """Return a sentence about the first invalid row, counted from `first_number`, or None if all rows are valid."""
     bad = np.flatnonzero(invalid(rows, layout))
     if not len(bad):
         return None
@@ -352,7 +352,7 @@ UNBOUNDED: Range = (0.0, math.inf)
 def within(
     rows: Rows, ratio: Range = ORDINARY_RATIO, magnitude: Range = ORDINARY_MAGNITUDE, layout: Layout = PAIRS
 ) -> Mask:
-    """A mask (n,) of the rows with α/b and γ/d in `ratio` and lengths in `magnitude`, bounds included.
+    """Return a mask (n,) of the rows with α/b and γ/d in `ratio` and lengths in `magnitude`, bounds included.
 
     The lower limit of magnitudes applies only to semi-axes: a coordinate may be arbitrarily near 0, since a centre
     close to the axis or to the waist is ordinary, and so may an end, which may also be infinite. The axis of a spheroid
@@ -388,7 +388,7 @@ class FixedSizes:
         return self.x, self.y, self.z
 
     def holds(self, rows: Rows, layout: Layout = PAIRS) -> Mask:
-        """A mask (n,) of the rows with these sizes, this axis and the centre (of a sweep both centres) in the spans."""
+        """Return a mask (n,) of the rows with these sizes, this axis and the centre (of a sweep both) in the spans."""
         inside = (rows[:, :4] == self.sizes).all(axis=1)
         if not inside.any():  # the usual case where a scene has many sizes
             return np.asarray(inside)

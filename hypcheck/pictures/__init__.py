@@ -41,7 +41,7 @@ Numbers = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class ShownContact:
-    """The first contact of the mover on a segment: the mover's centre, and the hyperboloid's number."""
+    """The first contact of the mover on a segment: the mover's centre there, and the index of the hyperboloid."""
 
     segment: int
     center: Sequence[float]
@@ -57,8 +57,8 @@ class ShownFlight:
     mover's parts, from its centre.
 
     The flight is cut into k pieces of one length. `lower`, `upper` (k,) are proved bounds of the least distance on
-    each, `near` (k,) the hyperboloid that it is from, and `touched` (k,) says where it is 0. `least` is the
-    length flown to the least of all, and its bounds.
+    each, `near` (k,) the index of the hyperboloid that it is from, and `touched` (k,) says where it is 0. `least` is
+    the length flown until the least distance of all, and its lower and upper bound.
     """
 
     points: Numbers
@@ -75,14 +75,14 @@ class ShownFlight:
 
 
 _SEE_THROUGH = 12
-"""Scenes of so few hyperboloids are drawn so that what is inside can be seen."""
+"""A scene of at most so many hyperboloids is drawn transparent, so that the inside can be seen."""
 
 _FILES = files("hypcheck.pictures")
 
 
 @dataclass(frozen=True)
 class ScenePage:
-    """A page; a notebook shows it where it is the last line of a cell."""
+    """An HTML page; a notebook shows it if it is the last line of a cell."""
 
     html: str
 
@@ -96,11 +96,11 @@ class ScenePage:
 
 
 _FARTHEST = 1e18
-"""What is drawn reaches no farther, since the browser squares lengths in float32."""
+"""The largest length that can be drawn, since the browser squares lengths in float32."""
 
 
 def page_of(model: SceneModel, flight: ShownFlight | None = None) -> str:
-    """The page of a scene, and of a flight where there is one. Raises InputError for a scene that is too large."""
+    """Make the page of a scene, and of a flight if there is one. Raises InputError for a scene that is too large."""
     with np.errstate(all="ignore"):
         bodies = drawn_bodies(model, flight)
         view, middle = _view(bodies, flight)
@@ -123,7 +123,11 @@ def page_of(model: SceneModel, flight: ShownFlight | None = None) -> str:
 
 
 def drawn_bodies(model: SceneModel, flight: ShownFlight | None) -> Numbers:
-    """α, γ, heights, centres, axes, solid, touched: (n, 12). Endless bodies are drawn as far as others reach."""
+    """Return α, γ, both heights, centre, axis, solid, touched of each body, (n, 12).
+
+    A body without ends is drawn as high as the others, or as the flight. Axes are unit vectors; one straight down is
+    turned up.
+    """
     touched = set() if flight is None else {contact.index for contact in flight.contacts}
     rows = []
     for number, body in enumerate(model.hyperboloids):
@@ -144,7 +148,7 @@ def drawn_bodies(model: SceneModel, flight: ShownFlight | None) -> Numbers:
 
 
 def _view(bodies: Numbers, flight: ShownFlight | None) -> tuple[dict[str, Any], Numbers]:
-    """The first view of the camera, relative to the middle of the picture, and that middle."""
+    """Return the first view of the camera, relative to the middle of the picture, and that middle."""
     tall = np.abs(bodies[:, 2:4]).max(axis=1)
     wide = np.maximum(bodies[:, 0] * np.sqrt(1 + (tall / bodies[:, 1]) ** 2), tall)[:, None]
     low, high = (bodies[:, 4:7] - wide).min(axis=0), (bodies[:, 4:7] + wide).max(axis=0)
@@ -159,6 +163,7 @@ def _view(bodies: Numbers, flight: ShownFlight | None) -> tuple[dict[str, Any], 
 
 
 def _of_flight(model: SceneModel, flight: ShownFlight, middle: Numbers) -> dict[str, Any]:
+    """Return the data of a flight that the page needs; coordinates are relative to `middle`."""
     names = [body.name for body in model.hyperboloids]
     flown, lower, upper = flight.least
     parts = [
@@ -180,10 +185,12 @@ def _of_flight(model: SceneModel, flight: ShownFlight, middle: Numbers) -> dict[
 
 
 def _packed(numbers: NDArray[Any]) -> str:
+    """Write numbers as little-endian float32 in base64."""
     return base64.b64encode(np.ascontiguousarray(numbers, "<f4").tobytes()).decode()
 
 
 def _filled(name: str, summary: str, data: dict[str, Any], *, with_flight: bool) -> str:
+    """Fill the template of the page with the data, styles and scripts."""
     legend = [("body", "hyperboloids")]
     if with_flight:
         legend += [("mover", "mover"), ("swept", "what it sweeps"), ("contact", "contact"), ("least", "least distance")]
@@ -210,7 +217,7 @@ def _text(name: str) -> str:
 
 @cache
 def _library() -> dict[str, str]:
-    """The files of three.js by name, as a page holds them: a megabyte, whose packing takes longer than all else."""
+    """Read the files of three.js by name, packed as a page holds them: a megabyte, which takes longer than all else."""
     packed = io.BytesIO(_FILES.joinpath("three", "three.tar.xz").read_bytes())
     with tarfile.open(fileobj=packed, mode="r:xz") as archive:
         contents = {member.name: archive.extractfile(member) for member in archive.getmembers()}
@@ -223,13 +230,13 @@ def _library() -> dict[str, str]:
 
 _VIEWS = (("plan", 0, 1, "x", "y"), ("elevation", 0, 2, "x", "z"))
 _MOST = 400
-"""Bodies that are drawn, those nearest to the middle of the flight."""
+"""The largest number of bodies in a plot; the nearest to the middle of the flight are drawn."""
 
 _TURNS = np.linspace(0, 2 * np.pi, 33)[:-1]
 
 
 def plot_of(model: SceneModel, flight: ShownFlight | None) -> Figure:
-    """The figure. Raises UnavailableError where matplotlib is missing."""
+    """Draw plan and elevation of a scene and a flight. Raises UnavailableError if matplotlib is missing."""
     try:
         from matplotlib import collections, figure  # noqa: PLC0415 - an extra, which takes half a second
     except ModuleNotFoundError:
@@ -254,7 +261,7 @@ def plot_of(model: SceneModel, flight: ShownFlight | None) -> Figure:
 
 
 def _draw_flight(axes: Any, collection: Any, mover: Mover, flight: ShownFlight, columns: tuple[int, int]) -> None:  # noqa: ANN401 - matplotlib's
-    """The swept spheroid, segments with contact in red, the centre's line, and the first places of contact."""
+    """Draw what the spheroid sweeps, red on segments with contact, the line of the centre, and first contacts."""
     chosen = list(columns)
     for hit, colour in ((False, "#4c93d6"), (True, "#c2161d")):
         hulls = []
@@ -269,6 +276,7 @@ def _draw_flight(axes: Any, collection: Any, mover: Mover, flight: ShownFlight, 
 
 
 def _frame(axis: Numbers) -> tuple[Numbers, Numbers, Numbers]:
+    """Return three unit vectors at right angles to each other; the third is along the axis."""
     along = axis / np.linalg.norm(axis)
     across = np.cross(np.eye(3)[np.abs(along).argmin()], along)
     across /= np.linalg.norm(across)
@@ -276,7 +284,7 @@ def _frame(axis: Numbers) -> tuple[Numbers, Numbers, Numbers]:
 
 
 def _rings(body: Numbers, slices: int) -> Numbers:
-    """Points (slices + 1, 32, 3) of a body as page.py lists it."""
+    """Return rings of points on a body, a row of drawn_bodies: (slices + 1, 32, 3)."""
     alpha, gamma, low, high = body[:4]
     first, second, along = _frame(body[7:10])
     heights = np.linspace(low, high, slices + 1)[:, None, None]
@@ -286,7 +294,7 @@ def _rings(body: Numbers, slices: int) -> Numbers:
 
 
 def _spheroid(mover: Mover, axis: Numbers) -> Numbers:
-    """Points (n, 3) of a spheroid about its centre."""
+    """Return points (n, 3) of the mover's surface, relative to its centre."""
     first, second, along = _frame(axis)
     polar = np.linspace(0, np.pi, 25)[:, None, None]
     circle = np.cos(_TURNS)[:, None] * first + np.sin(_TURNS)[:, None] * second
@@ -294,11 +302,12 @@ def _spheroid(mover: Mover, axis: Numbers) -> Numbers:
 
 
 def _hulls(rings: Numbers) -> list[Numbers]:
+    """Return the convex hull of each two neighbouring rings."""
     return [_hull(np.concatenate(both)) for both in pairwise(rings)]
 
 
 def _hull(points: Numbers) -> Numbers:
-    """The convex hull of points (n, 2), by Andrew's monotone chain."""
+    """Return the convex hull of points (n, 2), by Andrew's monotone chain."""
     order = points[np.lexsort((points[:, 1], points[:, 0]))].tolist()
     halves = []
     for side in (order, order[::-1]):

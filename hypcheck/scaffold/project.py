@@ -81,7 +81,7 @@ _MARK = re.compile(rf"@({'|'.join(STUBS)}|end)@\n")
 
 @dataclass(frozen=True, slots=True)
 class Project:
-    """A project to write: the language of its adapter, the name of its implementation, and one of STUBS."""
+    """A project to write: the language of its adapter, the name of its implementation, and `stub`, one of STUBS."""
 
     language: Language
     name: str = ""
@@ -122,7 +122,7 @@ class Project:
         return f"{self.language.folder}/{self.language.predicate}"
 
     def files(self) -> dict[str, str]:
-        """The texts of the language's folder by path, relative to the project; the stub first."""
+        """Make the texts of the language's folder by path, relative to the project; the stub comes first."""
         language = self.language
         written = {f"{language.folder}/{name}": self.filled(language.name, name) for name in language.files}
         if language.products:
@@ -130,7 +130,7 @@ class Project:
         return written
 
     def filled(self, folder: str, name: str) -> str:
-        """A template with its marks such as @NAME@ filled in; if the stub has a template of its own, that one."""
+        """Fill in a template's marks such as @NAME@; if the stub has a template of its own, it takes that one."""
         own = f"{folder}-{self.stub}"
         return filled(own if template(own, name).is_file() else folder, name, self._values, self.stub)
 
@@ -149,7 +149,7 @@ class Project:
 
 
 def filled(folder: str, name: str, values: Mapping[str, str], stub: str = STUBS[0]) -> str:
-    """The text of a template for a stub, with these values for its places.
+    """Return the text of a template for a stub, with these values in place of marks such as @NAME@.
 
     Lines after @position@ or @passage@, to the next of these or to @end@, are for that stub alone.
     """
@@ -164,12 +164,12 @@ def filled(folder: str, name: str, values: Mapping[str, str], stub: str = STUBS[
 
 
 def template(folder: str, name: str) -> Traversable:
-    """The file of a template, which may not exist."""
+    """Return the file of a template, which may not exist."""
     return files("hypcheck.scaffold").joinpath("templates", folder, *name.split("/"))
 
 
 def safe_name(text: str) -> str:
-    """The name in letters, digits and . _ - only, at most LONGEST_NAME of them; empty if nothing is left.
+    """Reduce a name to letters, digits and . _ -, at most LONGEST_NAME of them; empty if nothing is left.
 
     It is written into JSON within string literals of all languages, so only characters without a meaning there pass.
     """
@@ -182,7 +182,7 @@ WORKFLOW = ".github/workflows/hypcheck.yml"
 IGNORED = ".gitignore"
 
 _SPECS = re.compile(r"^specs[ \t]*=[ \t]*\[(?P<listed>.*|(?:.*\n)+?)\](?=[ \t]*(?:#.*)?$)", re.MULTILINE)
-"""A list on one line, or one whose closing bracket begins a line."""
+"""Matches the list `specs` on one line, or one whose closing bracket begins a line."""
 _KEEP_STEP = re.compile(r"^ *- name: Keep the report *$", re.MULTILINE)
 """The step of a workflow before which init adds the steps of a language."""
 _WIDTH = 108
@@ -191,7 +191,7 @@ _WIDTH = 108
 def shared_files(
     root: Path, project: Project, wanted: Requirement | None, *, force: bool
 ) -> tuple[dict[str, str], list[str]]:
-    """The texts to write or change, by path, and notes about what could not be added.
+    """Make the texts of files to write or change, by path, and notes about what could not be added.
 
     With `force`, settings and workflow are written again for all languages that have a folder there. Raises InputError
     if nothing can be added to an existing file.
@@ -214,7 +214,7 @@ def _text(path: Path) -> str | None:
 
 
 def _with_spec(text: str, project: Project, path: Path, notes: list[str]) -> str:
-    """The settings with the SPEC added to `specs`; unchanged, with a note, if it cannot be added."""
+    """Add the SPEC to `specs` of the settings; if it cannot be added, return them unchanged and add a note."""
     try:
         content = toml.parsed(text, str(path))
     except InputError as error:
@@ -234,7 +234,7 @@ def _with_spec(text: str, project: Project, path: Path, notes: list[str]) -> str
 
 
 def _listed(text: str, project: Project) -> str:
-    """The text with the SPEC at the end of its list, on a line below a comment with its build command."""
+    """Add the SPEC at the end of the list `specs`, on a line below a comment with its build command."""
 
     def longer(match: re.Match[str]) -> str:
         listed = match["listed"].rstrip()
@@ -246,7 +246,7 @@ def _listed(text: str, project: Project) -> str:
 
 
 def _with_steps(text: str, project: Project, path: Path) -> str:
-    """The workflow with the steps of the language before the step that keeps the reports."""
+    """Add the steps of the language to the workflow, before the step that keeps the reports. Raises InputError."""
     steps = project.filled("common", "steps.yml")
     if steps in text:
         return text
@@ -257,7 +257,7 @@ def _with_steps(text: str, project: Project, path: Path) -> str:
 
 
 def _with_install(text: str, wanted: Requirement | None, path: Path, notes: list[str]) -> str:
-    """The workflow with a step that installs `wanted`, in place of the step that fails because nothing was named."""
+    """Replace the step that fails because nothing was named by one that installs `wanted`; add a note if it cannot."""
     nothing = _install(None)
     if wanted is None:
         if nothing in text:
@@ -272,6 +272,7 @@ def _with_install(text: str, wanted: Requirement | None, path: Path, notes: list
 
 
 def _install(wanted: Requirement | None) -> str:
+    """Return the step that installs `wanted`, or the one that fails because nothing was named."""
     if wanted is None:
         return filled("common", "install-nothing.yml", {}).rstrip("\n")
     about = [
@@ -284,7 +285,7 @@ def _install(wanted: Requirement | None) -> str:
 
 
 def _with_ignored(text: str) -> str:
-    """The .gitignore with the files that runs write."""
+    """Add to the .gitignore the files that runs write."""
     title, *wanted = filled("common", "ignored", {}).splitlines()
     there = {line.strip().strip("/") for line in text.splitlines()}
     missing = [line for line in wanted if line.strip("/") not in there]
@@ -292,6 +293,7 @@ def _with_ignored(text: str) -> str:
 
 
 def _taken(path: Path, reason: str) -> InputError:
+    """Make the error that nothing can be added to an existing file."""
     return InputError(
         f"{path} exists; nothing was written; --force replaces it, as nothing can be added to it: it {reason}"
     )

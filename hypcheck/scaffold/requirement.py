@@ -38,7 +38,7 @@ _ABBREVIATED = re.compile(r"[0-9a-f]{7,39}")
 _DIGEST = re.compile(r"#sha256=[0-9a-f]{64}")
 _ARCHIVES = (".whl", ".tar.gz", ".zip")
 _SECONDS = 15.0
-"""The time within which a repository must answer with the commit of a name."""
+"""The seconds within which a repository must answer with the commit of a name."""
 
 RIGHT = (
     "a git URL such as https://HOST/OWNER/hypcheck.git@COMMIT, a wheel or sdist (a path, or a URL), "
@@ -62,7 +62,7 @@ class Requirement:
 
 
 def requirement(source: str, directory: Path) -> Requirement:
-    """The requirement of `--from`, for a workflow of the repository in `directory`. It does not run git.
+    """Return the requirement of `--from`, for a workflow of the repository in `directory`. It does not run git.
 
     Raises InputError unless `source` is RIGHT, and for a URL with a password, which must not get into a workflow.
     """
@@ -83,7 +83,7 @@ def requirement(source: str, directory: Path) -> Requirement:
 
 
 def pinned(wanted: Requirement) -> Requirement:
-    """The requirement at the current commit of its branch or tag, with a sentence about it.
+    """Pin the requirement to the current commit of its branch or tag, and add a sentence about it.
 
     If a remote repository cannot be asked, a sentence says so. Raises InputError if a local one cannot be read, or has
     no such branch or tag.
@@ -111,12 +111,12 @@ def pinned(wanted: Requirement) -> Requirement:
 
 
 def _names(ref: str) -> tuple[str, ...]:
-    """The refs that a name may mean, in pip's order: a branch before a tag, and for an annotated tag its commit."""
+    """Return the refs that a name may mean, in pip's order: a branch before a tag, of an annotated tag its commit."""
     return (ref, f"refs/heads/{ref}", f"refs/tags/{ref}^{{}}", f"refs/tags/{ref}")
 
 
 def _refs(repository: str) -> dict[str, str] | str:
-    """The commit of each ref of a repository, or the reason why they are not known."""
+    """Ask a repository for the commit of each ref; return them, or the reason why they are not known."""
     quiet = {"GIT_TERMINAL_PROMPT": "0", "GIT_SSH_COMMAND": "ssh -o BatchMode=yes"}
     words = ["git", "ls-remote", "--", repository]
     try:
@@ -135,6 +135,7 @@ def _refs(repository: str) -> dict[str, str] | str:
 
 
 def _of_index(project: str, version: str) -> Requirement:
+    """Return the requirement of one version on a package index."""
     where = (
         f"pip takes {project} {version} from the package index of the machine that runs the workflow, by default PyPI"
     )
@@ -142,7 +143,7 @@ def _of_index(project: str, version: str) -> Requirement:
 
 
 def _of_url(project: str, url: str, source: str) -> Requirement:
-    """A repository or an archive at a URL."""
+    """Return the requirement of a repository or an archive at a URL. Raises InputError."""
     match = _URL.fullmatch(url)
     if not match:
         raise _wrong(source)
@@ -161,6 +162,7 @@ def _of_url(project: str, url: str, source: str) -> Requirement:
 
 
 def _of_git(project: str, url: str, end: str | None, source: str) -> Requirement:
+    """Return the requirement of a git repository at a URL with an end such as @REF. Raises InputError."""
     ref = _REF.fullmatch(end or "")
     if end and not ref:
         raise _wrong(source)
@@ -171,6 +173,7 @@ def _of_git(project: str, url: str, end: str | None, source: str) -> Requirement
 
 
 def _of_archive(project: str, url: str, end: str, source: str) -> Requirement:
+    """Return the requirement of a wheel or sdist at a URL, pinned by its digest if it is known."""
     if end and not _DIGEST.fullmatch(end):
         raise _wrong(source)
     if url.startswith("file:"):
@@ -181,7 +184,10 @@ def _of_archive(project: str, url: str, end: str, source: str) -> Requirement:
 
 
 def _of_path(path: Path, directory: Path) -> Requirement:
-    """A file or folder of this machine: pinned by the repository if it is in it, else by its digest or commit."""
+    """Return the requirement of a file or folder of this machine.
+
+    If it is in the repository, the repository pins it; else its digest or commit does. Raises InputError.
+    """
     whole = path.resolve()
     if not (whole.is_dir() or whole.name.endswith(_ARCHIVES)):
         raise InputError(f"--from is {str(path)!r}, which is neither a folder nor a wheel or sdist; it must be {RIGHT}")
@@ -194,6 +200,7 @@ def _of_path(path: Path, directory: Path) -> Requirement:
 
 
 def _digest(path: Path) -> str:
+    """Return the end of a URL that pins a file by its SHA-256. Raises InputError."""
     try:
         with path.open("rb") as file:
             digest = hashlib.sha256()
@@ -205,9 +212,11 @@ def _digest(path: Path) -> str:
 
 
 def _here(url: str) -> str:
+    """Say that the machine of the workflow must have the file of this URL."""
     return f"the machine that runs the workflow must have {url} too"
 
 
 def _wrong(source: str) -> InputError:
+    """Make the error that `source` is not RIGHT."""
     path = "://" not in source and (source.startswith((".", "/", "~")) or source.endswith(_ARCHIVES))
     return InputError(f"--from is {source!r}{', which does not exist' if path else ''}; it must be {RIGHT}")

@@ -1,4 +1,4 @@
-"""Hyperboloids and movers from numbers and arrays, with the checks that a file's have; model.py has their meaning."""
+"""Make hyperboloids and movers of numbers and arrays, checked as those of a file are; model.py has their meaning."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def hyperboloids_of(
     heights: Sequence[ArrayLike],
     names: Sequence[str] | None,
 ) -> tuple[Hyperboloid, ...]:
-    """One hyperboloid for each center, (n, 3); other values are numbers or columns (n,). Raises InputError."""
+    """Make a hyperboloid for each center, (n, 3); other values are numbers or columns (n,). Raises InputError."""
     points, axes = named_points("center", center), named_points("axis", (0, 0, 1) if axis is None else axis, AXIS)
     values = (alpha, gamma, *points.values(), *axes.values(), *heights)
     columns = [column.tolist() for column in as_columns((*SIZES[:2], *CENTER, *AXIS, *HEIGHTS), values)]
@@ -51,7 +51,7 @@ def hyperboloids_of(
 
 
 def checked_hyperboloid(body: Hyperboloid) -> Hyperboloid:
-    """The hyperboloid with float64 for its numbers. Raises InputError where one is not valid."""
+    """Return the hyperboloid with float64 for its numbers. Raises InputError if one is not valid."""
     if not isinstance(body, Hyperboloid):
         raise InputError(
             f"a hyperboloid is of type {type(body).__name__}; it must be a Hyperboloid(name, alpha, gamma, center)"
@@ -77,7 +77,7 @@ def checked_hyperboloid(body: Hyperboloid) -> Hyperboloid:
 
 
 def point_of(subject: str, point: ArrayLike) -> Point:
-    """Three numbers. Raises InputError."""
+    """Read a point as three numbers; a message begins with `subject`. Raises InputError."""
     values = list(named_points(subject, point).values())
     if any(np.ndim(value) for value in values):
         raise InputError(f"{subject} is of shape {np.shape(point)}; it must be three numbers")
@@ -92,7 +92,7 @@ def _require_number(subject: str, value: object) -> None:
 
 
 def mover_of(mover: Mover | Sequence[float]) -> Mover:
-    """A mover as it is, or one of two semi-axes b and d. Raises InputError for anything else."""
+    """Return a mover as it is, or make one of two semi-axes b and d. Raises InputError for anything else."""
     if isinstance(mover, Mover):
         return mover
     wanted = "it must be a hypcheck.Mover, or its two semi-axes b, d"
@@ -161,6 +161,7 @@ def _require_valid_mover(mover: Mover) -> None:
 
 
 def _trouble_with(sizes: Sequence[float], center: Sequence[float], axis: Sequence[float]) -> str | None:
+    """Return the first trouble with these numbers of a hyperboloid; None if they are valid."""
     named = zip((*SIZES[:2], *CENTER), (*sizes, *center), strict=True)
     troubles = (trouble_with(name, value) for name, value in named)
     return next((trouble for trouble in troubles if trouble), None) or trouble_with_axis(axis)

@@ -16,14 +16,14 @@ QUESTIONS = ("position", "exterior", "interior", "contact")
 Point = tuple[float, float, float]
 
 UPRIGHT: Point = (0.0, 0.0, 1.0)
-"""The axis of what is not tilted."""
+"""The axis of a hyperboloid or mover that is not tilted."""
 
 FREE: Literal["free"] = "free"
 """The axis of a mover that each query names."""
 
 
 def is_tilted(axis: Point | Literal["free"]) -> bool:
-    """Whether an axis is not vertical, or may not be."""
+    """Decide whether an axis is tilted, or may be, because each query names it."""
     return axis == FREE or axis[0] != 0 or axis[1] != 0
 
 
@@ -41,11 +41,11 @@ class Span:
 
     @property
     def fixed(self) -> bool:
-        """Whether it is a single number."""
+        """Whether the span is a single number."""
         return self.low == self.high
 
     def holds(self, value: float) -> bool:
-        """Whether the number lies in it."""
+        """Decide whether the number lies in the span."""
         return self.low <= value <= self.high
 
 
@@ -97,10 +97,10 @@ class Mover:
 def places_of_parts(
     parts: Sequence[MoverPart], centre: Sequence[float], heading: float, axis: Sequence[float]
 ) -> list[Point]:
-    """The centres of a mover's parts, rounded.
+    """Return the centres of a mover's parts, rounded.
 
-    A tilted mover is turned from upright about a horizontal line, the shortest way, to the axis u = v/|v| or −u,
-    whichever does not point down. That takes a horizontal p to p − (p·u)/(1 + u_z) (u_x, u_y, 0) − (p·u) e_z.
+    A tilted mover is turned from upright about a horizontal line, the shortest way, to the unit vector u along `axis`
+    that does not point down. That takes a horizontal p to p − (p·u)/(1 + u_z) (u_x, u_y, 0) − (p·u) e_z.
     """
     x, y, z = centre
     turns = [(part.arm, radians(heading + part.angle)) for part in parts]
@@ -152,11 +152,11 @@ class Start:
 class Flight:
     """The rules of a quadcopter's random flight over `distance`: those of the paper, and those that it leaves open.
 
-    Each draw is straight with the chance `straight`, up or down (half each) with the chance `vertical`, else a turn
-    uniform within ±`largest_turn` degrees. Straight is ahead, or half of the time back where `backward`. A turn that is
-    "executed" asks the procedure in place, ignores the answer and is followed by a step ahead; one that is "obeyed"
-    does so too, but is refused like a movement if the answer is no; a "free" one only turns. After a refusal it turns
-    by `refused_turn` degrees, left or right alike.
+    Each draw is a move straight on with the probability `straight`, up or down (half each) with the probability
+    `vertical`, else a turn uniform within ±`largest_turn` degrees. Straight means ahead or, if `backward`, half of the
+    time back. `turn` is one of TURNS: with "executed" a turn asks the procedure at the same place, ignores the answer
+    and is followed by a step ahead; with "obeyed" it does so too, but is refused like a movement if the answer is no;
+    with "free" it only turns. After a refusal the quadcopter turns by `refused_turn` degrees, left or right alike.
     """
 
     distance: float

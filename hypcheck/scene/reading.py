@@ -23,7 +23,7 @@ _WALK = ("start", "heading", "steps", "step", "largest_turn", "refused_turn")
 
 
 def _flight(top: StrictTable) -> model.Flight | None:
-    """The flight in the table [flight]; None if there is no such table. Raises InputError."""
+    """Read the flight in the table [flight]; None if there is no such table. Raises InputError."""
     table = top.table("flight", _FLIGHT)
     if table is None:
         return None
@@ -46,6 +46,7 @@ def _flight(top: StrictTable) -> model.Flight | None:
 
 
 def _start(flight: StrictTable) -> model.Start:
+    """Read the table [flight].start. Raises InputError."""
     table = flight.table("start", _START)
     if table is None:
         flight.refuse("[flight] has no start; it must be a table with z, and radius or margin")
@@ -60,7 +61,7 @@ def _start(flight: StrictTable) -> model.Start:
 
 
 def _walk(top: StrictTable) -> model.Walk | None:
-    """The walk in the table [walk]; None if there is no such table. Raises InputError."""
+    """Read the walk in the table [walk]; None if there is no such table. Raises InputError."""
     table = top.table("walk", _WALK)
     if table is None:
         return None
@@ -78,7 +79,7 @@ SUFFIX = ".toml"
 
 MOST_HYPERBOLOIDS = 20_000
 MOST_PARTS = 100
-"""Of a file. A scene that is made in Python (hypcheck.scene.model) may have more hyperboloids."""
+"""The most hyperboloids and parts of a file. A scene that is made in Python (scene.model) may have more."""
 
 _ARRAY = "an array of tables, [[{}]]"
 _SCENE = ("name", "question", "hyperboloid", "mover", "region", "flight", "walk")
@@ -89,27 +90,28 @@ _REGION = ("x", "y", "z")
 
 
 def read_scene(name: str) -> model.SceneModel:
-    """The scene in a file, or the shipped scene of that name (see shipped_scenes). Raises InputError."""
+    """Read the scene in a file, or the shipped scene of that name (see shipped_scenes). Raises InputError."""
     return parse_scene(*_file(name))
 
 
 def shipped_scenes() -> tuple[str, ...]:
-    """The names of the scenes that come with the package, in alphabetical order."""
+    """Return the names of the scenes that come with the package, in alphabetical order."""
     files = (path.name for path in resources.files("hypcheck.scene").joinpath("shipped").iterdir())
     return tuple(sorted(file.removesuffix(SUFFIX) for file in files if file.endswith(SUFFIX)))
 
 
 def shipped_text(name: str) -> str:
-    """The TOML of a shipped scene."""
+    """Return the TOML text of a shipped scene."""
     return resources.files("hypcheck.scene").joinpath("shipped", name + SUFFIX).read_text(encoding="utf-8")
 
 
 def parse_scene(text: str, source: str = "the scene") -> model.SceneModel:
-    """The scene that a TOML text describes; `source` names it in errors. Raises InputError naming key and line."""
+    """Read the scene that a TOML text describes; `source` names it in errors. Raises InputError naming key and line."""
     return _scene(strict.table_of(text, source, "the scene", _SCENE))
 
 
 def _scene(top: StrictTable) -> model.SceneModel:
+    """Read a whole scene. Raises InputError."""
     name = top.required("name", strict.text)
     question = top.optional("question", strict.one_of(*model.QUESTIONS), "position")
     hyperboloids = _hyperboloids(top)
@@ -129,7 +131,7 @@ def _scene(top: StrictTable) -> model.SceneModel:
 
 
 def _file(name: str) -> tuple[str, str]:
-    """The text of the scene of that name, and its name in messages."""
+    """Return the text of the scene of that name, and its name in messages. Raises InputError."""
     if not name.endswith(SUFFIX) and name in shipped_scenes():
         return shipped_text(name), f"the shipped scene {name}"
     try:
@@ -140,6 +142,7 @@ def _file(name: str) -> tuple[str, str]:
 
 
 def _hyperboloids(top: StrictTable) -> tuple[model.Hyperboloid, ...]:
+    """Read the tables [[hyperboloid]], one at least, with different names. Raises InputError."""
     numbers: dict[str, int] = {}
     result = []
     for number, table in enumerate(
@@ -165,6 +168,7 @@ def _hyperboloids(top: StrictTable) -> tuple[model.Hyperboloid, ...]:
 
 
 def _mover(top: StrictTable) -> model.Mover:
+    """Read the table [mover]. Raises InputError."""
     table = top.table("mover", _MOVER)
     if table is None:
         top.refuse("the scene has no [mover]; it must have one, with b and d")
@@ -173,6 +177,7 @@ def _mover(top: StrictTable) -> model.Mover:
 
 
 def _parts(mover: StrictTable, b: float, d: float) -> Iterable[model.MoverPart]:
+    """Yield the parts of the mover, each within it. Raises InputError."""
     for number, table in enumerate(mover.tables("part", _PART, _ARRAY.format("mover.part"), most=MOST_PARTS), start=1):
         part = model.MoverPart(
             b=table.required("b", strict.positive),
@@ -189,7 +194,7 @@ def _parts(mover: StrictTable, b: float, d: float) -> Iterable[model.MoverPart]:
 
 
 def within(part: model.MoverPart, b: float, d: float) -> bool:
-    """Whether the part lies in the closed spheroid of semi-axes b, b, d: exactly, over the given float64 values.
+    """Decide exactly whether the part lies in the closed spheroid of semi-axes b, b, d, which are float64 values.
 
     Divide lengths by b and d as Theorem 1 does: the mover is the unit ball, the part has semi-axes p, p, q and its
     centre is e away. The square of the distance of its point at (e + p c, q s), c² + s² = 1, is
@@ -204,6 +209,7 @@ def within(part: model.MoverPart, b: float, d: float) -> bool:
 
 
 def _region(top: StrictTable) -> model.Region:
+    """Read the table [region]; a Region without limits if there is none. Raises InputError."""
     table = top.table("region", _REGION)
     if table is None:
         return model.Region()
@@ -216,14 +222,14 @@ _axis_or_free = strict.or_word(model.FREE, strict.direction)
 
 
 def _height(value: object) -> model.Span:
-    """The two heights at which a hyperboloid ends; infinite if it does not end."""
+    """Read the two heights at which a hyperboloid ends; infinite if it does not end. Raises ValueError."""
     return _span(value, "two numbers, finite or infinite, [low, high] with low < high", infinite=True)
 
 
 def _span(
     value: object, wanted: str = "two finite numbers, [low, high] with low < high", *, infinite: bool = False
 ) -> model.Span:
-    """A range of more than one number."""
+    """Read a span of more than one number. Raises ValueError with the text `wanted`."""
     low, high = strict.numbers_of(value, 2, wanted, infinite=infinite)
     if not low < high:
         raise ValueError(wanted)
@@ -231,7 +237,7 @@ def _span(
 
 
 def _span_or_number(value: object) -> model.Span:
-    """A range, or a single number that fixes it."""
+    """Read a span, or a single number as a span of that number alone. Raises ValueError."""
     if isinstance(value, list):
         return _span(value)
     only = strict.number_of(value, "a finite number, or two, [low, high] with low < high")

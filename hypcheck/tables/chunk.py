@@ -26,7 +26,7 @@ from hypcheck.tables.numbers import shown
 ADDED = ("position", "label", "tangent", "clearance")
 WITH_MARGIN = "position_with_margin"
 ADDED_TO_SWEEPS = ("hit", "label", "first_lower", "first_upper")
-"""The names of what is added to a row, and to one with an end."""
+"""The names of the columns that are added to a table of pairs, and to one of sweeps."""
 
 _GIVEN = frozenset((*pair.COLUMNS, *pair.END, *pair.AXIS, *pair.HEIGHTS))
 _MOST_COMPARED = 200
@@ -34,11 +34,10 @@ _ALSO_CALLED = {"α": "alpha", "γ": "gamma", "x0": "x", "y0": "y", "z0": "z", "
 
 
 def check_names(names: Sequence[str], where: str, noun: str = "column") -> None:
-    """Raise InputError if a column of columns_of is missing or duplicate, or has the name of an added column.
+    """Raise InputError if a column of `columns_of` is missing, or a name is duplicate or that of an added column.
 
-    The message begins with `where`.
-
-    Other names are allowed and passed through; none but the empty one may occur twice.
+    Other names are allowed, and only the empty one may occur twice. The message begins with `where`, and calls a name
+    `noun`.
     """
     double = first_double([name for name in names if name])
     if double is not None:
@@ -57,7 +56,7 @@ def check_names(names: Sequence[str], where: str, noun: str = "column") -> None:
 
 
 def columns_of(names: Iterable[str]) -> tuple[str, ...]:
-    """The columns that a table with these names must have: seven, and all of an end or axis of which one is present.
+    """Return the columns that a table with these names must have: seven, and all of an end or axis if one is present.
 
     The columns of heights are those that are present: a missing one means no end, or an open end.
     """
@@ -72,20 +71,21 @@ def columns_of(names: Iterable[str]) -> tuple[str, ...]:
 
 
 def layout_of(columns: Sequence[str]) -> Layout:
-    """The layout of rows of these columns."""
+    """Return the layout of rows of these columns."""
     return SWEEPS if pair.END[0] in columns else PAIRS
 
 
 def valid_rows(numbers: Floats, columns: Sequence[str], layout: Layout) -> Rows | None:
-    """The rows of these finite numbers, one row after the other, in these columns; None unless all of them are valid.
+    """Make rows of numbers that follow each other row by row, in these columns; None unless all rows are valid.
 
-    With heights they get all columns of a row with heights.
+    Rows with heights get all columns of such rows; missing ones are filled in.
     """
     rows = _in_layout(numbers.reshape(-1, len(columns)), columns, layout)
     return None if not np.isfinite(numbers).all() or invalid(rows, layout).any() else rows
 
 
 def _in_layout(numbers: Rows, columns: Sequence[str], layout: Layout) -> Rows:
+    """Give rows with heights all columns of such rows, with defaults for missing ones; leave other rows alone."""
     if frozenset(pair.HEIGHTS).isdisjoint(columns):
         return numbers
     base = len(layout.upright)
@@ -99,12 +99,12 @@ def _in_layout(numbers: Rows, columns: Sequence[str], layout: Layout) -> Rows:
 
 
 def added_to(columns: Sequence[str]) -> tuple[str, ...]:
-    """The names of all columns that may be added to rows of these columns; the table must not have these names."""
+    """Return the names of all columns that may be added to rows of these columns; the table must not have them."""
     return ADDED_TO_SWEEPS if pair.END[0] in columns else (*ADDED, WITH_MARGIN)
 
 
 def first_double(names: Sequence[str]) -> str | None:
-    """The first name that occurs more than once; None if there is none."""
+    """Return the first name that occurs more than once; None if there is none."""
     for name, count in Counter(names).items():
         if count > 1:
             return name
@@ -112,7 +112,7 @@ def first_double(names: Sequence[str]) -> str | None:
 
 
 def _advice(names: Sequence[str], missing: Sequence[str]) -> str:
-    """Advice about missing columns, for a message: the name that is meant, if one is similar."""
+    """Give advice about missing columns, for a message: the name that is probably meant, or what is needed."""
     others = [name for name in names if name not in _GIVEN][:_MOST_COMPARED]
     for wanted in missing:
         for name in others:
@@ -133,7 +133,7 @@ def _advice(names: Sequence[str], missing: Sequence[str]) -> str:
 
 
 CHUNK = 8192
-"""Rows at a time: memory stays flat, and a chunk fits into the cache."""
+"""The number of rows of a chunk, at most: memory stays flat, and a chunk fits into the cache."""
 
 LABELS = {int(position): position.label for position in pair.Position} | {pair.REFUSED: "refused"}
 
@@ -142,7 +142,8 @@ LABELS = {int(position): position.label for position in pair.Position} | {pair.R
 class TableChunk:
     """Some rows of a table.
 
-    rows: float64 of the layout, with an axis where a row has one; the numbers of a refused row mean nothing.
+    rows: float64 in the columns of the layout; all have an axis if one row has one. The numbers of a refused row mean
+    nothing.
     refused: bool (n,), the rows that are no valid query; all False unless invalid rows are to be marked.
     texts: the text of each row without its line end; None if the table is not text.
     layout: SWEEPS where rows have an end.
@@ -155,15 +156,16 @@ class TableChunk:
 
 
 UnreadChunk: TypeAlias = Callable[[], TableChunk]
-"""Reads the values of a chunk when it is called, here or in another process. Raises InputError about a row."""
+"""A function that reads the values of a chunk when it is called, in any process. Raises InputError about a row."""
 
 
 @dataclass(frozen=True, slots=True)
 class Table:
     """A table to be read.
 
-    header, line_end: of CSV, as it was written.
-    columns: those that are read; of JSON lines, which may have others, seven.
+    chunks: the parts of the table, in order.
+    header, line_end: the header of a CSV file and the end of its lines, as they were written.
+    columns: the columns that are read; of JSON lines, whose rows may have more, the seven.
     margin: whether answers have a position with a margin.
     """
 
@@ -180,7 +182,7 @@ class Table:
 
 
 Cell: TypeAlias = float | str | bool | None
-"""What is added to a row in one column; None: nothing to say."""
+"""A value that is added to a row in one column; None for an empty one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -190,7 +192,8 @@ class TableAnswers:
     positions: exact, int8; 127 marks a refused row, which has no tangency and no clearance.
     tangent: whether the surfaces touch without crossing.
     clearance: in spheroid radii.
-    with_margin: the positions where what is not proved to be at least a margin away is contact; None without one.
+    with_margin: the positions where a pair counts as contact unless a clearance of at least the margin is proved; None
+    without a margin.
     """
 
     positions: Positions
@@ -259,15 +262,16 @@ class SweepAnswers:
 Answers: TypeAlias = TableAnswers | SweepAnswers
 """The answers about a chunk as the writers of tables take them.
 
-`names` are those of all that is added to a row: first the cells of its head, few of which differ, then numbers, NaN
-where there is none, and at last the position with a margin, if one is given. `integers` is the one integer of each row.
+`names` are the names of the columns that are added. `heads` are the first cells of each row, of which few differ. Then
+`numbers` follow, a column each, NaN where there is none, and at last the position with a margin, if one is given.
+`integers` are what a .npy file has: one integer for each row.
 """
 
 
 def with_answers(
     texts: Iterable[str], answers: Answers, cell_text: Callable[[Cell], str], marks: Sequence[str], end: str
 ) -> bytes:
-    """The text of each row, followed by the added cells, each after its mark, and the end."""
+    """Write the text of each row, then the added cells, each after its mark, and then `end`."""
 
     @cache
     def head_text(head: tuple[Cell, ...]) -> str:
@@ -292,7 +296,7 @@ SWEEP_LABELS = {1: "contact", 0: "clear", pair.REFUSED: "refused"}
 class Sink:
     """A table that is being written.
 
-    render: makes bytes of a chunk and its answers, here or in another process.
+    render: makes bytes of a chunk and its answers, in any process.
     add: writes these bytes. Raises InputError.
     """
 
@@ -312,7 +316,7 @@ class RowPlaces:
     lines: Sequence[int]
 
     def of(self, index: int) -> str:
-        """The place of a row of the chunk, as a message names it."""
+        """Return the place of a row of the chunk, as a message names it."""
         return f"{self.name}, row {self.rows_before + index + 1} (line {self.lines[index]})"
 
 
@@ -324,9 +328,9 @@ def read_values(
     mark: bool,
     layout: Layout = PAIRS,
 ) -> tuple[Rows, NDArray[np.bool_]]:
-    """The rows of these values by column, and which of them are refused, (n,).
+    """Make rows of values by column; return them and a mask of the refused ones, (n,).
 
-    Where one has an axis or heights all rows have them, and those without are upright, or have no ends.
+    If one row has an axis or heights, all get them; the others are upright, or have no ends.
     `number_of(column, value)` raises ValueError with the end of a sentence about a value that is wrong. Without `mark`
     the first such row raises InputError; with it the row is refused, and NaN stands in it.
     """
@@ -348,7 +352,7 @@ def read_values(
 
 
 def _numbers(values: Mapping[str, Value], number_of: Callable[[str, Value], float], layout: Layout) -> list[float]:
-    """The row of these values. Raises ValueError as `number_of`."""
+    """Make the row of these values. Raises ValueError as `number_of` does, or if the row is not valid."""
     numbers = {name: number_of(name, value) for name, value in values.items()}
     row = [numbers[name] for name in layout.base]
     ended = not frozenset(pair.HEIGHTS).isdisjoint(numbers)

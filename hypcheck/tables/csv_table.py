@@ -45,7 +45,7 @@ from hypcheck.tables.streams import BYTE_ORDER_MARK, Reader, TextBlock, TextLine
 
 
 class _Records:
-    """A CSV text, record by record; `text` is the last record as it was written, `line` the line where it begins."""
+    """The records of a CSV text; `text` is the last record as it was written, `line` the line where it begins."""
 
     def __init__(self, reader: Reader) -> None:
         self.name = reader.name
@@ -67,7 +67,7 @@ class _Records:
         return self._lines.at_block(self._lines_taken)
 
     def block(self) -> TextBlock | None:
-        """A block without quotes, in which every line is a record, if one comes next; else None."""
+        """Return the next block if it has no quotes, so that every line is a record; else None."""
         block = self._lines.block(self._lines_taken, avoiding=b'"')
         if block is not None:
             self._lines_taken += block.count
@@ -75,7 +75,7 @@ class _Records:
         return block
 
     def next(self) -> list[str] | None:
-        """The cells of the next record that is not blank, None at the end. Raises InputError on broken quoting."""
+        """Read the cells of the next record that is not blank, None at the end. Raises InputError on broken quoting."""
         while (record := self._parsed()) is not None:
             begin, self._lines_taken = self._lines_taken, self._lines_skipped + self._parser.line_num
             self.line = begin + 1
@@ -94,7 +94,7 @@ class _Records:
 
 
 def _explained(error: str) -> str:
-    """An error of the csv module in plain words."""
+    """Say an error of the csv module in plain words."""
     if "field larger" in error:
         return f"a cell is longer than {csv.field_size_limit()} characters; a quote may have been left open"
     if "unexpected end of data" in error:
@@ -105,7 +105,7 @@ def _explained(error: str) -> str:
 
 
 def read_csv(reader: Reader, *, mark: bool) -> Table:
-    """The table in `reader`. Raises InputError: now about the header, about a row while the chunks are read.
+    """Open the table in `reader`. Raises InputError: now about the header, about a row while the chunks are read.
 
     With `mark` a row whose value is not a number, or not allowed, is marked as refused; a row with too few or too many
     cells is an error all the same.
@@ -128,7 +128,7 @@ def read_csv(reader: Reader, *, mark: bool) -> Table:
 
 @contextmanager
 def write_csv(writer: Writer, table: Table) -> Iterator[Sink]:
-    """Rows with four cells more, or with five: a row's own text where the table has text, else its numbers."""
+    """Write rows with four or five cells more: a row's own text if the table has text, else its numbers."""
     end = table.line_end
     header = table.header if table.header is not None else ",".join(table.columns)
     writer.write(f"{header},{','.join(table.added)}{end}".encode())
@@ -145,6 +145,7 @@ def _cell_text(cell: Cell) -> str:
 
 
 def _chunks(records: _Records, width: int, places_of: Mapping[str, int], *, mark: bool) -> Iterator[UnreadChunk]:
+    """Yield the chunks of a table, plain blocks as a whole. Raises InputError, NothingJudgedError without rows."""
     columns, pick = tuple(places_of), itemgetter(*places_of.values())
     count = 0
     while True:
@@ -210,6 +211,7 @@ def _broken(
 def _chunk(
     cells: Sequence[tuple[str, ...]], texts: list[str], places: RowPlaces, columns: Sequence[str], *, mark: bool
 ) -> TableChunk:
+    """Make a chunk of the cells of rows; read them one by one if they are not all valid."""
     layout = layout_of(columns)
     rows = _rows_if_valid(cells, columns, layout)
     if rows is not None:
@@ -219,7 +221,7 @@ def _chunk(
 
 
 def _rows_if_valid(cells: Sequence[tuple[str, ...]], columns: Sequence[str], layout: Layout) -> Rows | None:
-    """The rows if all of them are valid, else None."""
+    """Return the rows if all of them are valid, else None."""
     flat = list(chain.from_iterable(cells))
     if "".join(flat).encode().translate(None, CHARACTERS):
         return None
@@ -235,7 +237,7 @@ HEADING, FLIGHT = "heading", "flight"
 
 @dataclass(frozen=True)
 class FlightTable:
-    """Flights of a file: `names`, corners (T, 3) each, and the given headings and axes of all segments in order.
+    """Flights of a file: the name and the `paths`, corners (T, 3), of each, and headings and axes of all segments.
 
     `headings` (n,) and `axes` (n, 3) are None where the file has none.
     """
@@ -247,7 +249,7 @@ class FlightTable:
 
 
 def read_flights(path: str) -> FlightTable:
-    """The flights of a CSV file, or of standard input for "-". Raises InputError naming the line."""
+    """Read the flights of a CSV file, or of standard input for "-". Raises InputError naming the line."""
     with open_input(path) as reader:
         records = _Records(reader)
         header = [cell.strip() for cell in records.next() or []]
@@ -262,7 +264,7 @@ def read_flights(path: str) -> FlightTable:
 
 
 def _flight_columns(header: list[str], name: str) -> list[str]:
-    """The columns of numbers that are read. Raises InputError."""
+    """Return the columns of numbers that are read. Raises InputError."""
     if not header:
         raise InputError(f"{name} is empty; its first line must name the columns {', '.join(CENTER)}")
     twice = next((title for title in header if title and header.count(title) > 1), None)
@@ -292,7 +294,7 @@ def _numbers(cells: list[str], header: list[str], columns: list[str], where: str
 
 
 def _split(values: Rows, columns: list[str], groups: list[str]) -> FlightTable:
-    """The rows, flight by flight; those of one flight follow each other."""
+    """Split rows into flights; the rows of a flight follow each other."""
     begins = [place for place, group in enumerate(groups) if place == 0 or group != groups[place - 1]]
     spans = list(zip(begins, [*begins[1:], len(groups)], strict=True))
     segments = [place for begin, end in spans for place in range(begin, max(end - 1, begin + 1))]

@@ -43,7 +43,7 @@ from hypcheck.tables.strict_json import strict_decoder
 
 
 def read_jsonl(reader: Reader, *, mark: bool) -> Table:
-    """The table in `reader`. Raises InputError while the chunks are read.
+    """Open the table in `reader`. Raises InputError while the chunks are read.
 
     With `mark` a row whose value is not a number, or not allowed, is marked as refused; a line that is
     not a JSON object, or lacks a key, is an error all the same.
@@ -53,7 +53,7 @@ def read_jsonl(reader: Reader, *, mark: bool) -> Table:
 
 @contextmanager
 def write_jsonl(writer: Writer, _table: Table) -> Iterator[Sink]:
-    """Objects with four keys more, or with five: a row's own where the table has text, else one of its numbers."""
+    """Write objects with four or five keys more: a row's own object if the table has text, else one of its numbers."""
     yield Sink(_render, writer.write)
 
 
@@ -68,12 +68,13 @@ def _cell_text(cell: Cell) -> str:
 
 
 def _object(row: list[float], layout: Layout) -> str:
-    """The JSON object of a row; null replaces a number that JSON cannot express (in a refused row)."""
+    """Return the JSON object of a row; null replaces a number that JSON cannot express (in a refused row)."""
     named = zip(layout.base + AXIS + HEIGHTS, row, strict=False)
     return json.dumps({name: _json_number(name, value) for name, value in named})
 
 
 def _json_number(name: str, value: float) -> float | str | None:
+    """Return a number as JSON has it: an infinite end is a text, any other infinity or NaN is null."""
     return value if isfinite(value) else str(value) if name in ENDS and value == value else None  # noqa: PLR0124 - NaN
 
 
@@ -82,6 +83,7 @@ _BLANKS = " \t\r\n"
 
 
 def _chunks(reader: Reader, *, mark: bool) -> Iterator[UnreadChunk]:
+    """Yield the chunks of the table, plain blocks as a whole. Raises InputError."""
     lines, number, count, layout = TextLines(reader), 0, 0, PAIRS
     while True:
         while (block := lines.block(number)) is not None:
@@ -109,7 +111,7 @@ def _chunks(reader: Reader, *, mark: bool) -> Iterator[UnreadChunk]:
 
 
 def _layout_of(text: str) -> Layout:
-    """The layout of the first row, which all rows have; PAIRS if it is not a row, which its chunk reports."""
+    """Return the layout of the first row, which all rows must have; PAIRS if the text is not a row (reported later)."""
     try:
         return layout_of(columns_of(_DECODER.decode(text)))
     except (ValueError, TypeError, AttributeError, RecursionError):
@@ -129,7 +131,7 @@ def _chunk(texts: list[str], places: RowPlaces, layout: Layout, *, mark: bool) -
 
 
 def _values_of_layout(texts: Sequence[str], places: RowPlaces, layout: Layout) -> Iterator[dict[str, object]]:
-    """The values of each line by column. Raises InputError about the first that has an end where others have none."""
+    """Yield the values of each line by column. Raises InputError about a line with an end where others have none."""
     for index, text in enumerate(texts):
         values = _values(text, places.of(index))
         if (END[0] in values) != layout.has_end:
@@ -139,7 +141,7 @@ def _values_of_layout(texts: Sequence[str], places: RowPlaces, layout: Layout) -
 
 
 def _rows_if_valid(texts: Sequence[str], layout: Layout) -> Rows | None:
-    """The rows if all of them are valid, and have the same columns; else None."""
+    """Return the rows if all of them are valid, and have the same columns; else None."""
     try:
         objects = list(map(_DECODER.decode, texts))
         names = set(map(tuple, objects))  # one element where all rows have the same keys in one order
@@ -156,7 +158,7 @@ def _rows_if_valid(texts: Sequence[str], layout: Layout) -> Rows | None:
 
 
 def _values(text: str, where: str) -> dict[str, object]:
-    """The values of a line by column, numbers as Literal or int. Raises InputError if it is not an object of them."""
+    """Return the values of a line by column, numbers as Literal or int. Raises InputError if it is no such object."""
     try:
         row = _LITERAL_DECODER.decode(text)
     except json.JSONDecodeError as error:

@@ -33,7 +33,7 @@ _TOO_LONG = 1 << 63
 
 
 def read_npy(reader: Reader, *, mark: bool) -> Table:
-    """The table in `reader`. Raises InputError: now about the header and the length, later about a row.
+    """Open the table in `reader`. Raises InputError: now about the header and the length, later about a row.
 
     With `mark` a row that is not a valid query is marked as refused.
     """
@@ -43,7 +43,7 @@ def read_npy(reader: Reader, *, mark: bool) -> Table:
 
 @contextmanager
 def write_npy(writer: Writer, _table: Table) -> Iterator[Sink]:
-    """Positions, with a margin if one is given, or hits, as one int8 array (n,), written when the block ends well.
+    """Write positions, with a margin if one is given, or hits, as one int8 array (n,), when the block ends well.
 
     Raises InputError.
     """
@@ -71,7 +71,11 @@ def _render(_chunk: TableChunk, answers: Answers) -> bytes:
 
 @dataclass(frozen=True, slots=True)
 class _NpyLayout:
-    """The content of a header: numbers of rows and columns, byte order, memory order, and the offset of the data."""
+    """The content of a header.
+
+    count, width: the numbers of rows and of columns. type: float64 in a byte order. by_columns: the numbers of a column
+    follow each other. begin: the offset of the data in the file.
+    """
 
     count: int
     width: int
@@ -81,7 +85,7 @@ class _NpyLayout:
 
 
 def _layout(reader: Reader) -> _NpyLayout:
-    """The layout of a .npy file. Raises InputError unless it holds float64 of such a shape, and all of it."""
+    """Read the header of a .npy file. Raises InputError unless it holds float64 of an allowed shape, and all of it."""
     shape, by_columns, stored = _header(reader)
     if stored.kind != "f" or stored.itemsize != 8:
         raise InputError(f"{reader.name} holds {stored}; it must hold float64")
@@ -104,6 +108,7 @@ _HEADER_READERS = {(1, 0): npy.read_array_header_1_0, (2, 0): npy.read_array_hea
 
 
 def _header(reader: Reader) -> tuple[tuple[int, ...], bool, np.dtype[np.generic]]:
+    """Read the shape, whether numbers are stored by columns, and their type. Raises InputError."""
     file = cast("IO[bytes]", reader)
     try:
         with warnings.catch_warnings():
@@ -133,6 +138,7 @@ def _require_length(name: str, size: int, count: int, width: int) -> None:
 
 
 def _cut_off(name: str, count: int, have: int) -> InputError:
+    """Make the error that the data ends after `have` of `count` rows."""
     says = f"its header says {counted(count, 'row')}, and the data ends after {have} of them"
     return InputError(f"{name} is cut off: {says}")
 
@@ -153,7 +159,7 @@ def _chunk(rows: Rows, name: str, first: int, *, mark: bool) -> TableChunk:
 
 
 def _rows(reader: Reader, layout: _NpyLayout, start: int, count: int) -> Rows:
-    """Rows `start` to `start + count`. Raises InputError if they end too early."""
+    """Read the `count` rows from `start` on. Raises InputError if the file ends too early."""
     width = layout.width
     if layout.by_columns:
         places = [layout.begin + 8 * (column * layout.count + start) for column in range(width)]

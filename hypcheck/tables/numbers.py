@@ -30,7 +30,7 @@ _UNBOUNDED = re.compile(r"\s*[+-]?(nan|inf|infinity)\s*", re.ASCII | re.IGNORECA
 
 
 def number_of_text(name: str, text: str) -> float:
-    """The float64 nearest to `text`, valid in column `name`. Raises ValueError, a sentence about `name`."""
+    """Read the float64 nearest to `text`, valid in column `name`. Raises ValueError, a sentence about `name`."""
     if not text.strip():
         raise ValueError(f"{name} is empty; it must be a number")
     if name in HEIGHTS and (height := _WORDS[name].get(text.strip().casefold())) is not None:
@@ -50,7 +50,7 @@ _WORDS = {"z_min": _INFINITE, "z_max": _INFINITE, "solid": {"true": 1.0, "false"
 
 
 def is_number(text: str) -> bool:
-    """Whether `text` is written as a number, of whatever value."""
+    """Decide whether `text` is written as a number, of whatever value."""
     return _DECIMAL.fullmatch(text) is not None
 
 
@@ -60,14 +60,14 @@ class Literal(float):
     text: str
 
     def __new__(cls, text: str) -> Literal:
-        """The float64 nearest to `text`."""
+        """Make the float64 nearest to `text`, with the text."""
         number = super().__new__(cls, text)
         number.text = text
         return number
 
 
 def number_of_json(name: str, value: object) -> float:
-    """The float64 nearest to a JSON number (Literal, float or int), as number_of_text. Raises ValueError."""
+    """Read the float64 nearest to a JSON number (Literal, float or int), as number_of_text does. Raises ValueError."""
     if name in HEIGHTS and isinstance(value, (str, bool)):
         height = _WORDS[name].get(str(value).casefold() if isinstance(value, bool) else value)
         if height is not None:
@@ -83,6 +83,7 @@ def number_of_json(name: str, value: object) -> float:
 
 
 def _valid(name: str, number: float, text: str) -> float:
+    """Return the number if it is valid in column `name`. Raises ValueError, a sentence about its text."""
     if abs(number) == float("inf"):
         raise ValueError(f"{name} is {text}, which is too large for float64")
     if number == 0 and name in SIZES and _NOT_ZERO.search(text):
@@ -95,13 +96,13 @@ def _valid(name: str, number: float, text: str) -> float:
 
 
 def shown(text: str, *, quoted: bool = True) -> str:
-    """`text` as a message shows it: on one line, quoted unless `quoted` is false, and cut if it is long."""
+    """Return `text` as a message shows it: on one line, quoted unless `quoted` is false, and cut if it is long."""
     cut = text if len(text) <= LONGEST_SHOWN else text[:LONGEST_SHOWN] + "…"
     return repr(cut) if quoted else escaped(cut)
 
 
 def shown_json(value: object) -> str:
-    """A JSON value as a message shows it: as JSON writes it, cut if it is long."""
+    """Return a JSON value as a message shows it: as JSON writes it, cut if it is long."""
     text = value.text if isinstance(value, Literal) else json.dumps(value, ensure_ascii=False, default=repr)
     return shown(text, quoted=False)
 
@@ -118,13 +119,13 @@ _PIECE: int = 10**_PIECE_DIGITS
 
 
 def exact_text(value: Fraction) -> str:
-    """`value` as "3" or "-3/2", whatever its length."""
+    """Write `value` as "3" or "-3/2", whatever its length."""
     top = _integer_text(value.numerator)
     return top if value.denominator == 1 else f"{top}/{_integer_text(value.denominator)}"
 
 
 def readable_text(value: Fraction) -> str:
-    """`value` for a reader: exact if that is short, else to 17 digits after a sign that it is rounded."""
+    """Write `value` for a reader: exact if that is short, else "≈" and 17 digits."""
     if (
         value.numerator.bit_length() + value.denominator.bit_length() < 4 * _LONGEST_EXACT
         and len(exact_text(value)) <= _LONGEST_EXACT
@@ -134,7 +135,7 @@ def readable_text(value: Fraction) -> str:
 
 
 def equals_text(value: Fraction) -> str:
-    """`value` after an equals sign: "= 3/2", or "≈ 0.33333333333333333" if it is rounded."""
+    """Write `value` after an equals sign: "= 3/2", or "≈ 0.33333333333333333" if it is rounded."""
     text = readable_text(value)
     return text if text.startswith("≈") else f"= {text}"
 
@@ -150,27 +151,27 @@ def _integer_text(number: int) -> str:
 
 _RATIONAL = re.compile(r"(-?)(0|[1-9][0-9]*)(?:/([1-9][0-9]*))?", re.ASCII)
 _LONGEST_RATIONAL = 100_000
-"""Characters of a rational. Shipped ones have 1,236 at most; reading takes a time that grows with the square."""
+"""The longest rational that is read, in characters. Shipped ones have 1,236 at most; time grows with the square."""
 
 
 def decimal_of(value: float) -> str:
-    """The shortest decimal that float64 reads back as `value`, as JSON; an infinity or NaN is a string."""
+    """Write the shortest decimal that float64 reads back as `value`, as JSON; an infinity or NaN is a string."""
     return repr(value) if math.isfinite(value) else f'"{value}"'
 
 
 def decimals_of(row: Sequence[float]) -> str:
-    """The decimals of a row as the command line takes them and reads them back; a zero has no sign."""
+    """Write the decimals of a row as the command line takes them and reads them back; a zero has no sign."""
     return ",".join(repr(value + 0.0).removesuffix(".0") for value in row)
 
 
 def hex_of(value: float) -> str:
-    """`value` exactly, as C's %a writes it and strtod reads it: 0x1.8p+1, -0x0p+0; inf and nan by name."""
+    """Write `value` exactly, as C's %a writes it and strtod reads it: 0x1.8p+1, -0x0p+0; inf and nan by name."""
     digits, _, exponent = value.hex().partition("p")
     return f"{digits.rstrip('0').rstrip('.')}p{exponent}" if exponent else digits
 
 
 def is_shortest(number: float | int) -> bool:
-    """Whether a number read from a file (Literal or int) has the digits of the shortest decimal of its float64.
+    """Decide whether a number read from a file (Literal or int) has the digits of its float64's shortest decimal.
 
     Notation is free: 2, 2.0 and 20e-1 are all right. A digit too many or too few is not.
     """
@@ -183,7 +184,7 @@ def is_shortest(number: float | int) -> bool:
 
 
 def rational_of(text: str) -> Fraction:
-    """The rational that `text` writes as "p" or "p/q" in lowest terms. Raises ValueError, the end of a sentence."""
+    """Read a rational, "p" or "p/q" in lowest terms. Raises ValueError, the end of a sentence."""
     if len(text) > _LONGEST_RATIONAL:
         raise ValueError(f"a text of at most {_LONGEST_RATIONAL} digits")
     match = _RATIONAL.fullmatch(text)

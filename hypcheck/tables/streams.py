@@ -31,7 +31,7 @@ FORMATS = ("csv", "jsonl", "npy")
 
 @dataclass(frozen=True, slots=True)
 class Route:
-    """The file of a table and its format, and those of its answers; "-" means a standard stream."""
+    """The file of a table and its format, and the file of its answers and its format; "-" means a standard stream."""
 
     source: str
     source_format: str
@@ -40,10 +40,10 @@ class Route:
 
 
 def route(source: str, target: str, stated: str | None) -> Route:
-    """The route from `source` to `target`; `stated` is the format of names without a known ending.
+    """Find the formats of `source` and `target`; `stated` is the format of names without a known ending.
 
-    Raises InputError if a format is unknown, or the two do not fit: text keeps its format, .npy becomes any, and any
-    becomes .npy (positions alone).
+    Raises InputError if a format is unknown, or the two do not fit: text keeps its format, .npy can become any format,
+    and any format can become .npy, which holds only the positions.
     """
     source_format = _format_of_name(source) or stated
     if source_format is None:
@@ -66,6 +66,7 @@ def route(source: str, target: str, stated: str | None) -> Route:
 
 
 def _format_of_name(path: str) -> str | None:
+    """Return the format that the end of a name says; None if it says none."""
     end = os.path.splitext(path)[1].lower().removeprefix(".")
     return end if path != STREAM and end in FORMATS else None
 
@@ -80,27 +81,27 @@ class Reader:
         """How many bytes have been read."""
 
     def read(self, size: int = -1) -> bytes:
-        """The next `size` bytes, fewer only at the end. Raises InputError."""
+        """Read the next `size` bytes, fewer only at the end. Raises InputError."""
         with _errors_name("read", self.name):
             data = self._file.read(size)
         self.taken += len(data)
         return data
 
     def read_at(self, offset: int, size: int) -> bytes:
-        """`size` bytes from a place in a regular file. Raises InputError."""
+        """Read `size` bytes from a place in a regular file. Raises InputError."""
         with _errors_name("read", self.name):
             self._file.seek(offset)
         return self.read(size)
 
     def line(self, most: int) -> bytes:
-        """The next line with its end, or the first `most` bytes of it; b"" at the end. Raises InputError."""
+        """Read the next line with its end, or the first `most` bytes of it; b"" at the end. Raises InputError."""
         with _errors_name("read", self.name):
             data = self._file.readline(most)
         self.taken += len(data)
         return data
 
     def size(self) -> int | None:
-        """The length of a regular file, or of what was unpacked, in bytes; None for a stream."""
+        """Return the length of a regular file, or of an unpacked one, in bytes; None for a stream."""
         if isinstance(self._file, io.BytesIO):
             return self._file.getbuffer().nbytes
         with _errors_name("read", self.name):
@@ -135,11 +136,11 @@ class Writer:
 
 @contextmanager
 def open_input(path: str, *, patient: bool = False) -> Iterator[Reader]:
-    """The file at `path`, or standard input for "-". Raises InputError if it cannot be opened.
+    """Open the file at `path`, or standard input for "-". Raises InputError if it cannot be opened.
 
     A file whose name ends in .xz is unpacked, as the frozen vectors of a wheel are. A pipe to which nothing is written
-    within PIPE_S seconds is refused. With `patient` it is waited for without end, as a table is whose rows another
-    program makes.
+    within PIPE_S seconds is refused. With `patient` there is no such limit, since another program may take long to make
+    the rows of a table.
     """
     if path == STREAM:
         yield Reader(_binary(sys.stdin, "standard input"), "standard input")
@@ -152,14 +153,15 @@ def open_input(path: str, *, patient: bool = False) -> Iterator[Reader]:
 
 
 PACKED = ".xz"
-"""How the name of a packed file ends."""
+"""The end of the name of a packed file."""
 
 
 UNPACKED = 64 << 20
-"""Bytes that a packed file may hold."""
+"""The number of bytes that a packed file may hold."""
 
 
 def _unpacked(file: BinaryIO, path: str) -> BinaryIO:
+    """Unpack a file in memory. Raises InputError if it is damaged or too large."""
     try:
         import lzma  # noqa: PLC0415 - a part of Python that some builds of it lack, and few runs need
     except ImportError as error:
@@ -175,11 +177,11 @@ def _unpacked(file: BinaryIO, path: str) -> BinaryIO:
 
 
 PIPE_S = 10
-"""Seconds until a pipe must have something to read, or a writer that has left."""
+"""Seconds within which a pipe must have something to read, or its writer must have closed it."""
 
 
 def _promptly_opened(path: str) -> int:
-    """The descriptor of a file that is opened for reading. Raises InputError for a pipe that nobody writes to."""
+    """Open a file for reading and return its descriptor. Raises InputError for a pipe to which nothing is written."""
     if not hasattr(os, "O_NONBLOCK"):
         return os.open(path, os.O_RDONLY | getattr(os, "O_BINARY", 0))
     opened = os.open(path, os.O_RDONLY | os.O_NONBLOCK)  # to open a pipe would wait for a writer
@@ -194,6 +196,7 @@ def _promptly_opened(path: str) -> int:
 
 
 def _require_writer(path: str, opened: int) -> None:
+    """Raise InputError if nothing is written to the pipe within PIPE_S seconds."""
     there = select.poll()
     there.register(opened, select.POLLIN)
     if not there.poll(PIPE_S * 1000):
@@ -208,7 +211,7 @@ def remove_file(path: Path) -> None:
 
 @contextmanager
 def replace_output(path: str, *, follow: bool = True) -> Iterator[Writer]:
-    """A new file that takes the place of `path` when the block ends well; standard output for "-".
+    """Open a new file that takes the place of `path` when the block ends well; standard output for "-".
 
     Raises InputError if it cannot be written. A link is followed, and a device or pipe written directly, unless
     `follow` is false: then the name is one that hypcheck chose, and the new file replaces what is there. The mode of an
@@ -235,7 +238,7 @@ def replace_output(path: str, *, follow: bool = True) -> Iterator[Writer]:
 def write_files(contents: Mapping[str, bytes], *, follow: bool = True) -> None:
     """Write all of these files, by path, or none. Raises InputError if one cannot be written.
 
-    `follow` is as for `writing`.
+    `follow` is as for `replace_output`.
     """
     with ExitStack() as stack:
         writers = [stack.enter_context(replace_output(path, follow=follow)) for path in contents]
@@ -247,7 +250,7 @@ def write_files(contents: Mapping[str, bytes], *, follow: bool = True) -> None:
 
 @contextmanager
 def made_folder(path: Path) -> Iterator[None]:
-    """A block in which the folder and those above it exist; if the block fails, new empty folders are removed.
+    """Make the folder and those above it for a block; if the block fails, the new folders that are empty are removed.
 
     Raises InputError if it cannot be made.
     """
@@ -267,7 +270,7 @@ def made_folder(path: Path) -> Iterator[None]:
 
 
 def same_file(first: str, second: str) -> bool:
-    """Whether two paths lead to one existing regular file."""
+    """Decide whether two paths lead to the same existing regular file."""
     try:
         return os.path.isfile(first) and os.path.samefile(first, second)
     except (OSError, ValueError):  # opening the file reports what is wrong with its name
@@ -275,6 +278,7 @@ def same_file(first: str, second: str) -> bool:
 
 
 def _binary(stream: TextIO | None, name: str) -> BinaryIO:
+    """Return the binary stream below a text stream. Raises InputError if it is closed."""
     if stream is None:  # Python does this if the descriptor is closed
         raise InputError(f"{name} is closed")
     return stream.buffer
@@ -282,6 +286,7 @@ def _binary(stream: TextIO | None, name: str) -> BinaryIO:
 
 @contextmanager
 def _replacing(path: str, target: str, mode: int | None) -> Iterator[Writer]:
+    """Write a file beside `target`, and put it in the place of `target` when the block ends well."""
     beside = os.path.join(os.path.dirname(target), f".hypcheck-{secrets.token_hex(8)}")
     with _errors_name("write", path):
         handle = os.open(beside, os.O_CREAT | os.O_EXCL | os.O_WRONLY | getattr(os, "O_BINARY", 0), 0o666)
@@ -301,7 +306,7 @@ def _replacing(path: str, target: str, mode: int | None) -> Iterator[Writer]:
 
 @contextmanager
 def _closed(writer: Writer) -> Iterator[Writer]:
-    """The writer, closed when the block ends; an error that ends the block is not replaced by one of closing."""
+    """Close the writer when the block ends; if an error ends the block, an error of closing does not replace it."""
     try:
         yield writer
     except BaseException:
@@ -312,7 +317,7 @@ def _closed(writer: Writer) -> Iterator[Writer]:
 
 
 def _mode(path: str) -> int | None:
-    """The mode of the file at `path`, None if there is none. Raises OSError if it may not be written."""
+    """Return the mode of the file at `path`, None if there is none. Raises OSError if it may not be written."""
     try:
         mode = os.stat(path).st_mode
     except FileNotFoundError:
@@ -325,7 +330,7 @@ def _mode(path: str) -> int | None:
 
 
 def _mode_to_replace(path: str) -> int | None:
-    """The mode of a regular file at `path`, None if a new file may take the place. Raises OSError."""
+    """Return the mode of a regular file at `path`, None if a link, a device or nothing is there. Raises OSError."""
     linked = os.path.islink(path) or not (os.path.isfile(path) or os.path.isdir(path))
     return None if linked else _mode(path)
 
@@ -346,7 +351,7 @@ def _errors_name(verb: str, name: str) -> Iterator[None]:
 
 BLOCK = 1 << 20
 LONGEST = 1 << 20
-"""Bytes of a line, at most: a row of a table is shorter, and memory stays flat."""
+"""The number of bytes of a line, at most: a row of a table is shorter, and memory stays flat."""
 
 BYTE_ORDER_MARK = "\ufeff"
 
@@ -366,7 +371,7 @@ class TextBlock:
         return self.data.count(b"\n") + (not self.data.endswith(b"\n"))
 
     def is_plain(self, avoiding: bytes) -> bool:
-        """Whether every line is short, ASCII, does not begin with a blank, and has none of these bytes."""
+        """Decide whether every line is short, ASCII, does not begin with a blank, and has none of these bytes."""
         data = self.data
         if not data.isascii() or b"\0" in data or (avoiding and avoiding in data):
             return False
@@ -376,13 +381,13 @@ class TextBlock:
         return max(map(len, lines)) <= _LONGEST_PLAIN and all(line[:1] > b" " for line in lines)
 
     def plain_lines(self) -> list[str]:
-        """The lines of a plain block without their ends."""
+        """Return the lines of a plain block without their ends."""
         text = self.data.decode("ascii").replace("\r\n", "\n")
         return text.removesuffix("\n").split("\n")
 
 
 class TextLines:
-    """A text by lines: one after the other, or where a block begins, and if it is plain, the whole block."""
+    """The lines of a text. Read them one after the other, or where a plain block begins, the whole block."""
 
     def __init__(self, reader: Reader) -> None:
         self._name = reader.name
@@ -396,11 +401,11 @@ class TextLines:
         """
 
     def at_block(self, taken: int) -> bool:
-        """Whether a block begins, or the text ends, after the first `taken` lines."""
+        """Decide whether a block begins, or the text ends, after the first `taken` lines."""
         return taken == self._given
 
     def block(self, taken: int, avoiding: bytes = b"") -> TextBlock | None:
-        """The next block if it begins after `taken` lines and is plain; else None. Raises InputError."""
+        """Return the next block if it begins after `taken` lines and is plain; else None. Raises InputError."""
         if not self.at_block(taken):
             return None
         if self._ahead is None:
@@ -419,6 +424,7 @@ class TextLines:
 
 
 def _blocks(reader: Reader) -> Iterator[TextBlock]:
+    """Yield the text of a reader in blocks of whole lines. Raises InputError about a line that is too long."""
     number, rest = 1, b""
     while data := reader.read(BLOCK):
         data = rest + data
@@ -437,6 +443,7 @@ def _blocks(reader: Reader) -> Iterator[TextBlock]:
 
 
 def _lines(block: bytes, name: str, first: int) -> list[str]:
+    """Decode a block into lines with their ends. Raises InputError about a byte that is no text."""
     try:
         text = block.decode("utf-8")
     except UnicodeDecodeError as error:

@@ -22,7 +22,7 @@ from hypcheck.tables.streams import BYTE_ORDER_MARK, Reader, TextLines, open_inp
 from hypcheck.toml import Path, nearest_line
 
 _LONGEST_INTEGER = 400
-"""Digits of an integer that is read as int; more are beyond float64, and beyond 4300 Python refuses them."""
+"""The most digits of an integer that is read as int; longer ones are beyond float64, and Python may refuse them."""
 
 
 def refused_constant(text: str) -> NoReturn:
@@ -33,7 +33,7 @@ def refused_constant(text: str) -> NoReturn:
 def strict_decoder(
     number: Callable[[str], float] | None = None, constant: Callable[[str], float] = refused_constant
 ) -> json.JSONDecoder:
-    """A decoder that raises ValueError, the end of a sentence, about text that is not strict JSON.
+    """Return a decoder that raises ValueError, the end of a sentence, about text that is not strict JSON.
 
     `number`, if given, makes a number of its text, except for integers of ordinary length; `constant` makes a number of
     NaN, Infinity and -Infinity.
@@ -48,6 +48,7 @@ def strict_decoder(
 
 
 def _members(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """Make an object of its members. Raises ValueError for a duplicate key."""
     members = dict(pairs)
     if len(members) < len(pairs):
         double = first_double([name for name, _ in pairs])
@@ -57,7 +58,7 @@ def _members(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 CASES = "cases"
 LARGEST = 256 << 20
-"""Bytes of a document, which is held in memory: two hundred thousand cases."""
+"""The most bytes of a document, which is held in memory: two hundred thousand cases."""
 
 _BLANKS = re.compile(r"[ \t\n\r]*")
 
@@ -66,7 +67,7 @@ class JsonOrigin(Origin):
     """The source of tables of JSON."""
 
     def shown(self, value: object) -> str:
-        """A value as JSON writes it, cut if it is long."""
+        """Return a value as JSON writes it, cut if it is long."""
         return shown_json(value)
 
 
@@ -85,7 +86,7 @@ class JsonPlace(JsonOrigin):
         return f"{self.file}, line {self.line}{case}"
 
     def where(self, path: Path) -> str:  # noqa: ARG002 - a case is on one line
-        """The place."""
+        """Return the place itself."""
         return str(self)
 
 
@@ -101,19 +102,19 @@ class JsonDocument(JsonOrigin):
     title = "the document"
 
     def where(self, path: Path) -> str:
-        """The file, and the line where the member begins."""
+        """Return the file, and the line where the member begins."""
         line = nearest_line(self.lines, path)
         return self.file if line is None else f"{self.file}, line {line}"
 
     def table(self, keys: Sequence[str]) -> StrictTable:
-        """The members, which must be among these keys. Raises InputError."""
+        """Return the members, which must be among these keys. Raises InputError."""
         return StrictTable(self, (), self.members, keys)
 
 
 def read_document(path: str, largest: int = LARGEST) -> JsonDocument:
-    """The document in the file at `path` ("-" is standard input), of `largest` bytes at most.
+    """Read the document in the file at `path` ("-" is standard input), of `largest` bytes at most.
 
-    Raises InputError if it is none.
+    Raises InputError if the file holds no such document.
     """
     with open_input(path) as reader:
         text = "".join(_bounded(reader, largest))
@@ -121,6 +122,7 @@ def read_document(path: str, largest: int = LARGEST) -> JsonDocument:
 
 
 def _bounded(reader: Reader, largest: int) -> Iterator[str]:
+    """Yield the lines of a reader. Raises InputError if there are more than `largest` bytes."""
     for line in TextLines(reader).each:
         if reader.taken > largest:
             raise InputError(f"{reader.name} has more than {largest >> 20} MiB; it must be divided into smaller files")
@@ -161,6 +163,7 @@ class _JsonScanner:
         return JsonDocument(self._name, members, lines, cases)
 
     def _elements(self) -> tuple[tuple[JsonPlace, Any], ...]:
+        """Read the list of cases, each with its place. Raises InputError."""
         self._expect("[", f"{CASES} must be a list")
         elements: list[tuple[JsonPlace, Any]] = []
         if self._peek() == "]":
@@ -171,6 +174,7 @@ class _JsonScanner:
         return tuple(elements)
 
     def _value(self) -> Any:  # noqa: ANN401 - JSON
+        """Read the value that begins here. Raises InputError if it is not strict JSON."""
         place = self._place()
         try:
             value, self._at = self._decoder.raw_decode(self._text, self._at)
@@ -183,7 +187,7 @@ class _JsonScanner:
         return value
 
     def _more(self, end: str) -> bool:
-        """Whether a comma follows, and not the end of the list or object."""
+        """Step over a comma (True), or over the end of the list or object (False). Else raises InputError."""
         character = self._peek()
         if character not in (",", end) or not character:
             raise self._not_json(self._at, f"expecting ',' or '{end}'")
@@ -192,29 +196,33 @@ class _JsonScanner:
         return character == ","
 
     def _expect(self, character: str, otherwise: str) -> None:
+        """Step over a character that must follow. Raises InputError with the sentence `otherwise`."""
         if self._peek() != character:
             raise self._not_json(self._at, otherwise)
         self._at += 1
         self._peek()
 
     def _peek(self) -> str:
-        """The next character that is not a blank; "" at the end."""
+        """Go to the next character that is not a blank, and return it; "" at the end."""
         blanks = _BLANKS.match(self._text, self._at)
         self._at = blanks.end() if blanks else self._at
         return self._text[self._at : self._at + 1]
 
     def _place(self) -> JsonPlace:
+        """Return the place where reading stands."""
         self._line += self._text.count("\n", self._counted, self._at)
         self._counted = self._at
         return JsonPlace(self._name, self._line)
 
     def _not_json(self, at: int, reason: str) -> InputError:
+        """Make the error that the text is not JSON at a place, for a reason."""
         self._at = max(min(at, len(self._text)), self._counted)
         cut = " (the file may have been cut off)" if self._at >= len(self._text.rstrip()) else ""
         return InputError(f"{self._place()}: not a JSON document of cases: {reason}{cut}")
 
 
 def _finite(text: str) -> Literal:
+    """Read a number with its text. Raises ValueError if it is too large for float64."""
     number = Literal(text)
     if abs(number) == float("inf"):
         raise ValueError(f"{shown(text, quoted=False)} is too large for float64")
