@@ -157,7 +157,7 @@ def test_a_record_with_other_line_ends_is_read_as_it_was_written(data):
     assert outcome(data.replace(b"\n", b"\r\n")) == ("whole", LINES)
 
 
-def test_a_cut_line_counts_as_a_lost_line_and_lines_after_a_damage_as_many(data, tmp_path):
+def test_a_cut_last_line_and_every_line_after_a_damaged_one_count_as_lost(data, tmp_path):
     record = tmp_path / "record.jsonl"
     record.write_bytes(data[:-5])
     found = check(record)
@@ -169,7 +169,7 @@ def test_a_cut_line_counts_as_a_lost_line_and_lines_after_a_damage_as_many(data,
     assert (tmp_path / "good.jsonl").read_bytes() == resealed(LINES[:2])
 
 
-def test_all_that_follows_a_damage_counts_as_lost_however_much_it_is(data, tmp_path):
+def test_all_bytes_after_a_damaged_line_count_as_lost_even_megabytes(data, tmp_path):
     """More than what is read at a time."""
     record, more = tmp_path / "record.jsonl", b"x" * (1 << 21) + b"\n"
     record.write_bytes(data.replace(b"again", b"AGAIN") + more)

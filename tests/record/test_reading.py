@@ -104,7 +104,7 @@ def test_a_benchmark_line_with_more_wrong_answers_than_cases_is_refused(kind, fi
         decoded({**line, field: [impossible]}, kind)
 
 
-def test_a_line_knows_the_type_that_the_record_gives_it():
+def test_each_line_class_has_the_type_that_the_record_names():
     header, drift = decoded(HEADER, HeaderLine), DriftLine(sentence="it moved")
     assert (header.type, drift.type, FooterLine(lines=2, exit_code=0, seconds=0.0).type) == (
         "header",
@@ -279,7 +279,7 @@ def test_a_case_of_a_record_has_the_numbers_of_its_row_in_their_order(layout):
         assert (row_of(case), len(numbers_of(case))) == (tuple(numbers), len(numbers))
 
 
-def test_histograms_are_equal_if_their_tables_are():
+def test_histograms_are_equal_if_their_tables_are_equal():
     first, other = (Histogram(np.array([[0, 1, cases, 0]])) for cases in (5, 6))
     assert first == Histogram(first.table.copy())
     assert first != other
@@ -333,7 +333,7 @@ def test_a_line_of_a_benchmark_with_a_bin_farther_than_the_farthest_is_refused()
             decoded({**stability, "bins": [impossible]}, StabilityLine)
 
 
-def test_a_group_that_counts_no_skipped_cases_has_skipped_none():
+def test_the_number_of_skipped_cases_of_a_group_is_0_if_the_line_has_no_count():
     counts = {"mistakes": {}, "octaves": {}, "place_bins": [], "size_bins": [], "worst": []}
     names = {"method": "m", "title": "m", "exact": False, "question": "position", "precision": "float64", "family": "f"}
     for counted in ({}, {"skipped": 2}):

@@ -56,7 +56,7 @@ def test_a_growing_file_that_cannot_be_replaced_leaves_nothing_beside_it(tmp_pat
     assert [each.name for each in tmp_path.iterdir()] == [path.name]
 
 
-def test_a_recorder_that_resumes_keeps_the_carried_lines_and_puts_the_progress_behind_them(tmp_path):
+def test_a_recorder_of_a_resumed_run_writes_the_earlier_lines_first_and_the_progress_after_them(tmp_path):
     drift, path = DriftLine(sentence="it moved"), tmp_path / "record.jsonl"
     with GrowingFile(path) as file:
         recorder = Recorder(file, {}, carried=[drift, PROGRESS])
@@ -111,7 +111,7 @@ def test_a_number_of_a_record_that_must_not_be_negative_is_refused_below_0():
         decoded(-1.0, Unsigned)
 
 
-def test_a_group_with_one_tested_case_is_a_result_and_a_group_without_one_is_not():
+def test_a_group_line_is_a_result_only_if_at_least_one_case_was_tested():
     names = {"method": "m", "title": "m", "exact": False, "question": "position", "precision": "float64", "family": "f"}
     counts = {"counts": {}, "mistakes": {}, "octaves": {}, "place_bins": [], "size_bins": [], "worst": []}
     for asked in (0, 1):

@@ -88,7 +88,7 @@ def test_slow_method_is_not_advised_for_one_or_two_distance_exponents_only(farth
     assert found.use.name == name
 
 
-def test_advice_covers_calls_row_by_row_from_python():
+def test_advice_names_the_fastest_method_for_calls_from_python_row_by_row():
     in_c = method("in-c", 0.1, {"uniform": 0.0}, exact=True)
     by_row = [
         {**line, "tier": "python"} if line["type"] == "method" else line
@@ -116,7 +116,7 @@ def test_a_method_for_another_question_is_advised_only_for_that_question():
     }
 
 
-def test_method_no_slower_than_an_empty_call_is_not_advised():
+def test_a_method_whose_time_is_not_above_that_of_an_empty_call_is_not_advised():
     lost = [
         {**line, "median_ns": 0.01} if line["type"] == "speed" else line
         for line in method("a", 1e-9, {"uniform": 0.0}, exact=True)

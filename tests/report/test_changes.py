@@ -44,7 +44,7 @@ def test_comparison_of_a_record_with_itself_shows_no_change(record):
     assert {change.verdict for change in ratio_changes(record, record)} <= {UNCLEAR}
 
 
-def test_status_changes_list_a_family_that_got_worse_by_name():
+def test_status_changes_state_the_name_of_a_family_that_became_worse():
     (worse,) = status_changes(BEFORE, WORSE)
     assert (worse.implementation, worse.family, worse.worse) == ("table-2-float32", "tower-body", True)
     assert not status_changes(WORSE, BEFORE)[0].worse

@@ -99,7 +99,7 @@ def test_report_options_that_do_not_fit_are_refused(run, monkeypatch, capsys, wo
     assert (run / "record.jsonl").read_bytes() == before
 
 
-def test_report_of_a_truncated_record_says_truncated(run, capsys):
+def test_report_of_a_truncated_record_begins_with_truncated(run, capsys):
     (run / "record.jsonl").write_text(record_samples.text_and_record(exit_code=None)[0], encoding="utf-8")
     assert main(["report", str(run)]) == 0
     out, err = capsys.readouterr()

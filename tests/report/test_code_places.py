@@ -166,7 +166,9 @@ def test_changed_python_file_of_an_implementation_is_placed_without_a_line(tmp_p
         ("python:pack.mine:f", ["/somewhere/pack/mine.py"], CodePlace("/somewhere/pack/mine.py")),
     ],
 )
-def test_implementation_is_placed_in_code_as_far_as_its_file_is_known(spec, files, place):
+def test_place_of_returns_the_file_of_an_implementation_or_unknown_if_spec_and_record_do_not_show_it(
+    spec, files, place
+):
     assert place_of(spec, dict.fromkeys(files, "0" * 64)) == place
 
 

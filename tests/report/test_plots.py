@@ -45,7 +45,7 @@ def test_no_two_roles_of_a_plot_have_the_same_colour():
     assert len({light for light, _ in ROLES.values()}) == len(ROLES)
 
 
-def test_curves_of_a_plot_differ_in_marker_and_dashes_too():
+def test_all_curves_of_a_plot_have_different_markers_and_dashes():
     looks = [curve_style(place) for place in range(curves.AT_MOST)]
     for one, other in combinations(looks, 2):
         assert one.marker != other.marker

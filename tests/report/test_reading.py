@@ -119,7 +119,7 @@ def test_later_minor_versions_are_read_and_other_major_versions_refused(tmp_path
         read(written(tmp_path, schema="1"))
 
 
-def test_a_truncated_record_has_a_note(tmp_path):
+def test_reading_a_truncated_record_gives_a_note_that_the_run_was_interrupted(tmp_path):
     text, _ = record_samples.text_and_record(exit_code=None)
     path = tmp_path / "record.jsonl"
     path.write_text(text, encoding="utf-8")

@@ -27,7 +27,7 @@ def summary(*lines, exit_code=1):
     return summary_lines(record_samples.record(list(lines), exit_code), ())
 
 
-def test_a_failing_run_opens_with_the_square_of_truth_against_answer():
+def test_the_summary_of_a_failing_run_begins_with_the_square_of_answers():
     head, *square = summary(gated(ANSWERS))[:6]
     assert head.startswith("FAILED with exit code 1: mine: 2 wrong of 16 cases")
     assert square == [
@@ -47,12 +47,12 @@ def test_a_failing_run_opens_with_the_square_of_truth_against_answer():
         ("passage", {"1": {"1": 2, "0": 1}, "0": {"0": 3}}, [f"2 1 {AMISS}", "0 3"]),
     ],
 )
-def test_each_question_has_its_own_right_answers(question, answers, rows):
+def test_the_square_of_answers_marks_as_wrong_what_the_question_does_not_accept(question, answers, rows):
     lines = summary(gated(answers, question))[2 : 2 + len(rows)]
     assert [" ".join(line.split()[-len(row.split()) :]) for line, row in zip(lines, rows, strict=True)] == rows
 
 
-def test_hits_at_a_wrong_time_are_apart_from_right_ones_and_fail_where_no_other_answer_is_wrong():
+def test_the_square_of_answers_has_separate_columns_for_contact_reported_too_late_and_too_early():
     late = {**gated({"1": {"1": 12}, "0": {"0": 4}}, "passage"), "mistakes": {"late": 2, "early": 1}}
     *titles, hits, clear = (re.split(r"  +", line.strip()) for line in summary(late)[1:4])
     assert titles[0][1:] == [*titles[0][1:3], "contact too late", "contact too early"]
@@ -60,13 +60,13 @@ def test_hits_at_a_wrong_time_are_apart_from_right_ones_and_fail_where_no_other_
     assert clear[1:] == ["0", "4", "0", "0"]
 
 
-def test_squares_of_families_add_up_and_a_run_that_passed_shows_none():
+def test_the_square_of_answers_is_the_sum_over_families_and_is_omitted_for_a_run_that_passed():
     two = summary(gated(ANSWERS), {**gated(ANSWERS), "family": "waist"})
     assert two[2].split()[:4] == ["truth", "exterior", "10", "4"]
     held = {**gated({"1": {"1": 16}}), "counts": {"right": 16}, "worst": [], "failing": []}
     assert not any("truth" in line for line in summary(held, exit_code=0))
 
 
-def test_report_shows_the_square_before_the_causes():
+def test_a_report_shows_the_square_of_answers_before_the_causes():
     page = render("markdown", record_samples.record([gated(ANSWERS)], 1)).decode()
     assert page.index("Answers against the truth") < page.index("What failed")

@@ -41,7 +41,7 @@ TRUNCATED = "TRUNCATED: the record has no end; the run was interrupted and is no
         (bench_record(), BENCHMARK_HELD),
     ],
 )
-def test_run_without_failures_has_passed(record, sentence):
+def test_a_run_without_failures_has_the_verdict_passed(record, sentence):
     """Wrong answers of the paper's formulas, of methods that promise nothing, and claims that do not hold are none."""
     assert failures(record) == []
     assert (verdict(record).passed, verdict(record).sentence) == (True, sentence)
@@ -65,7 +65,7 @@ def test_run_without_failures_has_passed(record, sentence):
         (DRIFT, 1, "table-2 errs on uniform inside its stated regimes; see uniform/1/1/4"),
     ],
 )
-def test_each_failure_alone_fails_the_run(line, code, says):
+def test_each_kind_of_failure_is_enough_to_fail_a_run(line, code, says):
     record = of(line, exit_code=code)
     assert len(failures(record)) == 1
     assert (verdict(record).passed, verdict(record).sentence) == (False, f"FAILED with exit code {code}: {says}.")
@@ -85,7 +85,7 @@ def test_each_failure_alone_fails_the_run(line, code, says):
         ((UNPROVED,), 0, "CONTRADICTORY: the record ends with exit code 0, but holds 1 failed proof."),
     ],
 )
-def test_run_that_is_truncated_or_ended_with_another_code_has_not_passed(extra, code, sentence):
+def test_a_run_that_is_truncated_or_whose_exit_code_contradicts_its_lines_has_not_passed(extra, code, sentence):
     found = verdict(of(*extra, exit_code=code))
     assert (found.passed, found.sentence) == (False, sentence)
 
@@ -157,7 +157,7 @@ def test_the_verdict_on_chosen_families_names_those_that_were_left_out_if_there_
     assert found.sentence.endswith(ending)
 
 
-def test_broken_protocol_throughout_is_reported_once_with_its_reason_before_other_counts():
+def test_an_implementation_that_always_breaks_the_protocol_is_reported_once_and_first():
     implementation = next(line for line in sample("failures") if line.get("name") == "engine")
     reason = "it answered 5; it must be one of -1, 0, 1 or 2"
     fault = next(line["faults"][0] for line in sample("failures") if line.get("faults"))
@@ -180,7 +180,7 @@ def test_a_method_that_promises_to_be_exact_fails_a_benchmark_by_an_answer_of_wh
     assert (failure.name, failure.case) == ("fast", None)
 
 
-def test_answers_that_stay_undecided_make_a_run_inconclusive():
+def test_a_run_with_undecided_answers_and_no_wrong_ones_is_inconclusive():
     line = group("theirs", "float32", "tangent", {"undecided": 2, "right": 3})
     assert verdict(of(line, exit_code=4)).sentence == (
         "INCONCLUSIVE, exit code 4: 2 answers undecided: the tolerance lies between the two ends that are proved of "

@@ -22,7 +22,7 @@ d = 0.15
 
 
 @pytest.mark.parametrize(("alpha", "center"), [("1e308", "[0, 0, 0]"), ("1.0", "[1e308, 1e308, 0]")])
-def test_a_least_distance_that_is_not_known_is_none(alpha, center, tmp_path, capsys):
+def test_flight_prints_none_for_a_least_distance_that_is_not_known(alpha, center, tmp_path, capsys):
     scene, path = tmp_path / "wide.toml", tmp_path / "path.csv"
     scene.write_text(SCENE.format(alpha, center), encoding="utf-8")
     path.write_text("x,y,z\n5,0,0\n0,0,3\n", encoding="utf-8")

@@ -62,7 +62,7 @@ def refusal(text, source="s.toml"):
     return message
 
 
-def test_an_end_may_be_infinite_but_not_where_something_flies():
+def test_a_height_of_a_scene_may_be_infinite_but_not_if_the_scene_has_a_flight():
     def text(height):
         return WHOLE.replace("[-1, 6.25]", height)
 
@@ -128,7 +128,7 @@ def test_fault_in_one_of_many_trees_is_reported_with_the_line_of_that_tree():
     assert "s.toml, line 5: hyperboloid 3: alpha is 0; " in refusal(text)
 
 
-def test_part_of_a_mover_may_touch_its_surface_from_within():
+def test_a_part_of_a_mover_may_touch_the_surface_of_the_mover_from_within():
     text = changed("arm = 0.135", "arm = 0.15")  # 0.15 + 0.1 is 0.25 exactly, in float64 too
     assert parse_scene(text).mover.parts[0].arm == 0.15
 
@@ -182,7 +182,7 @@ def test_each_shipped_scene_is_read_by_its_name_and_from_its_text():
         assert read_scene(name) == parse_scene(shipped_text(name))
 
 
-def test_the_shipped_tower_is_the_papers():
+def test_the_shipped_scene_tower_has_the_sizes_of_the_paper():
     scene = read_scene("tower")
     (tower,) = scene.hyperboloids
     assert (tower.alpha, tower.gamma, tower.height) == (2.0, 35.6 / 2, Span(-17.8, 17.8))

@@ -63,7 +63,7 @@ def test_npy_cut_off_at_any_byte_is_refused(tmp_path, capsys):
     assert message(tmp_path, capsys, "in.npy", data + b"x").startswith(" goes on for 1 byte after its 3 rows")
 
 
-def test_a_key_that_is_a_height_in_capitals_is_named_even_behind_many_others(tmp_path, capsys):
+def test_a_height_key_in_capitals_is_reported_even_after_many_other_keys(tmp_path, capsys):
     """Among the first keys the one is shown that must be written otherwise; behind them, what heights are called."""
     few, many = (changed(**dict.fromkeys((f"note_{n}" for n in range(count)), 1), Z_MAX=2) for count in (2, 300))
     assert message(tmp_path, capsys, "in.jsonl", few.encode()).endswith("'Z_MAX' must be written z_max")

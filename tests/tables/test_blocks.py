@@ -84,7 +84,7 @@ def test_jsonl_read_by_blocks_has_the_answers_and_errors_of_jsonl_read_by_lines(
     assert by_block == by_line
 
 
-def test_a_plain_text_is_read_by_blocks_and_another_by_lines():
+def test_plain_csv_lines_are_read_by_blocks_and_lines_with_other_characters_one_by_one():
     """To read by lines takes longer, and gives the same answers, so that nothing else shows it."""
     plain = ",".join(GOOD).encode() + b"\n"
     lines = TextLines(Reader(io.BytesIO(plain * 300), "it"))

@@ -73,7 +73,7 @@ def test_a_packed_file_that_cannot_be_unpacked_is_refused_with_the_reason(tmp_pa
     assert capsys.readouterr().err == f"hypcheck: error: {says.format(packed)}\n"
 
 
-def test_a_packed_file_needs_a_python_with_lzma(tmp_path, capsys, monkeypatch):
+def test_an_xz_file_is_refused_with_the_reason_if_python_has_no_lzma(tmp_path, capsys, monkeypatch):
     packed = tmp_path / "cases.json.xz"
     packed.write_bytes(lzma.compress(b"{}"))
     monkeypatch.setitem(sys.modules, "lzma", None)

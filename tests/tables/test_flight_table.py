@@ -24,7 +24,7 @@ def test_columns_are_found_by_name_and_rows_of_one_flight_belong_together(tmp_pa
     assert table.axes is None
 
 
-def test_an_axis_is_that_of_the_segment_that_begins_at_its_corner(tmp_path):
+def test_the_axis_of_a_row_of_a_flight_table_belongs_to_the_segment_that_begins_there(tmp_path):
     table = read(tmp_path, "x,y,z,axis_x,axis_y,axis_z\n0,0,0,1,0,0\n1,0,0,0,1,0\n2,0,0,0,0,1\n")
     assert table.axes.tolist() == [[1, 0, 0], [0, 1, 0]]
     assert table.headings is None

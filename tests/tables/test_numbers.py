@@ -83,12 +83,12 @@ def test_json_value_that_is_no_number_is_refused_and_quoted_as_json(value):
         ("x", 10**400, "which is too large for float64"),
     ],
 )
-def test_json_value_that_no_number_or_word_stands_for_is_refused(name, value, says):
+def test_a_json_value_that_is_neither_a_number_nor_a_known_word_is_refused(name, value, says):
     with pytest.raises(ValueError, match=says):
         number_of_json(name, value)
 
 
-def test_a_zero_with_an_exponent_of_too_many_digits_is_not_the_shortest():
+def test_is_shortest_is_false_for_a_zero_whose_exponent_has_too_many_digits():
     assert is_shortest(Literal("0e9"))
     assert not is_shortest(Literal(f"0e{'9' * 30}"))
 

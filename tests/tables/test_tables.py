@@ -114,7 +114,7 @@ def test_npy_in_any_layout_becomes_an_array_of_positions(tmp_path, order, kind, 
     assert found.tolist() == np.resize([0, -1, 1], count).tolist()
 
 
-def test_npy_becomes_text_and_text_becomes_npy(tmp_path):
+def test_classify_converts_npy_to_csv_and_jsonl_and_back(tmp_path):
     np.save(tmp_path / "in.npy", ROWS)
     assert classify(tmp_path / "in.npy", tmp_path / "out.csv") == 0
     table = list(csv.DictReader((tmp_path / "out.csv").read_text().splitlines()))
@@ -129,7 +129,7 @@ def test_npy_becomes_text_and_text_becomes_npy(tmp_path):
     assert np.load(tmp_path / "out.npy").tolist() == [1, 0, 0, -1, 1]
 
 
-def test_a_table_with_a_margin_has_a_column_for_it(tmp_path):
+def test_classify_with_a_margin_adds_a_column_that_says_which_rows_are_clear_by_it(tmp_path):
     """Spheres outside a waist of radius 1, at distances that are differences; γ is so large that the waist is near."""
     rows = [(1.0, 8.0, 0.5, 0.5, 1.5 + gap, 0.0, 0.0) for gap in (0.25, 0.5, 0.75, -0.5)] + [
         (1.0, 8.0, -1.0, 1.0, 3.0, 0, 0)

@@ -38,14 +38,14 @@ def test_degenerate_crossings_are_of_every_kind_with_a_double_root_and_no_tangen
     assert min(found.values()) >= 40
 
 
-def test_beside_a_degenerate_crossing_the_discriminant_has_both_signs() -> None:
+def test_rows_beside_degenerate_crossings_cross_in_one_curve_and_in_two_curves_of_either_kind() -> None:
     rows = FAMILIES["degenerate-neighbourhood"].rows(0, 400)
     found = kinds(rows)
     assert {Kind.CROSSING_ONE_CURVE, Kind.CROSSING_GROOVE_TWO_CURVES, Kind.CROSSING_THROAT_TWO_CURVES} <= set(found)
 
 
 @pytest.mark.parametrize("construct", [double_roots.by_ratios, double_roots.by_angle])
-def test_tangency_construction_states_tangency_and_side_as_the_exact_decision_does(construct: type) -> None:
+def test_tangency_and_side_of_constructed_tangencies_are_those_of_the_exact_decision(construct: type) -> None:
     found = construct(Draw("construction"), 600)
     usable = found.usable
     assert usable.mean() > 0.5
@@ -74,7 +74,7 @@ def test_ring_family_is_clear_with_a_vanishing_discriminant() -> None:
     assert set(kinds(FAMILIES["ring"].rows(0, 600))) == {Kind.EXTERIOR_RING}
 
 
-def test_the_ring_s_neighbourhood_reaches_from_1e_12_to_1e_2_radii() -> None:
+def test_rows_of_ring_neighbourhood_are_from_1e_12_to_1e_2_radii_away_from_a_ring() -> None:
     rows = FAMILIES["ring-neighbourhood"].rows(0, 2000)
     distances = []
     for alpha, gamma, b, d, x, y, z in fractions(rows):

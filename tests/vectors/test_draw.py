@@ -177,7 +177,7 @@ def test_rounding_to_bits_is_rounding_to_nearest_even() -> None:
     assert to_bits(values[:200], 24).tolist() == values[:200].astype(np.float32).astype(np.float64).tolist()
 
 
-def test_in_turn_takes_rows_of_the_makers_cyclically() -> None:
+def test_in_turn_returns_rows_of_its_makers_in_cyclic_order() -> None:
     makers = [lambda draw, n, value=value: np.full((n, 7), value) for value in (1.0, 2.0, 3.0)]
     assert in_turn(*makers)(Draw(), 8)[:, 3].tolist() == [1, 2, 3, 1, 2, 3, 1, 2]
     assert turns(5, 7, 9).tolist() == [7, 9, 7, 9, 7]

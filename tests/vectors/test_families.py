@@ -223,7 +223,7 @@ def test_every_family_has_a_complete_description(family: Family) -> None:
 
 
 @every_family
-def test_rows_of_a_family_are_valid_differ_and_are_those_of_earlier_releases(family: Family) -> None:
+def test_rows_of_a_family_are_valid_distinct_and_the_same_as_in_earlier_releases(family: Family) -> None:
     """A generator knows its stream alone, so that a block of another seed and number stands for all others."""
     rows, others = first_block(family.name), family.block(1, 1)
     assert digest_of(family, rows) == DIGESTS[family.name]
@@ -238,7 +238,7 @@ def test_rows_of_a_family_are_valid_differ_and_are_those_of_earlier_releases(fam
 
 
 @pytest.mark.parametrize("name", ["ring", "symmetric-images", "tilted-uniform", "ended-way-thin"])
-def test_more_rows_of_a_family_begin_with_fewer_and_other_seeds_and_blocks_have_others(name: str) -> None:
+def test_few_rows_of_a_family_are_the_beginning_of_more_and_other_seeds_and_blocks_give_other_rows(name: str) -> None:
     family = ALL[name]
     long = family.rows(3, BLOCK + 40)
     for count in (0, 1, 7, BLOCK, BLOCK + 1):

@@ -15,7 +15,7 @@ LEANING = FixedSizes((2.0, 3.0, 0.25, 0.15), axis=(1.0, 0.0, 1.0))
 
 
 @pytest.mark.parametrize("setting", [UPRIGHT, LEANING, FixedSizes((2.0, 3.0, 0.25, 0.15), axis="free")])
-def test_the_name_of_a_family_for_fixed_sizes_leads_to_the_same_rows_with_these_sizes(setting):
+def test_a_family_for_fixed_sizes_found_by_its_name_has_the_same_rows_with_these_sizes(setting):
     families = list(families_for((setting,)))
     assert len(families) >= 3
     for family in families:
@@ -56,7 +56,7 @@ def test_invalid_name_of_a_family_for_fixed_sizes_is_refused(name, message):
 
 
 @pytest.mark.parametrize("axis", [None, (1.0, 0.0, 1.0)])
-def test_a_family_for_fixed_sizes_whose_wall_leaves_float64_has_finite_rows(axis):
+def test_a_family_for_fixed_sizes_whose_wall_is_beyond_float64_has_finite_rows(axis):
     """At the height 1 the wall is 1e310 from the axis: a centre there is inside at every float."""
     setting = FixedSizes((1e300, 1e-10, 1.0, 1.0), axis=axis)
     for family in families_for((setting,)):

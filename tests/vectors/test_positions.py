@@ -46,7 +46,7 @@ def test_each_family_has_at_least_10_percent_of_every_position_that_it_allows(na
 
 
 @pytest.mark.parametrize("name", TILTED_FAMILIES)
-def test_a_tilted_family_meets_every_position_that_it_promises(name: str) -> None:
+def test_a_tilted_family_has_at_least_10_rows_of_each_position_that_it_can_have(name: str) -> None:
     found = Counter(inside.positions(first_block(name)[:300]).tolist())
     assert set(found) == set(map(int, LIMITED.get(name, set(Position))))
     assert min(found.values()) >= 10, found

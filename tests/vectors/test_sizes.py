@@ -125,7 +125,7 @@ def test_one_number_changed_families_change_one_number_from_row_to_row(
         assert ((before != after).sum(axis=1) >= least).all()
 
 
-def test_small_integers_come_in_quartets_of_the_same_numbers_many_of_them_equal() -> None:
+def test_small_integers_come_in_groups_of_four_rows_made_of_the_same_numbers() -> None:
     rows = FAMILIES["small-integers"].rows(2, 2000)
     first, turned, swapped, doubled = (rows[place::4] for place in range(4))
     assert (turned[:, :4] == first[:, :4]).all()

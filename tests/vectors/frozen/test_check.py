@@ -56,7 +56,7 @@ def test_check_finds_no_fault_in_a_right_case(case):
 
 @every_sample
 @pytest.mark.parametrize("position", Position, ids=lambda position: position.label)
-def test_certificate_alone_finds_a_wrong_position_of_a_case(case, position):
+def test_a_wrong_position_label_is_found_by_the_certificate_of_the_case(case, position):
     if position is case.position:
         return
     flips = {other: 0.5 for other in Position if other is not position}
@@ -64,7 +64,7 @@ def test_certificate_alone_finds_a_wrong_position_of_a_case(case, position):
 
 
 @every_sample
-def test_certificate_alone_finds_a_wrong_tangency_of_a_case(case):
+def test_a_wrong_tangency_label_is_found_by_the_certificate_of_the_case(case):
     assert any("the certificate" in sentence for sentence in sentences(case, tangent=not case.tangent))
 
 
@@ -109,7 +109,7 @@ def test_clear_case_labelled_tangent_is_a_fault_even_with_a_double_root_in_its_c
         ((5, 0, 0), (-5, 0, 0)),
     ],
 )
-def test_certificate_whose_points_prove_nothing_is_refused(offsets):
+def test_certificate_whose_points_do_not_prove_contact_is_refused(offsets):
     witness = StoredCertificate(offsets=tuple(tuple(map(Fraction, point)) for point in offsets))
     for case in (CLEAR, INSIDE, CROSSING, TOUCHING):
         assert any("the certificate" in sentence for sentence in sentences(case, witness=witness))
@@ -272,7 +272,7 @@ def test_cases_check_checks_invalid_rows_too(tmp_path, capsys):
     assert "case invalid-0000: columns x are said to be at fault, but alpha is" in capsys.readouterr().out
 
 
-def test_an_endless_pipe_is_refused_in_time(monkeypatch):
+def test_an_endless_pipe_is_refused_after_a_limited_number_of_bytes(monkeypatch):
     class Endless(io.RawIOBase):
         def readinto(self, buffer):
             buffer[:] = b"\n" * len(buffer)
@@ -291,7 +291,7 @@ def test_counting_the_cases_of_an_unknown_name_is_refused_with_a_suggestion():
         frozen.count_of("rings")
 
 
-def test_missing_frozen_file_is_an_error(tmp_path, capsys, monkeypatch):
+def test_cases_check_ends_with_2_and_names_a_missing_frozen_file(tmp_path, capsys, monkeypatch):
     monkeypatch.setattr(frozen, "folder", lambda: tmp_path)
     assert main(["cases", "check"]) == 2
     assert "forest-type-1.json" in capsys.readouterr().err

@@ -30,7 +30,7 @@ every_file = pytest.mark.parametrize("name", frozen.ENDED_NAMES)
 
 
 @every_file
-def test_a_file_of_ends_fits_its_schema_is_fresh_and_has_every_label_proved(name):
+def test_a_frozen_file_of_pairs_with_ends_fits_its_schema_equals_what_freezing_makes_and_has_right_labels(name):
     file = frozen.load(name)
     assert fits(name, "ended-vectors", ENDED_SCHEMA)
     assert {*bits(ENDED_FAMILIES[name].rows(1, len(file.cases)))} == {*bits(file.rows)}
@@ -38,7 +38,7 @@ def test_a_file_of_ends_fits_its_schema_is_fresh_and_has_every_label_proved(name
     assert faults_of(replace(file, cases=file.cases[::12], lines=())) == []
 
 
-def test_ended_cases_are_of_every_position_open_and_solid_and_some_touch():
+def test_cases_with_ends_have_every_position_for_open_and_solid_bodies_and_some_are_tangent():
     cases = [case for name in frozen.ENDED_NAMES for case in frozen.load(name).cases]
     assert {(case.position, case.row[-1]) for case in cases} == {(position, s) for position in Position for s in (0, 1)}
     assert sum(case.tangent for case in cases) > 40
@@ -107,7 +107,7 @@ def test_a_malformed_case_that_ends_is_refused(tmp_path, change, sentence):
         read_cases(str(path))
 
 
-def test_shown_cases_that_end_say_their_heights_and_what_proves_them(capsys):
+def test_cases_show_prints_the_heights_and_the_proof_of_a_case_with_ends(capsys):
     assert main(["cases", "show", "ended-rim-0000"]) == 0
     shown = capsys.readouterr().out
     assert "z_max" in shown
@@ -133,7 +133,7 @@ def test_a_shown_case_that_ends_has_a_sentence_for_each_kind_of_its_proof(proved
 
 
 @pytest.mark.parametrize("name", frozen.ENDED_SWEEP_NAMES)
-def test_a_file_of_sweeps_beside_ends_fits_its_schema_is_fresh_and_has_every_label_checked(name):
+def test_a_frozen_file_of_sweeps_with_ends_fits_its_schema_equals_what_freezing_makes_and_is_right(name):
     file = frozen.load(name)
     assert fits(name, "ended-ways", ENDED_SWEEP_SCHEMA)
     assert {*bits(ENDED_SWEEP_FAMILIES[name].rows(1, len(file.cases)))} == {*bits(file.rows)}

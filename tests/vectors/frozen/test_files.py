@@ -85,7 +85,7 @@ EARLIER = {"small-integers": 240}
 """Rows of earlier generator versions, with which the file of a family begins: they keep their ids for ever."""
 
 
-def test_every_family_of_a_later_version_has_rows_of_earlier_ones():
+def test_the_tests_have_rows_of_earlier_versions_for_every_family_with_a_version_above_1():
     assert set(EARLIER) == {name for name, family in FAMILIES.items() if family.version > 1}
 
 
@@ -115,7 +115,7 @@ def test_a_frozen_file_is_written_back_to_the_same_bytes(name):
     assert cases_text(vectors.load(name)) == text_of(name)
 
 
-def test_rows_of_worst_cancellation_are_those_that_its_searches_find():
+def test_repeated_searches_find_the_frozen_rows_of_worst_cancellation():
     """Two of the searches made anew, one in each float format; the rows stand in the file in the order of searches."""
     known = bits(vectors.load(WORST_CANCELLATION).rows)
     for wanted in (
@@ -129,7 +129,7 @@ def test_rows_of_worst_cancellation_are_those_that_its_searches_find():
         assert struct.pack("<7d", *found.row) in known
 
 
-def test_every_row_of_worst_cancellation_defeats_a_formula_in_the_default_domain():
+def test_some_formula_is_wrong_on_every_row_of_worst_cancellation_and_all_rows_are_in_the_default_domain():
     file = vectors.load(WORST_CANCELLATION)
     defeats = {f"{formula}-{precision}" for formula, precision in DEFEATED}
     for case in file.cases:
@@ -177,7 +177,7 @@ def test_schema_of_vectors_refuses_each_malformed_document():
         assert violations(changed, wanted, closed=True) != []
 
 
-def test_each_case_of_a_frozen_file_has_its_own_line():
+def test_each_case_of_a_frozen_file_is_on_a_line_of_its_own():
     for name in vectors.ALL_NAMES:
         lines = text_of(name).splitlines()
         begin = lines.index('"cases": [') + 1
@@ -197,7 +197,7 @@ def test_arrays_of_frozen_rows_hold_the_cases_of_a_file_in_order():
     assert frozen.positions.tolist() == [int(case.position) for case in file.cases]
 
 
-def test_every_tangent_ladder_changes_its_answer_once_and_has_every_rung():
+def test_each_ladder_of_the_family_tangent_ladder_has_all_rungs_and_changes_its_answer_once():
     cases = vectors.load("tangent-ladder").cases
     sides = set()
     for start in range(0, len(cases), RUNGS):

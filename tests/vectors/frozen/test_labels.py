@@ -122,7 +122,7 @@ def test_rounding_flags_of_cases_agree_with_the_wrong_answers_of_built_in_method
         assert {place for place, found in enumerate(flags) if f"{formula}-{precision}" in found} == wanted
 
 
-def test_the_default_domain_and_the_formats_ranges_are_those_of_the_methods():
+def test_the_flags_extreme_and_the_ranges_of_formats_agree_with_domain_and_representable():
     rows = np.concatenate([vectors.load(name).rows for name in vectors.NAMES])
     flagged = ["extreme" in case.flags for name in vectors.NAMES for case in vectors.load(name).cases]
     assert flagged == (~Domain().holds(rows)).tolist()
@@ -137,7 +137,7 @@ def test_flags_of_a_case_come_in_the_order_of_the_table():
 
 @given(pairs)
 @settings(max_examples=25)
-def test_shortened_proofs_still_prove_a_crossing(pair):
+def test_shortened_certificates_still_prove_a_crossing(pair):
     decision = inside.decide(pair.lengths)
     found = stored_certificate(pair.row, prove(pair, decision))
     crosses = decision.position is Position.CONTACT and not decision.tangent
@@ -146,7 +146,7 @@ def test_shortened_proofs_still_prove_a_crossing(pair):
         assert shows_crossing(pair.row, found.offsets)
 
 
-def test_proofs_of_ordinary_crossings_are_of_few_digits():
+def test_points_in_certificates_of_ordinary_crossings_have_at_most_40_characters():
     for name in ("uniform", "tower-rotors", "on-surface", "out-of-regime"):
         lengths = sorted(
             max(len(exact_text(part)) for point in case.witness.offsets for part in point)
@@ -228,7 +228,7 @@ def test_freezing_keeps_ids_of_old_rows_and_appends_new_ones():
     assert extended("mine", gaps, ROWS) == [*gaps, ("mine-0008", ROWS[2])]
 
 
-def test_freezing_keeps_what_an_older_generator_made(monkeypatch):
+def test_freezing_keeps_rows_of_an_older_generator_and_numbers_new_rows_after_them(monkeypatch):
     """Half of the frozen cases, in another order, and a row that no generator makes now."""
     monkeypatch.setitem(ALL, "ring", replace(ALL["ring"], frozen=12))
     now = frozen("ring")
@@ -290,7 +290,7 @@ def test_freezing_keeps_ids_of_old_invalid_rows_and_appends_new_ones():
     assert cases_text(frozen_invalid_rows("invalid", after)) == cases_text(after)
 
 
-def test_freezing_has_a_count_for_every_family_and_a_search_for_every_stratum():
+def test_every_family_is_frozen_except_the_known_ones_and_every_stratum_has_its_searches():
     kinds = ("tilted", "way", "tilted-way", "ended", "ended-way")
     domains = {f"{kind}-whole-domain" for kind in ("tilted", "way", "ended")}
     little = {f"{kind}nearly-zero" for kind in ("", "tilted-", "way-", "ended-", "tilted-ended-")}

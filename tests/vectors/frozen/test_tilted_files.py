@@ -85,7 +85,7 @@ def test_tilted_ring_cases_are_clear_with_a_vanishing_discriminant():
     assert all("quartic-ring" in case.flags and case.position is not Position.CONTACT for case in exactly)
 
 
-def test_tangent_and_crossing_files_have_double_roots_of_either_kind():
+def test_tilted_tangent_cases_are_tangent_and_tilted_crossing_cases_have_a_double_root_without_tangency():
     assert all(case.tangent for case in frozen.load("tilted-tangent").cases)
     for case in frozen.load("tilted-crossing").cases:
         assert not case.tangent
@@ -165,7 +165,7 @@ def test_a_tilted_case_that_is_wrongly_written_is_refused(tmp_path, change, mess
         read_cases(str(path))
 
 
-def test_a_file_with_another_content_than_the_wanted_one_is_refused(tmp_path):
+def test_read_cases_refuses_a_file_whose_content_is_not_the_requested_one(tmp_path):
     with pytest.raises(InputError, match="here it must be 'positions'"):
         read_cases(str(frozen.path_of("tilted-ring")), content_with())
     with pytest.raises(InputError, match="here it must be 'tilted-positions'"):
