@@ -84,13 +84,13 @@ class MethodAnswers:
 
 
 def chosen_workloads(plan: BenchPlan) -> list[Workload]:
-    """The workloads of the plan. Raises InputError naming one that does not exist."""
+    """Return the workloads of the plan. Raises InputError naming one that does not exist."""
     known = workloads_of(plan)
     return [known[name] for name in chosen_names(list(known), plan.workloads, "workload")]
 
 
 def workload_truths(plan: BenchPlan, executor: Executor | None) -> Iterator[WorkloadTruth]:
-    """The truth of each workload. The distances are computed in pieces, on all processors."""
+    """Yield the truth of each workload. The distances are computed in pieces, on all processors."""
     for workload in chosen_workloads(plan):
         rows = workload.rows(plan.seed, workload.judged(plan))
         pieces = [(start, rows[start : start + _PIECE]) for start in range(0, len(rows), _PIECE)]
@@ -103,12 +103,12 @@ def workload_truths(plan: BenchPlan, executor: Executor | None) -> Iterator[Work
 
 
 def _examined(piece: tuple[int, Rows]) -> tuple[Positions, Floats]:
-    """Exact positions, and the exponents of the distances to another position."""
+    """Return exact positions, and the exponents of the distances to another position."""
     return judge.exact_positions(piece[1]), flip_exponents(piece[1])
 
 
 def _examined_sweeps(piece: tuple[int, Rows]) -> tuple[Positions, Floats]:
-    """Exact hits of sweeps, and approximate exponents of the change of size that leads to the other answer."""
+    """Return exact hits of sweeps, and approximate exponents of the change of size that leads to the other answer."""
     rows = piece[1]
     off = np.abs(least_distances(rows) - 1)
     with np.errstate(divide="ignore"):
@@ -118,7 +118,7 @@ def _examined_sweeps(piece: tuple[int, Rows]) -> tuple[Positions, Floats]:
 
 
 def method_answers(task: tuple[BenchPlan, str]) -> list[MethodAnswers]:
-    """The answers of the method with that name, to each workload of the plan."""
+    """Return the answers of the method with that name, to each workload of the plan."""
     plan, name = task
     contender = contenders(plan)[name]
     with closing(contender.load()) as loaded:
@@ -142,14 +142,14 @@ def _answered(plan: BenchPlan, contender: Contender, loaded: LoadedMethod, workl
 
 @cache
 def _rows(workload: Workload, seed: int, count: int) -> Rows:
-    """A workload's rows, generated once in a process; they must not be written to."""
+    """Return a workload's rows, generated once in a process; they must not be written to."""
     rows = workload.rows(seed, count)
     rows.flags.writeable = False
     return rows
 
 
 def timed_rows(plan: BenchPlan, contender: Contender, workload: Workload) -> Rows:
-    """The rows of a timed batch; none if the workload or the method is not timed."""
+    """Return the rows of a timed batch; none if the workload or the method is not timed."""
     if contender.accuracy_only or not workload.timed:
         return _rows(workload, plan.seed, 0)
     rows = _rows(workload, plan.seed, plan.amounts.timed)
@@ -161,14 +161,14 @@ def timed_rows(plan: BenchPlan, contender: Contender, workload: Workload) -> Row
 
 
 def answers_print(answers: Answers) -> str:
-    """A hash of these answers."""
+    """Return a hash of these answers."""
     return hashlib.sha256(np.ascontiguousarray(answers, dtype=np.int8).tobytes()).hexdigest()[:16]
 
 
 def accuracy_line(
     contender: Contender, results: MethodAnswers, truth: WorkloadTruth, tried: int = WORST_TRIED
 ) -> AccuracyLine:
-    """The record's line about one method and one workload; `results` holds at least one answer.
+    """Return the record's line about one method and one workload; `results` holds at least one answer.
 
     The errors of `tried` wrong answers are computed.
     """
@@ -198,7 +198,7 @@ def accuracy_line(
 
 
 def reliable_above(exponents: Floats, wrong: NDArray[np.bool_]) -> float:
-    """The least 2^k with at most TOLERABLE wrong rows at a distance of at least 2^(k + j), for all j ≥ 0.
+    """Return the least 2^k with at most TOLERABLE wrong rows at a distance of at least 2^(k + j), for all j ≥ 0.
 
     Missing answers count as wrong: otherwise a method that never answers would be reliable. The result is 0 if nothing
     is wrong, NEAREST if only exact tangencies are wrong, and inf if even the farthest rows are wrong too often or do
@@ -220,7 +220,7 @@ def reliable_above(exponents: Floats, wrong: NDArray[np.bool_]) -> float:
 
 
 def _worst(scored: Score, exponents: Floats, results: MethodAnswers, tried: int) -> list[Mistaken]:
-    """The worst wrong answers, of `tried` rows with the greatest distance to another position."""
+    """Return the worst wrong answers, of `tried` rows with the greatest distance to another position."""
     places = scored.wrong[np.argsort(-exponents[scored.wrong], kind="stable")][:tried].tolist()
     question = scored.criterion.question
     cases = [
@@ -241,7 +241,10 @@ def _worst(scored: Score, exponents: Floats, results: MethodAnswers, tried: int)
 
 
 def _about_error_of(row: Sequence[float], answer: int, question: str) -> float:
-    """The error of an answer: the change of the inputs that makes it right; for a sweep, of the spheroid's size."""
+    """Return the error of an answer: the change of the inputs that makes it right.
+
+    For a sweep, of the spheroid's size.
+    """
     if question == PASSAGE:
         return size_error(row, bool(answer)).lower
     return judge.about_error_of(row, answer, question)
@@ -251,7 +254,7 @@ MEMORY_WORKLOAD = "uniform"
 
 
 def memory_lines(plan: BenchPlan, names: Sequence[str]) -> Iterator[MemoryLine]:
-    """A line for each of the methods, in the order in which they finish."""
+    """Yield a line for each of the methods, in the order in which they finish."""
     for _, line in one_each(_memory_line, [(plan, name) for name in names], plan.workers):
         yield line
 
@@ -263,7 +266,7 @@ def _memory_line(task: tuple[BenchPlan, str]) -> MemoryLine:
 
 
 def memory_line(contender: Contender, rows: Rows) -> MemoryLine:
-    """The record's line about the memory that a method needs to answer these rows, besides the rows."""
+    """Return the record's line about the memory that a method needs to answer these rows, besides the rows."""
     first = contender.load()
     first.answer(rows[:1])  # this loads code, which is not to be counted
     first.close()
@@ -291,7 +294,7 @@ def forget_peak() -> int:
 
 
 def peak() -> int:
-    """The largest resident size so far, in bytes."""
+    """Return the largest resident size so far, in bytes."""
     with suppress(OSError, StopIteration):
         status = Path("/proc/self/status").read_text(encoding="ascii", errors="replace").splitlines()
         words = next(line for line in status if line.startswith("VmHWM:")).split()

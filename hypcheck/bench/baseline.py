@@ -44,7 +44,7 @@ class SpeedChange:
     noise: float
 
     def verdict(self, allowed: float) -> str:
-        """The verdict: "slower" if it is slower than allowed, "inconclusive" if it may be, else "faster" or "same"."""
+        """Return "slower" if it is slower than allowed, "inconclusive" if it may be, else "faster" or "same"."""
         low, high = self.low / self.noise, self.high * self.noise
         if low > allowed:
             return "slower"
@@ -54,7 +54,7 @@ class SpeedChange:
 
 
 def read_baseline(plan: BenchPlan) -> Baseline | None:
-    """The plan's baseline, if it has one. Raises InputError if the record cannot be a baseline for this run."""
+    """Return the plan's baseline, if it has one. Raises InputError if the record cannot be a baseline for this run."""
     if plan.baseline is None:
         return None
     path = file_of(plan.baseline)
@@ -79,7 +79,7 @@ def read_baseline(plan: BenchPlan) -> Baseline | None:
 
 
 def speeds_of(lines: Iterable[RecordLine]) -> Baseline:
-    """The speeds among lines of a record that have a ratio, and the noise.
+    """Return the speeds among lines of a record that have a ratio, and the noise.
 
     Earlier versions wrote LEAST_NS if an empty call was not shorter; speeds without any other time are not compared.
     """
@@ -94,7 +94,7 @@ def speeds_of(lines: Iterable[RecordLine]) -> Baseline:
 
 
 def alike(before: Baseline, methods: Iterable[ForeignMethod]) -> tuple[ForeignMethod, ...]:
-    """The methods of SPECs, timed on as many rows as in the baseline, because small batches cost more per row."""
+    """Return the methods of SPECs, timed on as many rows as in the baseline: small batches cost more per row."""
     rows: dict[str, int] = {}
     for (method, _, mode), line in before.speeds.items():
         if mode == "batch":
@@ -103,7 +103,7 @@ def alike(before: Baseline, methods: Iterable[ForeignMethod]) -> tuple[ForeignMe
 
 
 def gated(plan: BenchPlan, contenders_by_name: Mapping[str, Contender]) -> set[str]:
-    """The methods whose verdicts decide the exit code: the named methods, else hypcheck's certified ones."""
+    """Return the methods whose verdicts decide the exit code: the named methods, else hypcheck's certified ones."""
     foreign = {method.name for method in plan.foreign}
     if foreign:
         return foreign
@@ -121,7 +121,7 @@ def require_common(before: Baseline, names: set[str]) -> None:
 
 
 def comparisons(plan: BenchPlan, before: Baseline, after: Baseline, gates: set[str]) -> Iterator[ComparisonLine]:
-    """A line for each method, workload and mode that both runs timed."""
+    """Yield a line for each method, workload and mode that both runs timed."""
     for key in after.speeds:
         method, workload, mode = key
         if key in before.speeds and method != plan.reference:
@@ -141,7 +141,7 @@ def comparisons(plan: BenchPlan, before: Baseline, after: Baseline, gates: set[s
 
 
 def change_of(before: Baseline, after: Baseline, key: SpeedKey, reference: str) -> SpeedChange:
-    """The change of one ratio."""
+    """Return the change of one ratio."""
     draws = [_medians(run, key, reference, seed) for run, seed in zip((before, after), _SEEDS, strict=True)]
     tail = (1 - CONFIDENCE) / 2
     low, high = np.quantile(draws[1] / draws[0], (tail, 1 - tail)).tolist()

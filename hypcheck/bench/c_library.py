@@ -77,12 +77,12 @@ class CMethod:
 
 
 def identifier(name: str) -> str:
-    """A method's name as an identifier of C."""
+    """Return a method's name as an identifier of C."""
     return name.replace("-", "_").replace(".", "_")
 
 
 def of_formula(formula: Formula, format_name: str) -> CMethod:
-    """A formula's printed program; steps that depend only on sizes come before the loop."""
+    """Return a formula's printed program; steps that depend only on sizes come before the loop."""
     number = NUMBERS[format_name]
     outside, inside = parts(formula)
     known = tuple(step.name for step in outside.steps)
@@ -96,7 +96,10 @@ def of_formula(formula: Formula, format_name: str) -> CMethod:
 
 
 def trigonometric(format_name: str) -> CMethod:
-    """The roots of g by the trigonometric form, only if Δ > 0; decisions are as in implementations/alternatives.py."""
+    """Return the roots of g by the trigonometric form, only if Δ > 0.
+
+    Decisions are as in implementations/alternatives.py.
+    """
     number = NUMBERS[format_name]
     outside, inside = parts(_CUBIC)
     known = tuple(step.name for step in outside.steps)
@@ -108,7 +111,7 @@ def trigonometric(format_name: str) -> CMethod:
 
 
 def dual(format_name: str) -> CMethod:
-    """The dual form: the search of implementations/alternatives.py, step by step, then the rest of the program."""
+    """Return the dual form in C: the search of implementations/alternatives.py, then the rest of the program."""
     number = NUMBERS[format_name]
     program = cut(FORMULAS["dual"].program, DISTANCES, ("phi",))
     search = _template("dual", number=number, suffix=C_SUFFIXES[number], digits=DIGITS[number], least=LEAST[number])
@@ -122,7 +125,7 @@ def dual(format_name: str) -> CMethod:
 
 
 def _method(name: str, number: str, before: Sequence[str], within: Sequence[str], answer: str) -> CMethod:
-    """A method from its statements before the loop over centres and within it, and the expression of the answer.
+    """Return a method from its statements before the loop over centres and within it, and the expression of the answer.
 
     `number` is the C type of its numbers.
     """
@@ -131,13 +134,13 @@ def _method(name: str, number: str, before: Sequence[str], within: Sequence[str]
 
 
 def _template(name: str, /, **marks: str) -> str:
-    """The C code of that name in templates/, with its marks filled in."""
+    """Return the C code of that name in templates/, with its marks filled in."""
     return filled("hypcheck.bench", f"{name}.c.tmpl", marks)
 
 
 @cache
 def bodies() -> tuple[CMethod, ...]:
-    """All methods in C; a method's place in the driver's table is its place here plus one.
+    """Return all methods in C; a method's place in the driver's table is its place here plus one.
 
     The first is the fast path as hypcheck.classify runs it if it was compiled.
     """
@@ -151,7 +154,7 @@ def bodies() -> tuple[CMethod, ...]:
 
 
 def methods_source() -> str:
-    """The file of all methods and procedures; the table of methods begins with one that does nothing."""
+    """Return the file of all methods and procedures; the table of methods begins with one that does nothing."""
     names = [identifier(method.name) for method in bodies()]
     return _template(
         "methods",
@@ -163,12 +166,15 @@ def methods_source() -> str:
 
 
 def place_of(name: str) -> int:
-    """A method's place in the table. Raises ValueError if it has none."""
+    """Return a method's place in the table. Raises ValueError if it has none."""
     return [body.name for body in bodies()].index(name) + 1
 
 
 def compiled(folder: Path) -> tuple[Path, CompilerLine]:
-    """The library of the methods, compiled in a folder. Raises UnavailableError if no compiler can compile it."""
+    """Return the library of the methods, compiled in a folder.
+
+    Raises UnavailableError if no compiler can compile it.
+    """
     code, methods, library = folder / "methods.c", folder / "methods.o", folder / "methods.so"
     code.write_text(methods_source(), encoding="ascii")
     with ThreadPoolExecutor(1) as beside:
@@ -194,7 +200,7 @@ def compile_c(code: Path, target: Path, how: str = "-shared") -> CompilerLine:
 
 
 def _kernel(folder: Path) -> str:
-    """The object file of the fast path."""
+    """Return the object file of the fast path."""
     program, code, target = compiler_here(), folder / "fast.c", folder / "fast.o"
     code.write_text('#define HYPCHECK_IMPLEMENTATION\n#include "hypcheck.h"\n', encoding="ascii")
     result = run_compiler([program, *KERNEL_FLAGS, _INCLUDE, "-c", str(code), "-o", str(target)])
@@ -203,7 +209,7 @@ def _kernel(folder: Path) -> str:
 
 
 def compiler_here() -> str:
-    """The C compiler of this machine. Raises UnavailableError if there is none."""
+    """Return the C compiler of this machine. Raises UnavailableError if there is none."""
     named = os.environ.get("CC", "")
     for name in (named, "cc", "gcc", "clang"):
         path = shutil.which(name) if name else None
@@ -263,11 +269,11 @@ class InC(LoadedMethod):
     place: int
 
     def answer(self, rows: Rows) -> Answers:
-        """The method's answers, by the entry for rows."""
+        """Return the method's answers, by the entry for rows."""
         return self._by_rows("bench_rows", rows).answers()
 
     def batch(self, rows: Rows) -> PreparedWork:
-        """A call for all rows: the entry for scenes if the rows share their sizes, else the entry for rows."""
+        """Return a call for all rows: the entry for scenes if the rows share their sizes, else the entry for rows."""
         sizes = scene_of(rows)
         if sizes is None:
             return self._by_rows("bench_rows", rows)
@@ -282,11 +288,11 @@ class InC(LoadedMethod):
         return _prepared(call, answers)
 
     def single(self, rows: Rows) -> PreparedWork:
-        """A call for each row, from C through the table of functions: the time that a C program would wait."""
+        """Return a call for each row, from C through the table of functions: the time that a C program would wait."""
         return self._by_rows("bench_single", rows)
 
     def empty(self, rows: Rows, mode: str) -> EmptyCall:
-        """A function in C that does nothing."""
+        """Return a function in C that does nothing."""
         nothing = InC(self.library, 0)
         return EmptyCall("C", nothing.single(rows) if mode == "single" else nothing._by_rows("bench_rows", rows[:1]))
 
@@ -301,7 +307,7 @@ class InC(LoadedMethod):
 
 
 def bodies_asked(library: Path, place: int, flight: CraftPath) -> PreparedWork:
-    """A quadcopter procedure, by its place in the source's table of_bodies, called for each position of a flight."""
+    """Return a quadcopter procedure, by its place in the C table of_bodies, called for each position of a flight."""
     craft = np.array([flight.craft[name] for name in CRAFT])
     columns = [np.ascontiguousarray(flight.columns[name]) for name in MOVING]
     answers = np.zeros(len(flight), dtype=np.int8)
@@ -329,7 +335,7 @@ row: it is of degree 24 in numbers of 53 bits that are alike in magnitude."""
 
 
 def baselines_source() -> str:
-    """The programs compared with the compiled kernel: reading its rows, long products, and the uncertified Table 2.
+    """Return the programs to compare with the compiled kernel: reading rows, long products, the uncertified Table 2.
 
     Other functions of the file call the kernel repeatedly.
     """
@@ -373,30 +379,33 @@ class CBaseline:
         return clocked(lambda: np.array([in_parts(part, len(columns[0]), threads)]), clock)
 
     def reading(self, columns: Columns) -> Callable[[int], None]:
-        """A call that reads the columns the given number of times; meanwhile other Python threads can run."""
+        """Return a call that reads the columns the given number of times; meanwhile other Python threads can run."""
         function, pointers = self.library.read_over_and_over, _pointers(columns)
         return lambda times: function(times, len(columns[0]), *pointers)
 
     def product(self) -> Clocked:
-        """A multiplication of two long integers, half of the product: exact decisions consist of such products."""
+        """Return a multiplication of long integers, half of the product: exact decisions consist of such products."""
         numbers = np.random.Generator(np.random.PCG64(1)).integers(1 << 31, 1 << 32, (2, WORDS), dtype=np.uint32)
         no_answers = np.zeros(0, dtype=np.int8)
         return clocked_in_c(lambda times: self.library.products(times, *_pointers(numbers)), no_answers, thread_time_ns)
 
     def of_rows(self, rows: Rows, out: Positions) -> Callable[[int], None]:
-        """A call that runs the compiled kernel on rows the given number of times."""
+        """Return a call that runs the compiled kernel on rows the given number of times."""
         ask = ctypes.cast(ctypes.CDLL(str(compiled_kernel().__file__)).hypcheck_ask, _POINTER)
         function, pointers = self.library.rows_over_and_over, _pointers((rows, out))
         return lambda times: function(ask, times, len(rows), *pointers)
 
     def of_scene(self, columns: Columns, out: Positions) -> Callable[[int], None]:
-        """A call that runs the compiled kernel the given number of times; meanwhile other Python threads can run."""
+        """Return a call that runs the compiled kernel the given number of times.
+
+        Meanwhile other Python threads can run.
+        """
         ask = ctypes.cast(ctypes.CDLL(str(compiled_kernel().__file__)).hypcheck_ask_scene, _POINTER)
         function, pointers = self.library.over_and_over, _pointers((*columns, out))
         return lambda times: function(ask, times, _SIZES.ctypes.data, len(out), *pointers)
 
     def plain(self, columns: Columns, out: Positions) -> Clocked:
-        """The plain formula in one thread; the sum is the sum of its answers."""
+        """Return the plain formula in one thread; the sum is the sum of its answers."""
         function, pointers = self.library.plain, _pointers((*columns, out))
 
         def work() -> Positions:
@@ -412,7 +421,7 @@ def _pointers(arrays: Iterable[NDArray[Any]]) -> list[int]:
 
 @cache
 def c_baselines(folder: Path, level: str | None = None) -> list[CBaseline]:
-    """A library for each vector width of the level (by default the kernel's level). They are compiled once.
+    """Return a library for each vector width of the level (by default the kernel's level). They are compiled once.
 
     Raises UnavailableError if there is no compiler.
     """

@@ -77,7 +77,7 @@ def with_products(sizes: Sizes, x: Floats, y: Floats, z: Floats) -> NDArray[np.i
 
 
 def textbook(alpha: float, gamma: float, b: float, d: float, x: float, y: float, z: float) -> int:
-    """Table 2 in plain Python, 1 for exterior: the coefficients and the discriminant, without error bounds."""
+    """Return Table 2 in plain Python, 1 for exterior: the coefficients and the discriminant, without error bounds."""
     a, c, p, q, r = alpha / b, gamma / d, x / b, y / b, z / d
     A, B, P, Q = a * a, c * c, p * p + q * q, r * r
     AB = A * B
@@ -112,7 +112,7 @@ class TimesAsFast:
     share: float
 
     def line(self, expression: str, samples: Mapping[str, Samples], says: str) -> KernelLine:
-        """The record's line about the expression of that name."""
+        """Return the record's line about the expression of that name."""
         own, other, least = (samples[name] for name in (self.mine, expression, self.ceiling))
         gains, most = times_as_fast(own, other), times_as_fast(least, other)
         reached = [gain / min(self.times, self.share * limit) for gain, limit in zip(gains, most, strict=True)]
@@ -124,7 +124,7 @@ class TimesAsFast:
 
 
 def numpy_targets() -> tuple[TimesAsFast, ...]:
-    """The targets against numpy expressions that targets.toml lists."""
+    """Return the targets against numpy expressions that targets.toml lists."""
     return tuple(TimesAsFast(**entry) for entry in yardsticks.listed()["times_as_fast"])
 
 
@@ -145,7 +145,7 @@ LARGE_PAGES = Path("/sys/kernel/mm/transparent_hugepage/enabled")
 
 
 def large_pages(setting: Path = LARGE_PAGES) -> str:
-    """A sentence about the system's setting of large pages for the temporaries of an expression."""
+    """Return a sentence about the system's setting of large pages for the temporaries of an expression."""
     try:
         text = setting.read_text(encoding="ascii")
     except (OSError, UnicodeDecodeError):
@@ -156,7 +156,7 @@ def large_pages(setting: Path = LARGE_PAGES) -> str:
 
 
 def against_numpy(run: Measuring) -> Iterator[KernelLine]:
-    """Targets of ten million rows: both numpy expressions and both kernels, as a user calls them, and their limits."""
+    """Yield targets of ten million rows: both numpy expressions and both kernels, as a user calls them; limits."""
     columns = uniform_columns(MOST)
     work: dict[str, Callable[[], NDArray[np.signedinteger]]] = {
         "copying": partial(copied, columns),
@@ -182,7 +182,7 @@ TRIANGLES = 2000
 
 
 def fcl_queries(rows: Rows) -> Clocked:
-    """FCL's queries with a mesh that was built before, a row at a time, in the units of its mesh."""
+    """Return FCL's queries with a mesh that was built before, a row at a time, in the units of its mesh."""
     mesh = scene_mesh(FCL, "point", TOWER_SIZES, height_of(TOWER_SIZES, rows), TRIANGLES)
     touches, centres = mesh.touches, (rows[:, 4:] / np.array(mesh.unit)).tolist()
     if touches is None:
@@ -195,7 +195,7 @@ ONE_BY_ONE = 200
 
 
 def against_others(run: Measuring) -> Iterator[KernelLine]:
-    """Targets against numpy.roots and FCL, a row at a time, compared with a hundred thousand rows of the kernel."""
+    """Yield targets of a hundred thousand rows of the kernel against numpy.roots and FCL, a row at a time."""
     columns = uniform_columns(100_000)
     rows = tower_rows(columns)[:ONE_BY_ONE]
     entries = [
@@ -215,14 +215,17 @@ BATCHES, MOST = (1_000, 10_000, 100_000), 10_000_000
 
 
 def batches(run: Measuring) -> Iterator[KernelLine]:
-    """Targets of batches that stay in the cache, and of one from memory."""
+    """Yield targets of batches that stay in the cache, and of one from memory."""
     for count in BATCHES:
         yield from _batch(run, count, 3 * run.rounds)
     yield from _batch(run, MOST, run.rounds)
 
 
 def _batch(run: Measuring, count: int, rounds: int) -> Iterator[KernelLine]:
-    """Targets of a batch, with the cost of a new array's first access. MOST rows come from memory, only as a scene."""
+    """Yield targets of a batch, with the cost of a new array's first access.
+
+    MOST rows come from memory, only as a scene.
+    """
     columns, out = uniform_columns(count), np.zeros(count, dtype=np.int8)
     library, large = run.baselines[0], count == MOST
     scene = partial(hypcheck.classify_scene, TOWER_SIZES, *columns, threads=1 if large else None)
@@ -255,7 +258,11 @@ def _batch(run: Measuring, count: int, rounds: int) -> Iterator[KernelLine]:
 def _batch_line(
     name: str, entry: Mapping[str, Any], count: int, samples: Mapping[str, Samples], in_c: Samples
 ) -> KernelLine:
-    """The line of a batch, compared with the C function, one empty call and, if it makes one, a new array."""
+    """Return the record's line about a batch of `count` rows by one Python call, named as entry["mine"].
+
+    The target compares its time for a row with that of the C function (`in_c`), plus the cost of an empty call and, if
+    the call makes a new array, of that, spread over the rows.
+    """
     rows = f"{count:.0e}".replace("e+0", "e")
     mine, empty, array = samples[entry["mine"]], samples["empty"], samples["array"]
     made = array.samples_ns if entry["mine"] in ("fresh", "rows") else [0.0] * len(array.samples_ns)
@@ -270,7 +277,7 @@ def _batch_line(
 
 
 def ten_centres(run: Measuring) -> Iterator[KernelLine]:
-    """Targets of a batch so small that a call dominates its cost."""
+    """Yield targets of a batch so small that a call dominates its cost."""
     out = np.empty(TEN, dtype=np.int8)
     names = dict(zip(("sizes", "x", "y", "z"), (TOWER_SIZES, *uniform_columns(TEN)), strict=True))
     arrays, with_out = "ask(sizes, x, y, z)", "ask(sizes, x, y, z, out)"
@@ -289,7 +296,7 @@ def ten_centres(run: Measuring) -> Iterator[KernelLine]:
 
 
 def one_call(run: Measuring) -> Iterator[KernelLine]:
-    """Targets of calls about one pair in a Python loop; the time of the empty loop is subtracted."""
+    """Yield targets of calls about one pair in a Python loop; the time of the empty loop is subtracted."""
     rows = [tuple(row) for row in tower_rows(uniform_columns(CALLS)).tolist()]
     loop = "for alpha, gamma, b, d, x, y, z in rows:"
     functions: dict[str, object] = {"plain": exact_position, "textbook": textbook}
@@ -305,14 +312,14 @@ def one_call(run: Measuring) -> Iterator[KernelLine]:
 
 
 def forms_of_one_pair(run: Measuring) -> Iterator[KernelLine]:
-    """Targets of hypcheck.position with the kinds of numbers that programs have."""
+    """Yield targets of hypcheck.position with the kinds of numbers that programs have."""
     numbers, kinds = (2, 18, 1, 2, 3, 4, 5), (np.float32, np.float64, np.int64)
     names = {kind.__name__: tuple(map(kind, numbers)) for kind in kinds}
     yield from _calls("one pair", "one pair", {"position": hypcheck.position, **names}, run)
 
 
 def forms_of_ten_centres(run: Measuring) -> Iterator[KernelLine]:
-    """Targets of classify_scene of ten centres, so that the call dominates the cost."""
+    """Yield targets of classify_scene of ten centres, so that the call dominates the cost."""
     columns = uniform_columns(TEN)
     points = np.column_stack(columns)
     names: dict[str, object] = {
@@ -331,7 +338,7 @@ def forms_of_ten_centres(run: Measuring) -> Iterator[KernelLine]:
 
 
 def forms_of_ten_rows(run: Measuring) -> Iterator[KernelLine]:
-    """Targets of the forms of calls about ten rows, for positions and for clearances."""
+    """Yield targets of the forms of calls about ten rows, for positions and for clearances."""
     rows = tower_rows(uniform_columns(TEN))
     names = {"rows": rows, "fortran": np.asfortranarray(rows), "strided": np.repeat(rows, 2, axis=0)[::2]}
     names |= {"single": rows.astype(np.float32), "list": rows.tolist()}
@@ -340,7 +347,7 @@ def forms_of_ten_rows(run: Measuring) -> Iterator[KernelLine]:
 
 
 def _calls(subject: str, table: str, names: dict[str, object], run: Measuring) -> Iterator[KernelLine]:
-    """The lines of the forms of a call that targets.toml lists in a table."""
+    """Return the lines of the forms of a call that targets.toml lists in a table."""
     calls = yardsticks.listed()["forms"][table]
     entries = [TimingEntry("loop", 1, statement("pass"))]
     entries += [TimingEntry(form, 1, statement(text, **names)) for form, (text, _) in calls.items()]
@@ -358,7 +365,7 @@ def _forms(
     samples: Mapping[str, Samples],
     says: str = "{mine}; {name}: {other}",
 ) -> Iterator[KernelLine]:
-    """The lines of the forms of a call, each compared with the first, which is the cheapest.
+    """Return the lines of the forms of a call, each compared with the first, which is the cheapest.
 
     `times` says how many times as long a form may take.
     """
@@ -373,7 +380,7 @@ MILLION, EACH_AXIS = 1_000_000, 20_000
 
 
 def forms_of_many(run: Measuring) -> Iterator[KernelLine]:
-    """Targets of the forms of a million centres or rows, from memory."""
+    """Yield targets of the forms of a million centres or rows, from memory."""
     columns, out = uniform_columns(MILLION), np.zeros(MILLION, dtype=np.int8)
     points, rows = np.column_stack(columns), tower_rows(columns)
     ask = partial(hypcheck.classify_scene, TOWER_SIZES, out=out, threads=1)
@@ -392,7 +399,10 @@ def forms_of_many(run: Measuring) -> Iterator[KernelLine]:
 
 
 def forms_of_an_axis_each(run: Measuring) -> Iterator[KernelLine]:
-    """Targets of centres with an axis each, upright or tilted, against upright rows; tilted ones in other forms too."""
+    """Yield targets of centres with an axis each, upright or tilted, against upright rows.
+
+    Tilted rows are measured in other forms too.
+    """
     columns = uniform_columns(EACH_AXIS)
     upright, tilted = np.tile([0.0, 0.0, 1.0], (EACH_AXIS, 1)), yardsticks.axes(EACH_AXIS)
     ask, ask_rows = partial(hypcheck.classify_scene, TOWER_SIZES, *columns), hypcheck.classify
@@ -414,7 +424,7 @@ def forms_of_an_axis_each(run: Measuring) -> Iterator[KernelLine]:
 def _many(
     subject: str, calls: Mapping[str, Callable[[], Positions]], count: int, run: Measuring
 ) -> Iterator[KernelLine]:
-    """The lines of the forms of a call about many rows."""
+    """Return the lines of the forms of a call about many rows."""
     samples = measured_samples(threaded(count, calls), run.rounds)
     texts = dict.fromkeys(calls, f"a row, to one of {next(iter(calls))}")
     return _forms(subject, texts, yardsticks.listed()["many"][subject], samples)

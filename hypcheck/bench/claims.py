@@ -64,7 +64,7 @@ class CostClaim:
 
 
 def cost_claims(plan: BenchPlan) -> list[CostClaim]:
-    """The claims of this run: all in numpy, and in C if that was compiled."""
+    """Return the claims of this run: all in numpy, and in C if that was compiled."""
     if plan.methods or plan.workloads or not plan.everyday:
         return []  # a run of chosen methods measures only these, and the claims are about upright spheroids
     libraries = (None,) if plan.compiled is None else (None, plan.compiled)
@@ -72,14 +72,14 @@ def cost_claims(plan: BenchPlan) -> list[CostClaim]:
 
 
 def flight_of(seed: int, number: int) -> CraftPath:
-    """Positions along random flights in the paper's cooling tower, with headings."""
+    """Return positions along random flights in the paper's cooling tower, with headings."""
     x, y, z = np.ascontiguousarray(WORKLOADS["flight"].rows(seed, number)[:, 4:].T)
     cosine, sine = Draw("bench-headings", 1, seed).circle(number)
     return CraftPath(dict(zip(CRAFT, (*TOWER, *BODY, *ROTOR, ARM), strict=True)), x, y, z, cosine, sine)
 
 
 def share_touching(flight: CraftPath) -> float:
-    """The share of positions with Δ ≤ 0 for the bounding spheroid; for these Procedure 2.b tests the rotors."""
+    """Return the share of positions with Δ ≤ 0 for the bounding spheroid; for these Procedure 2.b tests the rotors."""
     count = 0
 
     def counting(part: CraftPath) -> None:
@@ -91,7 +91,7 @@ def share_touching(flight: CraftPath) -> float:
 
 
 def hull_operations() -> Operations:
-    """The operations of Procedure 2.b without the rotors, for every position."""
+    """Return the operations of Procedure 2.b without the rotors, for every position."""
     return count(hull_programs()[1].steps)
 
 
@@ -172,7 +172,7 @@ Ratios = Mapping[str, Estimate]
 
 
 def cost_line(plan: BenchPlan, claim: CostClaim, samples: Mapping[str, SampleTable]) -> CostLine:
-    """The record's line about a claim, from the samples of its alternatives by name, the printed one first."""
+    """Return the record's line about a claim, from the samples of its alternatives by name, the printed one first."""
     first = next(iter(samples))
     to_first = {name: estimate(ratios(timed, samples[first])) for name, timed in samples.items()}
     noise = 1 + to_first.pop(FIRST_AGAIN).half_width
@@ -196,7 +196,7 @@ def cost_line(plan: BenchPlan, claim: CostClaim, samples: Mapping[str, SampleTab
 
 
 def _counted(operations: Operations | None) -> dict[str, int] | None:
-    """The kinds of operations with a count above 0, and their counts; None if they are not counted."""
+    """Return the kinds of operations with a count above 0, and their counts; None if they are not counted."""
     if operations is None:
         return None
     return {name: number for name, number in asdict(operations).items() if number}
@@ -238,14 +238,14 @@ _SAYS = {"procedures": _says_of_procedures, "divisions": _says_of_divisions, "ro
 
 
 def cheaper(ratio: Estimate, noise: float) -> str:
-    """The verdict "holds" if the alternative certainly takes less time than the first, beyond noise."""
+    """Return the verdict "holds" if the alternative certainly takes less time than the first, beyond noise."""
     if ratio.high * noise < 1:
         return HOLDS
     return DOES_NOT_HOLD if ratio.low / noise > 1 else INCONCLUSIVE
 
 
 def dearer(ratio: Estimate, noise: float) -> str:
-    """The verdict "holds" if the alternative certainly takes more time than the first."""
+    """Return the verdict "holds" if the alternative certainly takes more time than the first."""
     if ratio.low / noise > 1:
         return HOLDS
     return DOES_NOT_HOLD if ratio.high * noise < 1 else INCONCLUSIVE

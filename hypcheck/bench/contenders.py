@@ -66,14 +66,14 @@ class Contender(MethodClaims):
     quick_judged: int | None = None
 
     def asked(self, rows: Rows) -> NDArray[np.intp]:
-        """The indices of the rows that it must answer: inside its domain, with numbers of its format."""
+        """Return the indices of the rows that it must answer: inside its domain, with numbers of its format."""
         if self.scenes is not None and len(np.unique(rows[:, :4], axis=0)) > self.scenes:
             return np.empty(0, dtype=np.intp)
         return claimed(rows, self.domain, self.precision, layout=QUESTIONS[self.question].layout)[: self.judged]
 
 
 def of_method(method: Method, tier: str, kind: str, **fields: Any) -> Contender:  # noqa: ANN401 - of a contender
-    """A built-in method as a contender; `fields` replace the method's values and the defaults."""
+    """Return a built-in method as a contender; `fields` replace the method's values and the defaults."""
     claims: dict[str, Any] = {claim.name: getattr(method, claim.name) for claim in dataclasses.fields(MethodClaims)}
     return Contender(
         tier=tier, kind=kind, **{"load": partial(InPython, method.answer, method.scene), **claims, **fields}
@@ -91,7 +91,7 @@ ELLIPSOID = "ellipsoid"
 
 
 def contenders(plan: BenchPlan) -> dict[str, Contender]:
-    """The methods that this run compares, by name, the reference first. Raises InputError for unknown names."""
+    """Return the methods that this run compares, by name, the reference first. Raises InputError for unknown names."""
     by_name = {contender.name: _quick(contender) if plan.quick else contender for contender in _everything(plan)}
     others = {contender.name: contender for contender in foreign_contenders(plan.foreign, plan.limits)}
     names = chosen_names(list(by_name), plan.methods, "method")
@@ -108,7 +108,7 @@ _SLOW = 1_000
 
 
 def _quick(contender: Contender) -> Contender:
-    """A slow method gets a quarter of its rows in a quick run: a root by mpmath takes milliseconds."""
+    """Return a slow method gets a quarter of its rows in a quick run: a root by mpmath takes milliseconds."""
     if contender.quick_judged is not None:
         return replace(contender, judged=contender.quick_judged)
     return (
@@ -119,7 +119,7 @@ def _quick(contender: Contender) -> Contender:
 
 
 def _everything(plan: BenchPlan) -> Iterable[Contender]:
-    """Every method, chosen or not."""
+    """Yield every method, chosen or not."""
     if plan.question == PASSAGE:
         yield from _listed("passage", plan)
     elif plan.tilted:
@@ -136,7 +136,7 @@ def _listing() -> Mapping[str, Any]:
 
 
 def _listed(subject: str, plan: BenchPlan) -> Iterable[Contender]:
-    """The contenders that are listed for a subject, those that run here."""
+    """Yield the contenders that are listed for a subject, those that run here."""
     in_use = choice()
     for entry in _listing()["contenders"][subject]:
         fields = dict(entry)
@@ -163,13 +163,13 @@ def _position() -> InScalars:
 
 
 def _in_c(method: Method, library: Path | None) -> dict[str, Any]:
-    """By the library, which may not be compiled yet."""
+    """Return the fields of a contender in C; its library may not be compiled yet."""
     load = partial(InC, library or Path(), place_of(method.name))
     return {"load": load, "singles": SINGLES, "needs": COMPILER}
 
 
 def _in_mesh(method: Method, _library: Path | None) -> dict[str, Any]:
-    """By an engine with a mesh of the whole surface for each scene, built before the timing."""
+    """Return the fields of a contender by an engine, with one mesh for each scene, built before the timing."""
     solver = SWEEP_SOLVERS[method.name]
     return {"load": partial(InEngine, partial(sweep_mesh, solver), height_of_sweeps, SWEEPS)}
 
@@ -191,7 +191,7 @@ _TITLES = {
 
 
 def _built_once(*pairings: str) -> Iterable[Contender]:
-    """The engines with these pairings, with every number of triangles that is listed."""
+    """Yield the engines with these pairings, with every number of triangles that is listed."""
     for engine in ENGINES.values():
         for pairing in pairings:
             for triangles in _listing()["triangles"][engine.name]:
@@ -199,7 +199,7 @@ def _built_once(*pairings: str) -> Iterable[Contender]:
 
 
 def built_once(engine: MeshLibrary, pairing: str, triangles: int) -> Contender:
-    """A pairing with a mesh of about `triangles` triangles, built once for each of a few scenes."""
+    """Return a pairing with a mesh of about `triangles` triangles, built once for each of a few scenes."""
     return Contender(
         name=f"{engine.name}-{pairing}-{triangles}",
         title=f"{engine.title}: {_TITLES[pairing]} of the whole surface, about {triangles:,} triangles",
@@ -245,7 +245,7 @@ class ForeignMethod:
 def foreign_method(
     spec: str, limits: Limits, taken: Sequence[str], *, tilted: bool = False, layout: Layout = PAIRS
 ) -> ForeignMethod:
-    """The method of a SPEC. Raises StartError if it cannot be started, and InputError if it is not a SPEC.
+    """Return the method of a SPEC. Raises StartError if it cannot be started, and InputError if it is not a SPEC.
 
     It also raises InputError if the run is about tilted spheroids and the description does not take tilt, or if its
     question has rows of another layout.
@@ -267,7 +267,7 @@ def foreign_method(
 
 
 def _seconds_a_row(implementation: Implementation) -> float:
-    """The seconds per row of a batch; batches grow until one takes long enough to measure."""
+    """Return the seconds per row of a batch; batches grow until one takes long enough to measure."""
     layout = implementation.description.asked.layout
     some = (listed(PASSAGE)["tower"] if layout.has_end else WORKLOADS["uniform"]).rows(1, _TRIED)
     inside = some[implementation.description.domain.holds(some, layout=layout)]
@@ -298,7 +298,7 @@ def _seconds(implementation: Implementation, rows: Rows) -> float:
 
 
 def foreign_contenders(methods: Iterable[ForeignMethod], limits: Limits) -> Iterable[Contender]:
-    """A contender for each SPEC; a built-in method runs in this process."""
+    """Yield a contender for each SPEC; a built-in method runs in this process."""
     for method in methods:
         description = method.description
         kind, words = parse_spec(method.spec).kind, parse_spec(method.spec).words

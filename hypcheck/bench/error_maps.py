@@ -44,7 +44,7 @@ ENOUGH, ENOUGH_OUTSIDE = 2000, 10_000
 
 
 def stability_methods(by_name: dict[str, Contender]) -> list[str]:
-    """The methods with a map. Methods in C are left out, because they give the same answers as in numpy."""
+    """Return the methods with a map. Methods in C are left out, because they give the same answers as in numpy."""
     return [name for name, contender in by_name.items() if _wanted(contender)]
 
 
@@ -56,7 +56,7 @@ def _wanted(contender: Contender) -> bool:
 
 
 def stability_lines(task: tuple[BenchPlan, str]) -> list[StabilityLine]:
-    """The line with the stability map of the method with that name."""
+    """Return the line with the stability map of the method with that name."""
     plan, name = task
     contender = contenders(plan)[name]
     rows, cells = stability_rows(plan)
@@ -98,14 +98,17 @@ Span = tuple[float, float, int]
 
 
 def place_methods(by_name: dict[str, Contender]) -> list[str]:
-    """The methods with maps of places. Methods in C are left out, because they give the same answers as in numpy."""
+    """Return the methods with maps of places.
+
+    Methods in C are left out, because they give the same answers as in numpy.
+    """
     return [
         name for name, contender in by_name.items() if contender.tier != "C" and (contender.judged or ENOUGH) >= ENOUGH
     ]
 
 
 def mapped_regions(plan: BenchPlan) -> dict[str, tuple[Span, Span]]:
-    """The intervals of r and of z, in metres, and the numbers of points. The plane z = 0 is among them."""
+    """Return the intervals of r and of z, in metres, and the numbers of points. The plane z = 0 is among them."""
     alpha, gamma, b, d = MAPPED_SCENE
     a, c = alpha / b, gamma / d
     ring = b * float(np.sqrt((c * c + 1) * (a * a + c * c))) / c
@@ -115,7 +118,7 @@ def mapped_regions(plan: BenchPlan) -> dict[str, tuple[Span, Span]]:
 
 
 def place_lines(task: tuple[BenchPlan, str]) -> list[PlacesLine]:
-    """The lines of the method with that name, one for each region."""
+    """Return the lines of the method with that name, one for each region."""
     plan, name = task
     contender = contenders(plan)[name]
     with closing(contender.load()) as loaded:
@@ -134,7 +137,7 @@ def place_lines(task: tuple[BenchPlan, str]) -> list[PlacesLine]:
 
 
 def grid(r: Span, z: Span) -> Rows:
-    """A row for each point, with r varying fastest."""
+    """Return a row for each point, with r varying fastest."""
     rows = np.zeros((r[2] * z[2], 7))
     rows[:, :4] = MAPPED_SCENE
     rows[:, 4] = np.tile(np.linspace(*r), z[2])
@@ -143,7 +146,7 @@ def grid(r: Span, z: Span) -> Rows:
 
 
 def letters_of(answers: Answers, rows: Rows, question: str, columns: int) -> list[str]:
-    """A text for each z from the lowest up, with a character for each r."""
+    """Return a text for each z from the lowest up, with a character for each r."""
     positions = float_filter.positions(rows)
     letters = np.full(len(rows), ".")
     for place in np.flatnonzero(judge.is_wrong(positions, answers, question)):
@@ -161,7 +164,7 @@ _BUILDS_NS = 150_000_000
 
 
 def convergence_steps(plan: BenchPlan) -> int:
-    """The number of lines that convergence_lines yields."""
+    """Return the number of lines that convergence_lines yields."""
     return len(PAIRINGS) * len(_triangle_counts(plan))
 
 
@@ -170,7 +173,7 @@ def _triangle_counts(plan: BenchPlan) -> list[int]:
 
 
 def convergence_lines(plan: BenchPlan) -> Iterator[ConvergenceLine]:
-    """The line for each pairing and number of triangles."""
+    """Yield the line for each pairing and number of triangles."""
     rows = near_the_tower(plan.seed)
     truth = float_filter.positions(rows)
     for pairing in PAIRINGS:
@@ -179,7 +182,7 @@ def convergence_lines(plan: BenchPlan) -> Iterator[ConvergenceLine]:
 
 
 def near_the_tower(seed: int) -> Rows:
-    """Bodies close to contact with the cooling tower."""
+    """Return bodies close to contact with the cooling tower."""
     draw = Draw("bench-convergence", 1, seed)
     return near(draw, Sizes(*np.repeat(np.array([NEAR_SCENES[0]]), CONVERGENCE_ROWS, axis=0).T), CONVERGENCE_GAPS)
 
@@ -221,7 +224,7 @@ _SHARE = 4
 
 
 def bounding_lines(plan: BenchPlan) -> Iterator[BoundingLine]:
-    """A line for each shape and workload."""
+    """Yield a line for each shape and workload."""
     for workload in BOUNDING_WORKLOADS:
         rows = WORKLOADS[workload].rows(plan.seed, plan.amounts.judged // _SHARE)
         for shape, answer in BOUNDING_SHAPES.items():
@@ -229,7 +232,7 @@ def bounding_lines(plan: BenchPlan) -> Iterator[BoundingLine]:
 
 
 def bounding_line(rows: Rows, answer: Callable[[Rows], Answers], shape: str, workload: str) -> BoundingLine:
-    """The answers of a shape that replaces the spheroid, for each ratio d/b."""
+    """Return the answers of a shape that replaces the spheroid, for each ratio d/b."""
     overlap: list[tuple[float, int, int, float | None]] = []
     false_contact = false_clear = 0
     for ratio in BOUNDING_RATIOS:

@@ -84,14 +84,17 @@ def _tree(number: int, kind: int, place: tuple[float, float]) -> Hyperboloid:
 
 
 def forest_of(trees: int, seed: int) -> Forest:
-    """A forest of `trees` trees, uniform on a square."""
+    """Return a forest of `trees` trees, uniform on a square."""
     draw = np.random.Generator(np.random.PCG64([seed, trees]))
     side = float(np.sqrt(ROOM * trees))
     return Forest(side, side * draw.random((trees, 2)), draw.integers(0, len(KINDS), trees))
 
 
 def walk(scene: Scene, forest: Forest, steps: int, seed: int) -> list[Point]:
-    """The centres that a walker tests: each is a step from the walker's place; the walker moves there if clear."""
+    """Return the centres that a walker tests: each is a step from the walker's place.
+
+    The walker moves there if clear.
+    """
     draw = np.random.Generator(np.random.PCG64([seed, steps]))
     x = y = forest.side / 2
     heading, centres = 0.0, []
@@ -134,7 +137,7 @@ def _walker_scene(forest: Forest) -> Clear:
 
 
 def _meshes() -> list[Any]:
-    """A mesh of each kind, which all trees of that kind share."""
+    """Return a mesh of each kind, which all trees of that kind share."""
     fcl = fcl_module()
     meshes = []
     for alpha, gamma in KINDS:
@@ -149,12 +152,12 @@ def _meshes() -> list[Any]:
 
 
 def _cylinders() -> list[Any]:
-    """For each kind of tree the smallest upright cylinder around the part that the walker can reach."""
+    """Return for each kind of tree the smallest upright cylinder around the part that the walker can reach."""
     return [fcl_module().Cylinder(alpha * hypot(1.0, WALKER.d / gamma), 2 * HEIGHT) for alpha, gamma in KINDS]
 
 
 def _in_fcl(shapes: Callable[[], list[Any]], forest: Forest) -> Clear:
-    """FCL's broad phase with every tree as the shape of its kind."""
+    """Return FCL's broad phase with every tree as the shape of its kind."""
     fcl, kinds = fcl_module(), shapes()
     trees = [
         fcl.CollisionObject(kinds[kind], fcl.Transform(np.array([x, y, 0.0])))
@@ -200,7 +203,7 @@ ROUNDS, QUICK_ROUNDS = 11, 5
 
 
 def sizes(plan: BenchPlan) -> Sequence[int]:
-    """The numbers of trees of the run's forests."""
+    """Return the numbers of trees of the run's forests."""
     most = QUICK_MOST if plan.quick else max(TREES) if plan.forest else MOST
     return tuple(trees for trees in TREES if trees <= most)
 
@@ -224,7 +227,7 @@ def run(
 def _lines(
     forest: Forest, rounds: int, steps: int, candidates: Mapping[str, Walker], seed: int
 ) -> Iterator[ForestLine]:
-    """A line for each candidate that is available here; FCL may be missing."""
+    """Yield a line for each candidate that is available here; FCL may be missing."""
     centres = walk(Scene(forest.model), forest, steps, seed)
     truth = [int(forest.clear(centre)) for centre in centres]
     walkers = {name: candidate for name, candidate in candidates.items() if name == OURS or FCL.trouble() is None}
@@ -256,7 +259,7 @@ def _lines(
 
 
 def _made(walker: Walker, forest: Forest) -> tuple[Clear, float]:
-    """A candidate's answering function, and the seconds for building it from the list of trees."""
+    """Return a candidate's answering function, and the seconds for building it from the list of trees."""
     forest.model  # noqa: B018 - a property that is made once
     gc.collect()
     started = perf_counter()

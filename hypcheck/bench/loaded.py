@@ -59,22 +59,22 @@ class LoadedMethod:
     trouble: str = ""
 
     def answer(self, rows: Rows) -> Answers:
-        """The method's answers, which are judged."""
+        """Return the method's answers, which are judged."""
         raise NotImplementedError
 
     def batch(self, rows: Rows) -> PreparedWork | None:
-        """All rows by one call; its arguments are prepared before the timing."""
+        """Prepare one call for all rows; its arguments are made before the timing."""
         raise NotImplementedError
 
     def single(self, rows: Rows) -> PreparedWork | None:
-        """All rows by one call each."""
+        """Prepare a call for each row."""
         raise NotImplementedError
 
     def build(self, rows: Rows) -> PreparedWork | None:
-        """The work that must be done once before any row of this scene can be answered."""
+        """Return the work that must be done once before any row of this scene can be answered."""
 
     def empty(self, rows: Rows, mode: str) -> EmptyCall | None:
-        """The empty call in a mode, whose time is subtracted; None if no time is subtracted."""
+        """Return the empty call in a mode, whose time is subtracted; None if no time is subtracted."""
 
     def close(self) -> None:
         """Release the meshes or the process that it holds."""
@@ -91,20 +91,20 @@ class InPython(LoadedMethod):
     scene: Callable[..., Answers] | None = None
 
     def answer(self, rows: Rows) -> Answers:
-        """The function's answers."""
+        """Return the function's answers."""
         return self.function(rows)
 
     def batch(self, rows: Rows) -> PreparedWork:
-        """A call for all rows: by the function for scenes if they share their sizes."""
+        """Return a call for all rows: by the function for scenes if they share their sizes."""
         return prepared(len(rows), self._work(rows))
 
     def single(self, rows: Rows) -> PreparedWork:
-        """A call for each row, by the entry for rows: a caller with one row has no scene."""
+        """Return a call for each row, by the entry for rows: a caller with one row has no scene."""
         parts = [rows[place : place + 1] for place in range(len(rows))]
         return one_by_one(self.function, parts)
 
     def empty(self, rows: Rows, mode: str) -> EmptyCall:
-        """A Python function that does nothing."""
+        """Return a Python function that does nothing."""
         if mode == "batch":
             return EmptyCall("Python", prepared(1, _nothing))
         return EmptyCall("Python", one_by_one(_nothing_of, [rows[:1]] * len(rows)))
@@ -126,20 +126,20 @@ class InScalars(LoadedMethod):
     function: Callable[..., int]
 
     def answer(self, rows: Rows) -> Answers:
-        """The function's answers."""
+        """Return the function's answers."""
         return np.array([self.function(*row) for row in rows.tolist()], dtype=np.int8)
 
     def batch(self, rows: Rows) -> PreparedWork:
-        """A call for each row, as in `single`."""
+        """Return a call for each row, as in `single`."""
         return self.single(rows)
 
     def single(self, rows: Rows) -> PreparedWork:
-        """A call for each row, whose numbers are Python floats already."""
+        """Return a call for each row, whose numbers are Python floats already."""
         queries = list(map(tuple, rows.tolist()))
         return prepared(len(queries), lambda: np.array([self.function(*query) for query in queries], dtype=np.int8))
 
     def empty(self, rows: Rows, mode: str) -> EmptyCall | None:
-        """A function of seven numbers that does nothing."""
+        """Return a function of seven numbers that does nothing."""
         return EmptyCall("Python, with numbers", InScalars(_none_of).single(rows)) if mode == "single" else None
 
 
@@ -148,7 +148,7 @@ def _none_of(*_numbers: float) -> int:
 
 
 def one_by_one(function: Answering, parts: list[Rows]) -> PreparedWork:
-    """The function called with each part, which is one row."""
+    """Return the function called with each part, which is one row."""
     answers = np.empty(len(parts), dtype=np.int8)
 
     def work() -> Answers:
@@ -160,7 +160,7 @@ def one_by_one(function: Answering, parts: list[Rows]) -> PreparedWork:
 
 
 def prepared(rows: int, work: Callable[[], Answers]) -> PreparedWork:
-    """Prepared work in this process that answers `rows` rows."""
+    """Return prepared work in this process that answers `rows` rows."""
     return PreparedWork(rows, clocked(work), work)
 
 
@@ -184,7 +184,7 @@ class BuiltMesh(Protocol):
         ...
 
     def answers(self, rows: Rows) -> Answers:
-        """The answers to rows with the mesh's sizes."""
+        """Return the answers to rows with the mesh's sizes."""
         ...
 
 
@@ -198,26 +198,26 @@ class InEngine(LoadedMethod):
     meshes: dict[tuple[Sizes, float], BuiltMesh] = field(default_factory=dict)
 
     def answer(self, rows: Rows) -> Answers:
-        """The engine's answers, scene by scene; missing meshes are built and kept."""
+        """Return the engine's answers, scene by scene; missing meshes are built and kept."""
         answers = np.full(len(rows), CANNOT_SAY, dtype=np.int8)
         for sizes, places in rows_by_sizes(rows):
             answers[places] = self.mesh(sizes, rows[places]).answers(rows[places])
         return answers
 
     def mesh(self, sizes: Sizes, rows: Rows) -> BuiltMesh:
-        """The mesh of a scene."""
+        """Return the mesh of a scene."""
         key = sizes, self.high(sizes, rows)
         if key not in self.meshes:
             self.meshes[key] = self.make(*key)
         return self.meshes[key]
 
     def batch(self, rows: Rows) -> PreparedWork:
-        """A call for all rows, with meshes that exist."""
+        """Return a call for all rows, with meshes that exist."""
         work = partial(self._ready(rows), rows)
         return prepared(len(rows), work)
 
     def single(self, rows: Rows) -> PreparedWork:
-        """A call for each row, with meshes that exist."""
+        """Return a call for each row, with meshes that exist."""
         return one_by_one(self._ready(rows), [rows[place : place + 1] for place in range(len(rows))])
 
     def _ready(self, rows: Rows) -> Callable[[Rows], Answers]:
@@ -228,7 +228,10 @@ class InEngine(LoadedMethod):
         return self.answer
 
     def build(self, rows: Rows) -> PreparedWork | None:
-        """The work of building a scene's mesh, from vertices to the engine's tree; its answer is the triangle count."""
+        """Return the work of building a scene's mesh, from vertices to the engine's tree.
+
+        Its answer is the triangle count.
+        """
         sizes = scene_of(rows, self.layout)
         if sizes is None:
             return None
@@ -237,7 +240,7 @@ class InEngine(LoadedMethod):
         return PreparedWork(1, clocked(lambda: np.array([make().triangles])), lambda: known)
 
     def empty(self, rows: Rows, mode: str) -> EmptyCall | None:
-        """The empty call of a Python function."""
+        """Return the empty call of a Python function."""
         return None if mode == "build" else InPython(self.answer).empty(rows, mode)
 
     def close(self) -> None:
@@ -253,11 +256,11 @@ class RunningForeign(LoadedMethod):
     kind: str
 
     def answer(self, rows: Rows) -> Answers:
-        """The implementation's answers; CANNOT_SAY for rows without one."""
+        """Return the implementation's answers; CANNOT_SAY for rows without one."""
         return self._asked(rows, by_scene=False)
 
     def batch(self, rows: Rows) -> PreparedWork:
-        """All rows in one question; as a scene if the implementation offers scenes and the rows share their sizes."""
+        """Prepare one question with all rows; as a scene if it offers scenes and the rows share their sizes."""
         rows, by_scene = rows[:LARGEST], self.implementation.scene and scene_of(rows) is not None
         answers = partial(self._asked, rows, by_scene=by_scene)
         if self._clock is None:
@@ -265,14 +268,17 @@ class RunningForeign(LoadedMethod):
         return PreparedWork(len(rows), self._times(rows, answers, by_scene=by_scene), answers, self._clock)
 
     def single(self, rows: Rows) -> PreparedWork | None:
-        """A question for each row; None for a command without a clock, since the time would be that of the pipe."""
+        """Prepare a question for each row.
+
+        Return None for a command without a clock, since the time would be that of the pipe.
+        """
         if self._clock is None:
             return None
         answers = partial(self._asked, rows, by_scene=False)
         return PreparedWork(len(rows), self._times(rows, answers, row_by_row=True), answers, self._clock)
 
     def empty(self, rows: Rows, mode: str) -> EmptyCall | None:
-        """The empty call: of a library one that does nothing, of a command without a clock a question about one row."""
+        """Return the empty call: for a library one that does nothing, for a command without a clock one of one row."""
         name = f"of {self.implementation.spec}"
         if self._clock is None and mode == "batch":
             return EmptyCall(name, PreparedWork(1, self._round_trips(rows[:1]), partial(self.answer, rows[:1])))
@@ -301,7 +307,7 @@ class RunningForeign(LoadedMethod):
     def _times(
         self, rows: Rows, answers: Callable[[], Answers], *, by_scene: bool = False, row_by_row: bool = False
     ) -> Clocked:
-        """The time by the clock of the implementation, whose checksum Implementation.time checks."""
+        """Return the time by the clock of the implementation, whose checksum Implementation.time checks."""
         right = int(answers().sum(dtype=np.int64))
 
         def run(repeat: int) -> tuple[int, int]:

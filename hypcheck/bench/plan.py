@@ -150,7 +150,7 @@ _FOUND_OUT = ("limits", "folder", "compiled", "missing", "foreign")
 
 
 def chosen_names(names: Sequence[str], patterns: Sequence[str], noun: str) -> list[str]:
-    """The names that match a pattern, in the order of `names`; all names if there is no pattern.
+    """Return the names that match a pattern, in the order of `names`; all names if there is no pattern.
 
     Raises InputError for a pattern that matches nothing.
     """

@@ -48,7 +48,7 @@ class CraftPath:
         return len(self.x)
 
     def part(self, places: slice | NDArray[np.intp]) -> CraftPath:
-        """Some of the positions."""
+        """Return some of the positions."""
         return CraftPath(self.craft, *(getattr(self, name)[places] for name in MOVING))
 
     @property
@@ -63,26 +63,26 @@ PRINTED, PUT_RIGHT = False, True
 
 @cache
 def hull_programs(repaired: bool = PRINTED) -> tuple[Program, Program]:
-    """Procedure 2.b's steps for every position, `hull_steps`: before the flight, and in it."""
+    """Return procedure 2.b's steps for every position, `hull_steps`: before the flight, and in it."""
     formula = REPAIRED["procedure-2b-repaired"] if repaired else FORMULAS["procedure-2b"]
     return split(formula.program, hull_steps(repaired), CRAFT)
 
 
 def hull_steps(repaired: bool = PRINTED) -> tuple[str, str]:
-    """The steps that decide whether the rotors must be tested, and the answer if not."""
+    """Return the steps that decide whether the rotors must be tested, and the answer if not."""
     return ("unclear" if repaired else "touching"), "inside"
 
 
 @cache
 def rotor_programs(repaired: bool = PRINTED) -> tuple[Program, Program]:
-    """Procedure 2.a: its steps before the flight, and in it."""
+    """Return procedure 2.a: its steps before the flight, and in it."""
     formula = REPAIRED["procedure-2a-repaired"] if repaired else FORMULAS["procedure-2a"]
     fixed = tuple(name for name in CRAFT if name in formula.program.inputs)
     return split(formula.program, ("valid",), fixed)
 
 
 def procedure_2a(flight: CraftPath, repaired: bool = PRINTED) -> Answers:
-    """1 if the procedure calls the movement valid, else 0; int8 (n,)."""
+    """Return 1 if the procedure calls the movement valid, else 0; int8 (n,)."""
     rotors = _rotors(flight, repaired)
     return in_chunks(len(flight), lambda part: rotors(flight.part(part).columns)[0])
 
@@ -90,7 +90,10 @@ def procedure_2a(flight: CraftPath, repaired: bool = PRINTED) -> Answers:
 def procedure_2b(
     flight: CraftPath, on_rotors: Callable[[CraftPath], object] = lambda _: None, repaired: bool = PRINTED
 ) -> Answers:
-    """The answers of Procedure 2.b, which asks the rotors only for some positions; calls `on_rotors` with these."""
+    """Return the answers of Procedure 2.b, which asks the rotors only for some positions.
+
+    Calls `on_rotors` with these.
+    """
     hull = _loop_body(hull_programs(repaired), hull_steps(repaired), flight)
     rotors = _rotors(flight, repaired)
 
@@ -108,7 +111,7 @@ def procedure_2b(
 
 
 def certified(flight: CraftPath) -> Answers:
-    """1 if the body is interior, or its four rotors are: exact except for the rounded centres of the rotors."""
+    """Return 1 if the body is interior, or its four rotors are: exact except for the rounded centres of the rotors."""
     alpha, gamma, b, d, b_s, d_s, l = (flight.craft[name] for name in CRAFT)  # noqa: E741 - the paper's letter
     answers = np.zeros(len(flight), dtype=np.int8)
     hull = numpy_kernel.positions_of_scene((alpha, gamma, b, d), flight.x, flight.y, flight.z)
@@ -124,7 +127,7 @@ def certified(flight: CraftPath) -> Answers:
 
 
 def rotors_at(cosine: Floats, sine: Floats, arm: float) -> list[tuple[Floats, Floats]]:
-    """The offsets from the body's centre to those of its rotors, equation (15): x and y for each of the four."""
+    """Return the offsets from the body's centre to those of its rotors, equation (15): x and y for each of the four."""
     half = arm * np.sqrt(2.0) / 2.0
     along, across = half * (cosine - sine), half * (cosine + sine)
     return [(along, across), (-across, along), (-along, -across), (across, -along)]
@@ -135,7 +138,7 @@ def _rotors(flight: CraftPath, repaired: bool) -> Evaluator:
 
 
 def _loop_body(programs: tuple[Program, Program], wanted: tuple[str, ...], flight: CraftPath) -> Evaluator:
-    """The second program in float64, with the values that the first computes from the craft."""
+    """Return the second program in float64, with the values that the first computes from the craft."""
     first, then = programs
     names, arithmetic = tuple(step.name for step in first.steps), float_arithmetic("float64")
     known = Evaluator(first, arithmetic, names)(flight.craft)
@@ -155,13 +158,16 @@ PROCEDURES: Mapping[str, Callable[[CraftPath], Answers]] = MappingProxyType(
 
 
 def procedures_source() -> str:
-    """The procedures in C; hypcheck.h and math.h must be included before. templates/methods.c.tmpl has their driver."""
+    """Return the procedures in C.
+
+    Hypcheck.h and math.h must be included before. templates/methods.c.tmpl has their driver.
+    """
     before = _before("hull", hull_programs()[0]) + _before("rotors", rotor_programs()[0])
     return before + "".join(_both())
 
 
 def _both() -> Iterator[str]:
-    """The printed and the repaired procedures, which store the same numbers of a craft."""
+    """Yield the printed and the repaired procedures, which store the same numbers of a craft."""
     for repaired, prefix in ((PRINTED, ""), (PUT_RIGHT, "repaired_")):
         in_contact, inside = hull_steps(repaired)
         (hull_before, hull), (rotor_before, rotors) = hull_programs(repaired), rotor_programs(repaired)
@@ -171,7 +177,10 @@ def _both() -> Iterator[str]:
 
 
 def _before(name: str, program: Program) -> str:
-    """The steps that depend only on the craft, stored in an array; a real program would store them in a structure."""
+    """Return the steps that depend only on the craft, stored in an array.
+
+    A real program would store them in a structure.
+    """
     names = [step.name for step in program.steps]
     stored = "\n".join(f"    k[{place}] = {name};" for place, name in enumerate(names))
     statements = "\n".join(f"    {line}" for line in c_statements(program, tuple(names)))

@@ -27,7 +27,7 @@ from hypcheck.scene.reading import shipped_scenes
 
 
 def stages(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome) -> Sequence[Stage]:
-    """The stages of the run in order. Raises InputError naming a choice that does not exist."""
+    """Return the stages of the run in order. Raises InputError naming a choice that does not exist."""
     if plan.kernel:
         return (Stage("the fast path", targets.steps(), lambda advance: _kernel(plan, recorder, outcome, advance)),)
     if plan.forest:
@@ -60,7 +60,10 @@ def stages(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome) -> Sequence
 
 
 def _tilted_plan(plan: BenchPlan, tilted_movers: Sequence[str]) -> BenchPlan:
-    """The plan, about tilted spheroids if its scene's mover is tilted. Raises InputError if there are more scenes."""
+    """Return the plan, about tilted spheroids if its scene's mover is tilted.
+
+    Raises InputError if there are more scenes.
+    """
     if not plan.scenes:
         return plan
     if not tilted_movers:
@@ -73,7 +76,7 @@ def _tilted_plan(plan: BenchPlan, tilted_movers: Sequence[str]) -> BenchPlan:
 
 
 def plan_with_needs(plan: BenchPlan, recorder: Recorder) -> BenchPlan:
-    """The plan with the available methods and the missing requirements, which are also recorded.
+    """Return the plan with the available methods and the missing requirements, which are also recorded.
 
     Raises InputError naming a method that does not exist.
     """
@@ -94,7 +97,7 @@ def plan_with_needs(plan: BenchPlan, recorder: Recorder) -> BenchPlan:
 
 
 def plan_with_specs(plan: BenchPlan, recorder: Recorder) -> BenchPlan:
-    """The plan with the methods of its SPECs; those that cannot be started are recorded instead.
+    """Return the plan with the methods of its SPECs; those that cannot be started are recorded instead.
 
     Raises InputError if a text is not a SPEC.
     """
@@ -116,14 +119,17 @@ def note_absent(recorder: Recorder, what: str, reason: str) -> None:
 
 
 def governor() -> str | None:
-    """The governor of the processor's frequency, if the system reports it; unless it is "performance", times vary."""
+    """Return the governor of the processor's frequency, if the system reports it.
+
+    Unless it is "performance", times vary.
+    """
     with suppress(OSError):
         return Path("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor").read_text(encoding="utf-8").strip()
     return None
 
 
 def load() -> tuple[float, float, float] | None:
-    """The system's load: the mean number of runnable processes over 1, 5 and 15 minutes, if the system reports it."""
+    """Return the system's load, if it reports that: the mean number of runnable processes over 1, 5 and 15 minutes."""
     with suppress(OSError, AttributeError):
         short, middle, long = (round(average, 2) for average in os.getloadavg())
         return short, middle, long
@@ -131,7 +137,7 @@ def load() -> tuple[float, float, float] | None:
 
 
 def codes_of(lines: Iterable[RecordLine]) -> set[Exit]:
-    """The exit codes for a run with these lines of kernels, forests and scenes: wrong answers, missed targets."""
+    """Yield the exit codes for a run with these lines of kernels, forests, scenes: wrong answers, missed targets."""
     codes = set()
     for line in lines:
         if isinstance(line, measurements.KernelLine) and not line.met:

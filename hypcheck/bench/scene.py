@@ -51,16 +51,16 @@ class SceneKernel:
     library: ctypes.CDLL
 
     def batch(self, rows: Rows) -> PreparedWork:
-        """Rows with the same sizes by one call."""
+        """Return rows with the same sizes by one call."""
         sizes, (x, y, z) = rows[0, :4].copy(), np.ascontiguousarray(rows[:, 4:].T)
         return self._called("hypcheck_classify_scene", len(rows), sizes, len(rows), x, y, z)
 
     def single(self, rows: Rows) -> PreparedWork:
-        """All rows by one call each, from C."""
+        """Prepare a call for each row, made from C."""
         return self._called("one_by_one", len(rows), len(rows), np.ascontiguousarray(rows))
 
     def _called(self, name: str, count: int, *arguments: Floats | int) -> PreparedWork:
-        """Work that calls a function of the library with the given arguments and an array for `count` answers."""
+        """Return work that calls a function of the library with these arguments and an array for `count` answers."""
         function, answers = getattr(self.library, name), np.zeros(count, dtype=np.int8)
         words = [
             ctypes.c_size_t(array) if isinstance(array, int) else ctypes.c_void_p(array.ctypes.data)
@@ -75,7 +75,7 @@ class SceneKernel:
 
 
 def compiled_kernel(plan: ScenePlan, folder: Path) -> SceneKernel:
-    """The plan's kernel, compiled in a folder of its own. Raises UnavailableError if there is no C compiler."""
+    """Return the plan's kernel, compiled in a folder of its own. Raises UnavailableError if there is no C compiler."""
     folder.mkdir()
     code, library = folder / "kernel.c", folder / "kernel.so"
     code.write_text(emitted(plan, "c", ["hypcheck", "emit"]) + _ONE_BY_ONE, encoding="utf-8")
@@ -89,7 +89,7 @@ REPEATED_CENTRES = 16
 
 
 def kernel_savings(plan: ScenePlan, folder: Path, rounds: int = KERNEL_ROUNDS) -> Iterator[dict[str, Any]]:
-    """The time that each setting's kernel saves, with one call for many centres and with a call for each centre.
+    """Yield the time that each setting's kernel saves, with one call for many centres and with a call for each centre.
 
     The values are for programs; the values of "says" are sentences. Raises UnavailableError if there is no C compiler,
     InputError if the mover is tilted.
@@ -115,7 +115,7 @@ def kernel_savings(plan: ScenePlan, folder: Path, rounds: int = KERNEL_ROUNDS) -
 
 
 def _saving(own: Samples, other: Samples) -> dict[str, Any]:
-    """Nanoseconds for a centre, and the kernel's time relative to that of Table 2."""
+    """Return nanoseconds for a centre, and the kernel's time relative to that of Table 2."""
     ratio = estimate(ratios([own.samples_ns], [other.samples_ns]))
     return {
         "kernel_ns": own.median_ns,
@@ -126,7 +126,7 @@ def _saving(own: Samples, other: Samples) -> dict[str, Any]:
 
 
 def _saving_text(kernel_ns: float, printed_ns: float, ratio: float, ratio_ci95: Sequence[float]) -> str:
-    """The time that a kernel saves, as a part of a sentence."""
+    """Return the time that a kernel saves, as a part of a sentence."""
     low, high = ratio_ci95
     how = f"{1 / ratio:.2f} times as fast as" if ratio <= 1 else f"{ratio:.2f} times as slow as"
     return (
@@ -136,7 +136,7 @@ def _saving_text(kernel_ns: float, printed_ns: float, ratio: float, ratio_ci95: 
 
 
 def rows_of(stages: Stages, times: int = REPEATED_CENTRES) -> Rows:
-    """The rows of the samples' centres, each `times` times, in random order."""
+    """Return the rows of the samples' centres, each `times` times, in random order."""
     x, y, z = centres(stages.setting)
     order = np.random.Generator(np.random.PCG64(1)).permutation(np.tile(np.arange(len(x)), times))
     sizes = [np.full(len(order), size) for size in stages.setting.sizes]
@@ -154,7 +154,7 @@ STAGES = ("always", "thresholds", "lines", "discriminant", "search")
 
 
 def plans_of(names: Sequence[str]) -> list[ScenePlan]:
-    """The plans of scenes by their names; raises InputError for an unknown scene, or one that is not timed."""
+    """Return the plans of scenes by their names; raises InputError for an unknown scene, or one that is not timed."""
     plans = [plan_of(read_scene(name)) for name in names]
     for plan in plans:
         require_upright(plan)
@@ -223,7 +223,7 @@ def _answers(parts: Sequence[PreparedWork]) -> Positions:
 
 
 def _times(works: Mapping[str, Sequence[PreparedWork]], count: int, rounds: int) -> SceneTimes:
-    """The nanoseconds per row of each work, and the kernel's time relative to the others."""
+    """Return the nanoseconds per row of each work, and the kernel's time relative to the others."""
     entries = [TimingEntry(name, count, _all_of([part.run for part in parts])) for name, parts in works.items()]
     samples = measure(entries, rounds)
     own, *others = samples
@@ -235,18 +235,21 @@ def _times(works: Mapping[str, Sequence[PreparedWork]], count: int, rounds: int)
 
 
 def stage_shares(settings: Sequence[Stages]) -> dict[str, float]:
-    """The share of the scene's queries that each stage decides; each pair of sizes has the same number of queries."""
+    """Return the share of the scene's queries that each stage decides.
+
+    Each pair of sizes has the same number of queries.
+    """
     return {name: float(np.mean([setting.shares.get(name, 0.0) for setting in settings])) for name in STAGES}
 
 
 def _tables(plan: ScenePlan, count: int) -> list[Rows]:
-    """The rows of each setting."""
+    """Return the rows of each setting."""
     times = max(1, count // (COUNT * max(1, len(plan.settings))))
     return [rows_of(stages, times) for stages in plan.settings]
 
 
 def _certified(plan: ScenePlan, rows: Rows) -> PreparedWork:
-    """The exact kernel of classify_scene with rows of the same sizes."""
+    """Return the exact kernel of classify_scene with rows of the same sizes."""
     alpha, gamma, b, d = rows[0, :4].tolist()
     x, y, z = np.ascontiguousarray(rows[:, 4:].T)
     question, out = cast("Question", plan.question), np.zeros(len(rows), dtype=np.int8)
@@ -255,7 +258,7 @@ def _certified(plan: ScenePlan, rows: Rows) -> PreparedWork:
 
 
 def _all_of(parts: Sequence[Clocked]) -> Clocked:
-    """The work of all parts, as one piece of work."""
+    """Return the work of all parts, as one piece of work."""
 
     def run(repeat: int) -> tuple[int, int]:
         times = [part(repeat) for part in parts]

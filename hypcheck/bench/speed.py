@@ -51,8 +51,9 @@ MeasurementKey = tuple[str, str, str]
 class MeasuringSession:
     """The work of one process.
 
-    `expected` are hashes of the answers by method, workload and mode; a method with other answers is refused. `loops`
-    are the loops and takes that the first process calibrated and all others use; the first process gets none.
+    `number` counts the processes. `expected` has the hash of the answers of each method, workload and mode; a method
+    with other answers is refused. `loops` has the numbers of loops and of repetitions that the first process found to
+    be long enough; all others use them, and the first process gets none.
     """
 
     plan: BenchPlan
@@ -63,10 +64,10 @@ class MeasuringSession:
 
 @dataclass(frozen=True)
 class Measurement:
-    """The samples of one process for one method, workload and mode, from which `empty_ns` is subtracted.
+    """The samples of one process for one method, workload and mode; the cost of an empty call is already subtracted.
 
-    The difference may be negative, if noise made the empty call longer. `calls_ns` are the samples of the empty call,
-    in nanoseconds a row of the method.
+    `empty_ns` is the cost of an empty call. The difference may be negative, if noise made the empty call longer.
+    `timed_by` names the clock. `calls_ns` are the samples of the empty call, in nanoseconds for each row of the method.
     """
 
     key: MeasurementKey
@@ -90,7 +91,7 @@ class _Together:
 
 
 def run_session(session: MeasuringSession) -> list[Measurement]:
-    """All measurements, in the order of workloads and modes."""
+    """Return all measurements, in the order of workloads and modes."""
     by_name = contenders(session.plan)
     methods_loaded = {name: contender.load() for name, contender in by_name.items() if not contender.accuracy_only}
     measured = []
@@ -108,14 +109,14 @@ def run_session(session: MeasuringSession) -> list[Measurement]:
 
 
 def _compared(session: MeasuringSession, claim: CostClaim) -> _Together:
-    """The alternatives of a claim about cost, with the first alternative twice."""
+    """Return the alternatives of a claim about cost, with the first alternative twice."""
     ready = claim.compared(session.plan)
     again = {FIRST_AGAIN: next(iter(ready.values()))}
     return _Together((claim.where, "batch"), {**ready, **again})
 
 
 def _modes(workload: Workload) -> Sequence[str]:
-    """The modes of a workload, without those that repeat another result."""
+    """Return the modes of a workload, without those that repeat another result."""
     return tuple(
         mode for mode in MODES if workload.timed and workload.name in MODE_WORKLOADS.get(mode, (workload.name,))
     )
@@ -128,7 +129,7 @@ def _methods(
     workload: Workload,
     mode: str,
 ) -> tuple[_Together, list[Measurement]]:
-    """The methods to measure, and the methods that are refused because their answers changed."""
+    """Return the methods to measure, and the methods that are refused because their answers changed."""
     here, refused = _Together((workload.name, mode), {}), []
     for name, loaded in methods_loaded.items():
         rows = timed_rows(session.plan, by_name[name], workload)
@@ -198,7 +199,7 @@ Measurements = dict[MeasurementKey, list[Measurement]]
 
 
 def expected_prints(answers: list[MethodAnswers]) -> dict[MeasurementKey, str]:
-    """The hashes of the judged answers, by method, workload and mode."""
+    """Return the hashes of the judged answers, by method, workload and mode."""
     prints: dict[MeasurementKey, str] = {}
     for method_answers in answers:
         prints[method_answers.method, method_answers.workload, "batch"] = (
@@ -211,7 +212,7 @@ def expected_prints(answers: list[MethodAnswers]) -> dict[MeasurementKey, str]:
 
 
 def measurements_of(plan: BenchPlan, prints: Mapping[MeasurementKey, str], advance: Advance) -> Measurements:
-    """The measurements of the processes, one process after the other; the first calibrates for all."""
+    """Return the measurements of the processes, one process after the other; the first calibrates for all."""
     measurements: Measurements = {}
     loops: dict[MeasurementKey, tuple[int, int]] = {}
     for number in range(plan.processes):
@@ -227,7 +228,7 @@ def measurements_of(plan: BenchPlan, prints: Mapping[MeasurementKey, str], advan
 def speed_lines(
     measurements: Measurements, reference: str
 ) -> Iterator[NoiseLine | SpeedLine | UnmeasuredLine | RefusedLine]:
-    """The record's lines: noise before the speeds of the same workload; methods without a time last."""
+    """Yield the record's lines: noise before the speeds of the same workload; methods without a time last."""
     measurements = {key: parts for key, parts in measurements.items() if not key[1].startswith(COST_OF)}
     refused = {key: reason for key, parts in measurements.items() if (reason := _refusal(parts))}
     hidden = {key: reason for key, parts in measurements.items() if key not in refused and (reason := _hidden(parts))}
@@ -246,7 +247,7 @@ def speed_lines(
 
 
 def _hidden(parts: list[Measurement]) -> str | None:
-    """The reason why the time cannot be distinguished from the subtracted time of an empty call; None if it can.
+    """Return the reason why the time cannot be distinguished from the subtracted time of an empty call; None if it can.
 
     It can if the gap between the 95 % intervals of the two medians, before the subtraction, is larger than UNLIKE, the
     possible difference between the empty call and the cost of calling the method.
@@ -268,7 +269,7 @@ def _time_text(time: Estimate) -> str:
 
 
 def _possible(part: Measurement) -> list[float]:
-    """The positive samples of a process, to six digits, because no clock is more accurate."""
+    """Return the positive samples of a process, to six digits, because no clock is more accurate."""
     return [float(f"{sample:.6g}") for sample in part.samples.samples_ns if sample > LEAST_NS]
 
 
@@ -324,12 +325,12 @@ def _noise(measurements: Measurements, reference: str, workload: str, mode: str)
 
 
 def samples_of(parts: list[Measurement]) -> list[list[float]]:
-    """The nanoseconds per row of each round, by process, to six digits, because no clock is more accurate."""
+    """Return the nanoseconds per row of each round, by process, to six digits, because no clock is more accurate."""
     return [[float(f"{sample:.6g}") for sample in part.samples.samples_ns] for part in parts]
 
 
 def cost_lines(plan: BenchPlan, measurements: Measurements) -> Iterator[CostLine]:
-    """A line for each claim about costs."""
+    """Yield a line for each claim about costs."""
     for claim in cost_claims(plan):
         samples = {
             name: samples_of(parts) for (name, workload, _), parts in measurements.items() if workload == claim.where

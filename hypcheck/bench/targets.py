@@ -55,7 +55,7 @@ def _answered(columns: Columns, out: Positions, threads: int = 1) -> Positions:
 
 
 def _plain(libraries: Sequence[CBaseline], columns: Columns, out: Positions) -> list[TimingEntry]:
-    """The plain formula in C, compiled for each vector width, by the flags of the compiler."""
+    """Return the plain formula in C, compiled for each vector width, by the flags of the compiler."""
     return [
         TimingEntry(" ".join(library.flags) or "no flags", len(out), library.plain(columns, out))
         for library in libraries
@@ -63,12 +63,12 @@ def _plain(libraries: Sequence[CBaseline], columns: Columns, out: Positions) -> 
 
 
 def _with_fastest(samples: dict[str, Samples], plain: Sequence[TimingEntry]) -> dict[str, Samples]:
-    """The samples, and the fastest of the plain formula as "plain"."""
+    """Return the samples, and the fastest of the plain formula as "plain"."""
     return {**samples, "plain": min((samples[entry.name] for entry in plain), key=lambda timed: timed.median_ns)}
 
 
 def from_memory(run: Measuring) -> Iterator[KernelLine]:
-    """Ten million rows: reading them, the plain formula, and the kernel on one thread and on two."""
+    """Yield targets of ten million rows: reading them, the plain formula, and the kernel on one thread and on two."""
     columns, out = uniform_columns(MANY), np.zeros(MANY, dtype=np.int8)
     read, plain = run.baselines[0].read, _plain(run.baselines, columns, out)
     entries = [
@@ -88,7 +88,7 @@ def from_memory(run: Measuring) -> Iterator[KernelLine]:
 
 
 def _gain(one: Samples, two: Samples, read: Samples, read_on_two: Samples) -> tuple[list[float], str]:
-    """The gain from a second thread, divided by reading's gain in the same rounds; and the sentence about it."""
+    """Return the gain from a second thread, divided by reading's gain in the same rounds; and the sentence about it."""
     gains, most = times_as_fast(two, one), times_as_fast(read_on_two, read)
     says = (
         f"by the clock, one thread: {rate_text(one)}; two, {median(gains):.3g} times as fast: "
@@ -99,7 +99,7 @@ def _gain(one: Samples, two: Samples, read: Samples, read_on_two: Samples) -> tu
 
 
 def in_cache(run: Measuring) -> Iterator[KernelLine]:
-    """A hundred thousand rows, which stay in the cache."""
+    """Yield a hundred thousand rows, which stay in the cache."""
     columns, out = uniform_columns(CACHED), np.zeros(CACHED, dtype=np.int8)
     plain = _plain(run.baselines, columns, out)
     entries = [*plain, *threaded(CACHED, {"one": partial(_answered, columns, out)})]
@@ -114,7 +114,7 @@ Part = Callable[[Columns, Positions], None]
 
 
 def threads_in_cache(run: Measuring) -> Iterator[KernelLine]:
-    """Targets of two threads whose rows stay in the cache, so that memory does not limit them."""
+    """Yield targets of two threads whose rows stay in the cache, so that memory does not limit them."""
     columns, out = uniform_columns(2 * CACHED), np.zeros(2 * CACHED, dtype=np.int8)
     library = run.baselines[0]
     works: dict[str, Part] = {
@@ -137,7 +137,7 @@ def threads_in_cache(run: Measuring) -> Iterator[KernelLine]:
 
 
 def _on_threads(work: Part, columns: Columns, out: Positions, threads: int) -> Positions:
-    """Each thread works REPEATED times on CACHED rows of its own."""
+    """Measure threads that each work REPEATED times on CACHED rows of their own."""
 
     def part(start: int, stop: int) -> int:
         x, y, z = (column[start:stop] for column in columns)
@@ -149,7 +149,7 @@ def _on_threads(work: Part, columns: Columns, out: Positions, threads: int) -> P
 
 
 def near_contact(run: Measuring) -> Iterator[KernelLine]:
-    """Targets of rows that floats cannot decide, upright and tilted; and of tilted rows against numpy."""
+    """Yield targets of rows that floats cannot decide, upright and tilted; and of tilted rows against numpy."""
     columns, out = yardsticks.touching_columns(WORST), np.zeros(WORST, dtype=np.int8)
     product = TimingEntry("product", 1, run.baselines[0].product())
     upright = threaded(WORST, {"touching": partial(_answered, columns, out)})
@@ -182,7 +182,7 @@ PART, PARTS, LEAST_PARTS = 1_000_000, 8, 100
 
 
 def streamed(run: Measuring) -> Iterator[KernelLine]:
-    """Targets from a million rows to a billion, a million at a time, from a ring of parts that exceeds every cache.
+    """Yield targets from a million rows to a billion, a million at a time, from a ring of parts larger than caches.
 
     With each part another part is only read, so that a slow moment of the memory affects both times.
     """
@@ -203,7 +203,10 @@ def streamed(run: Measuring) -> Iterator[KernelLine]:
 
 
 def _of_stream(library: CBaseline, total: int, parts: Sequence[Columns], out: Positions) -> float:
-    """The time of a row in a stream of `total` parts over the time of reading it; the median if the stream repeats."""
+    """Return the time of a row in a stream of `total` parts over the time of reading it.
+
+    The median if the stream repeats.
+    """
     streams = []
     for start in range(max(1, LEAST_PARTS // total)):
         answering = reading = 0
@@ -223,7 +226,7 @@ AXIS = (0.3, 0.1, 0.9)
 
 
 def one_orientation(run: Measuring) -> Iterator[KernelLine]:
-    """The target of a scene with an axis, compared with the same scene without it."""
+    """Yield the target of a scene with an axis, compared with the same scene without it."""
     for name, count, more in (("one orientation", MANY, 1), ("one orientation, in cache", CACHED, 3)):
         ask = partial(hypcheck.classify_scene, TOWER_SIZES, *uniform_columns(count), threads=1)
         calls = {"upright": ask, "tilted": partial(ask, axis=AXIS)}
@@ -231,7 +234,7 @@ def one_orientation(run: Measuring) -> Iterator[KernelLine]:
 
 
 def axis_along_z(run: Measuring) -> Iterator[KernelLine]:
-    """The target of upright rows of ten, compared with the same rows of seven by the bytes that are read."""
+    """Yield the target of upright rows of ten, compared with the same rows of seven by the bytes that are read."""
     ten = tilted_rows(TOWER_SIZES, uniform_columns(CACHED), (0.0, 0.0, 1.0))
     calls = {
         name: partial(hypcheck.classify, rows, threads=1)
@@ -255,7 +258,7 @@ def _whole(rows: Rows) -> Positions:
 
 
 def paces(run: Measuring) -> Iterator[KernelLine]:
-    """Targets of rows whose ends are far away, and of rows near the rim, upright and tilted."""
+    """Yield targets of rows whose ends are far away, and of rows near the rim, upright and tilted."""
     for kind, (whole, far, near) in yardsticks.ended_rows(PACED).items():
         calls: dict[str, Callable[[], Positions]] = {
             "whole": partial(_whole, whole),
@@ -267,7 +270,7 @@ def paces(run: Measuring) -> Iterator[KernelLine]:
 
 
 def left_open(_run: Measuring) -> Iterator[KernelLine]:
-    """Targets of the rows and sweeps of each family that C answers with 2; Python then decides these exactly."""
+    """Yield targets of the rows and sweeps of each family that C answers with 2; Python then decides these exactly."""
     counts = {name: _open_share(name) for name in (*ENDED_FAMILIES, *ENDED_SWEEP_FAMILIES)}
     for subject, ordinary in (("left open, ordinary", True), ("left open, near an end", False)):
         some = {name: share for name, share in counts.items() if name.endswith("uniform") is ordinary}
@@ -317,7 +320,7 @@ def _groups() -> tuple[Group, ...]:
 
 
 def steps() -> int:
-    """The number of times that `run` advances."""
+    """Return the number of times that `run` advances."""
     return len(_groups())
 
 
@@ -341,7 +344,7 @@ def run(recorder: Recorder, advance: Callable[[int], object], quick: bool) -> No
 
 
 def confirmed_lines(group: Callable[[], Iterable[KernelLine]]) -> list[KernelLine]:
-    """The group's lines. A missed target is measured again; it counts as missed only if it is missed each time.
+    """Return the group's lines. A missed target is measured again; it counts as missed only if it is missed each time.
 
     The interval shows the differences between rounds; it cannot show that another program used the memory in all of
     them.

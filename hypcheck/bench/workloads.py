@@ -73,12 +73,12 @@ class Workload:
     layout: Layout = PAIRS
 
     def judged(self, plan: BenchPlan) -> int:
-        """The number of rows on which a fast method is judged."""
+        """Return the number of rows on which a fast method is judged."""
         return plan.amounts.judged // self.share
 
 
 def scene_of(rows: Rows, layout: Layout = PAIRS) -> tuple[float, float, float, float] | None:
-    """α, γ, b, d if all rows share them, and the axis if the rows have one; else None."""
+    """Return α, γ, b, d if all rows share them, and the axis if the rows have one; else None."""
     places = slice(len(SIZES), len(layout.upright))
     if not len(rows) or (np.delete(rows, places, axis=1) != np.delete(rows[0], places)).any():
         return None
@@ -91,7 +91,7 @@ _Block = Callable[[Draw, int, int], Rows]
 
 
 def _in_blocks(make: _Block, width: int, *stream: str) -> _Rows:
-    """Rows in blocks, each with its random stream: a call for fewer rows gives the first rows of a call for more."""
+    """Return rows drawn in blocks, each from its own random stream: fewer rows are the first rows of more."""
 
     def rows(seed: int, count: int) -> Rows:
         numbers = range(-(-count // BLOCK))
@@ -102,13 +102,13 @@ def _in_blocks(make: _Block, width: int, *stream: str) -> _Rows:
 
 
 def _families(*names: str) -> _Block:
-    """Rows of several families with one layout, taken from the families in turn."""
+    """Return rows of several families with one layout, taken from the families in turn."""
     make = in_turn(*(family_of(name).make for name in names))
     return lambda draw, n, _before: make(draw, n)
 
 
 def _in_cycle(values: Sequence[Any], n: int, before: int) -> Floats:
-    """The values of `n` rows that take these values or tuples in turn, after `before` earlier rows."""
+    """Return the values of `n` rows that take these values or tuples in turn, after `before` earlier rows."""
     return np.array(values)[(before + np.arange(n)) % len(values)]
 
 
@@ -117,7 +117,7 @@ def _near_contact(draw: Draw, n: int, before: int) -> Rows:
 
 
 def near(draw: Draw, size: Sizes, gaps: tuple[int, int]) -> Rows:
-    """Centres on either side of the surface, one radius plus or minus m 2^e away, with e in the range `gaps`."""
+    """Return centres on either side of the surface, one radius plus or minus m 2^e away, with e in the range `gaps`."""
     n = len(size.b)
     near_the_waist = draw.words(n) >> np.uint64(63) == 0
     height = draw.unit(n) * np.where(near_the_waist, np.minimum(size.c, 8.0), size.c)
@@ -129,7 +129,7 @@ def near(draw: Draw, size: Sizes, gaps: tuple[int, int]) -> Rows:
 
 @cache
 def frozen_sweeps(groups: frozenset[str]) -> Rows:
-    """The frozen sweeps of the families whose rows have these groups of columns, all families in turn."""
+    """Return the frozen sweeps of the families whose rows have these groups of columns, all families in turn."""
     families = [frozen.load(name).rows for name in frozen.SWEEP_NAMES if SWEEP_FAMILIES[name].groups == groups]
     places = np.concatenate([np.arange(len(rows)) for rows in families])
     return np.concatenate(families)[np.argsort(places, kind="stable")]
@@ -149,14 +149,14 @@ def _an_axis_each(draw: Draw, n: int, _before: int) -> Rows:
 
 
 def _axes_up_to_45_degrees(draw: Draw, n: int) -> Vectors:
-    """Axes that are tilted by up to 45° to any side."""
+    """Return axes that are tilted by up to 45° to any side."""
     cosine, sine = draw.circle(n)
     tangent = draw.unit(n)
     return tangent * cosine, tangent * sine, np.ones(n)
 
 
 def _in_the_box(draw: Draw, n: int) -> Vectors:
-    """Centres uniform in the box of the workload "uniform"."""
+    """Return centres uniform in the box of the workload "uniform"."""
     alpha, gamma = TOWER
     return (
         draw.between(n, -2 * alpha, 2 * alpha),
@@ -170,7 +170,7 @@ def _tilted_near_contact(draw: Draw, n: int, before: int) -> Rows:
 
 
 def tilted_near(draw: Draw, sizes: Floats, axis: Vectors, gaps: tuple[int, int] = NEAR_GAPS) -> Rows:
-    """Centres on either side of the surface, one radius plus or minus m 2^e from a point of it, with e in `gaps`."""
+    """Return centres on either side of the surface, one radius ± m 2^e from a point of it, with e in `gaps`."""
     n = len(sizes)
     height = draw.signs(n) * draw.unit(n)
     gap = draw.signs(n) * draw.log_uniform(n, *gaps)
@@ -178,7 +178,7 @@ def tilted_near(draw: Draw, sizes: Floats, axis: Vectors, gaps: tuple[int, int] 
 
 
 def _pitched(*names: str) -> _Block:
-    """Sweeps of these families in turn, each with an axis that is tilted to any side, by up to 45°."""
+    """Return sweeps of these families in turn, each with an axis that is tilted to any side, by up to 45°."""
     make = _families(*names)
 
     def rows(draw: Draw, n: int, before: int) -> Rows:
@@ -198,7 +198,7 @@ _MADE: Mapping[str, _Block] = {
 
 @cache
 def listed(question: str, *, tilted: bool = False) -> dict[str, Workload]:
-    """The workloads that workloads.toml lists for a question, by name, in the order of the record."""
+    """Return the workloads that workloads.toml lists for a question, by name, in the order of the record."""
     entries = toml.shipped("hypcheck.bench", "workloads.toml")[f"tilted {question}" if tilted else question]
     layout = QUESTIONS[question].layout
     width = len(layout.tilted if tilted else layout.upright)
@@ -210,7 +210,7 @@ def listed(question: str, *, tilted: bool = False) -> dict[str, Workload]:
 
 
 def _rows_of(entry: Mapping[str, Any], width: int) -> _Rows:
-    """The rows of an entry of workloads.toml, which have `width` numbers."""
+    """Return the rows of an entry of workloads.toml, which have `width` numbers."""
     if "family" in entry:
         return FAMILIES[entry["family"]].rows
     if "frozen" in entry:
@@ -228,13 +228,13 @@ WORKLOADS = listed(POSITION)
 
 
 def tilted_scenes(names: tuple[str, ...]) -> list[str]:
-    """The scenes whose mover is tilted, or may be. Raises InputError for a scene that does not exist."""
+    """Return the scenes whose mover is tilted, or may be. Raises InputError for a scene that does not exist."""
     return [name for name in names if is_tilted(read_scene(name).mover.axis)]
 
 
 @cache
 def scene_workloads(name: str) -> dict[str, Workload]:
-    """The workloads of a scene whose mover is tilted.
+    """Return the workloads of a scene whose mover is tilted.
 
     Raises InputError if a hyperboloid is tilted as well, or if the scene has no query.
     """
@@ -283,7 +283,7 @@ def _in_region(scene: SceneModel, settings: tuple[Setting, ...], draw: Draw, n: 
 
 
 def _ends(setting: Setting) -> list[tuple[float, float]]:
-    """The least and the greatest x, y, z of a centre; where the region is open, bounds around the surface."""
+    """Return the least and the greatest x, y, z of a centre; where the region is open, bounds around the surface."""
     alpha, gamma, b, d = setting.sizes
     open_ends = (REACH * (alpha + b), REACH * (alpha + b), REACH * (gamma + d))
     return [
@@ -297,7 +297,7 @@ def _near_in_scene(scene: SceneModel, settings: tuple[Setting, ...], draw: Draw,
 
 
 def workloads_of(plan: BenchPlan) -> dict[str, Workload]:
-    """The workloads that the plan can choose from, by name."""
+    """Return the workloads that the plan can choose from, by name."""
     if plan.scenes:
         return scene_workloads(*plan.scenes)
     return listed(plan.question, tilted=plan.tilted)

@@ -60,7 +60,10 @@ class KernelTarget:
     says: str = ""
 
     def line(self, measured: list[float], says: str) -> KernelLine:
-        """The record's line: the median over rounds, with its 95 % interval. Missed means: by the whole interval."""
+        """Return the record's line: the median over rounds, with its 95 % interval.
+
+        Missed means: by the whole interval.
+        """
         ratio = estimate([measured])
         met = ratio.low <= self.wanted if self.at_most else ratio.high >= self.wanted
         return KernelLine(
@@ -74,7 +77,10 @@ class KernelTarget:
         )
 
     def of(self, samples: Mapping[str, Samples]) -> KernelLine:
-        """The line about how many times as fast mine is as the other; as long, if the target is an upper bound."""
+        """Return the line about how many times as fast mine is as the other.
+
+        As long, if the target is an upper bound.
+        """
         mine, other = samples[self.mine], samples[self.other]
         says = self.says.format(
             mine=rate_text(mine),
@@ -90,19 +96,19 @@ class KernelTarget:
 
 
 def listed() -> dict[str, Any]:
-    """The content of targets.toml; it must not be changed."""
+    """Return the content of targets.toml; it must not be changed."""
     return toml.shipped("hypcheck.bench", "targets.toml")
 
 
 def target(name: str) -> KernelTarget:
-    """The target of that name; it must be listed in targets.toml."""
+    """Return the target of that name; it must be listed in targets.toml."""
     entry = dict(listed()["targets"][name])
     at_most = "at_most" in entry
     return KernelTarget(name, entry.pop("text"), entry.pop("at_most" if at_most else "at_least"), at_most, **entry)
 
 
 def lines(samples: Mapping[str, Samples], *names: str) -> Iterator[KernelLine]:
-    """The lines of these targets, which compare two of the samples."""
+    """Return the lines of these targets, which compare two of the samples."""
     return (target(name).of(samples) for name in names)
 
 
@@ -136,7 +142,7 @@ them."""
 
 
 def uniform_columns(count: int) -> Columns:
-    """Centres uniform in the box |x|, |y| ≤ 4 m, |z| ≤ 17.8 m about the tower (the workload "uniform")."""
+    """Return centres uniform in the box |x|, |y| ≤ 4 m, |z| ≤ 17.8 m about the tower (the workload "uniform")."""
     rows = FAMILIES["tower-body"].rows(SEED, min(count, DISTINCT))
     x, y, z = (np.resize(column, count) for column in rows[:, 4:].T)
     return x, y, z
@@ -147,28 +153,28 @@ TOUCHING = (-52, -50)
 
 
 def _towers(count: int) -> Floats:
-    """The sizes of the scene in each of `count` rows."""
+    """Return the sizes of the scene in each of `count` rows."""
     return np.tile(TOWER_SIZES, (count, 1))
 
 
 def touching_columns(count: int) -> Columns:
-    """Centres within about 1e-15 radii of contact, on both sides of the wall and all over it."""
+    """Return centres within about 1e-15 radii of contact, on both sides of the wall and all over it."""
     x, y, z = near(Draw("bench-touching", 1, SEED), Sizes(*_towers(count).T), TOUCHING)[:, 4:].T
     return np.ascontiguousarray(x), np.ascontiguousarray(y), np.ascontiguousarray(z)
 
 
 def tower_rows(columns: Columns) -> Rows:
-    """The rows (n, 7) of these centres in the scene of TOWER_SIZES."""
+    """Return the rows (n, 7) of these centres in the scene of TOWER_SIZES."""
     return np.column_stack([*(np.full(len(columns[0]), size) for size in TOWER_SIZES), *columns])
 
 
 def axes(count: int) -> Floats:
-    """Axes in all directions, (n, 3)."""
+    """Return axes in all directions, (n, 3)."""
     return np.random.Generator(np.random.PCG64(SEED)).normal(size=(count, 3))
 
 
 def touching_rows(count: int) -> Rows:
-    """Rows of the tower's body tilted in all directions, within about 1e-15 radii of contact: (n, 10)."""
+    """Return rows of the tower's body tilted in all directions, within about 1e-15 radii of contact: (n, 10)."""
     x, y, z = axes(count).T
     return tilted_near(Draw("bench-touching", 1, SEED), _towers(count), (x, y, z), TOUCHING)
 
@@ -181,7 +187,7 @@ FAR_AWAY = 1e4
 
 
 def ended_rows(count: int) -> dict[str, tuple[Rows, Rows, Rows]]:
-    """Rows upright and tilted: without ends, with ends that are far away, and near the rim of ends."""
+    """Return rows upright and tilted: without ends, with ends that are far away, and near the rim of ends."""
     random = np.random.Generator(np.random.PCG64(SEED))
     around = random.uniform((-4, -4, -20), (4, 4, 20), (count, 3))
     turn, off = random.uniform(0, 2 * math.pi, count), random.uniform(-0.4, 0.4, count)
@@ -218,7 +224,10 @@ EACH, SAME, KEPT, TURNS, NEIGHBOURS = 120, 64, 8, 6, 6
 
 
 def found_row() -> Rows:
-    """The slowest row among the families and the rows derived from their slowest; the same rows are tried each time."""
+    """Return the slowest row among the families and the rows derived from their slowest.
+
+    The same rows are tried each time.
+    """
     random = np.random.Generator(np.random.PCG64(SEED))
     rows = _of_a_scene(np.concatenate([FAMILIES[name].rows(SEED, EACH) for name in SLOW_FAMILIES]))
     slowest = _slowest(rows)
@@ -230,7 +239,7 @@ def found_row() -> Rows:
 
 
 def cost(row: Rows) -> float:
-    """Nanoseconds per row of a call with this row SAME times: the least of three, as disturbances lengthen a call."""
+    """Return the nanoseconds per row of a call with this row SAME times: the least of three calls."""
     rows, out = np.tile(row, (SAME, 1)), np.zeros(SAME, dtype=np.int8)
     took = []
     for _ in range(3):
@@ -246,7 +255,7 @@ def _slowest(rows: Rows) -> Rows:
 
 
 def _of_a_scene(rows: Rows) -> Rows:
-    """The rows whose sizes and nonzero coordinates are within the magnitudes of a scene."""
+    """Return the rows whose sizes and nonzero coordinates are within the magnitudes of a scene."""
     sizes = np.abs(rows)
     inside = (sizes >= 2.0**-30) & (sizes <= 2.0**30)
     inside[:, 4:] |= rows[:, 4:] == 0
@@ -254,7 +263,7 @@ def _of_a_scene(rows: Rows) -> Rows:
 
 
 def _moved(random: np.random.Generator, rows: Rows) -> Rows:
-    """Each row with one number moved by some ulps, or by a power of two if it is a coordinate."""
+    """Return each row with one number moved by some ulps, or by a power of two if it is a coordinate."""
     moved = rows.copy()
     for row in moved:
         place = int(random.integers(0, 7))
@@ -266,19 +275,19 @@ def _moved(random: np.random.Generator, rows: Rows) -> Rows:
 
 
 def threaded(count: int, calls: Mapping[str, Callable[[], NDArray[np.signedinteger]]]) -> list[TimingEntry]:
-    """Calls by name that answer `count` rows each, timed by the processor time of this thread."""
+    """Return calls by name that answer `count` rows each, timed by the processor time of this thread."""
     return [TimingEntry(name, count, thread_clocked(call)) for name, call in calls.items()]
 
 
 def statement(text: str, **names: object) -> Clocked:
-    """A Python statement with these names, repeated the requested number of times; it has no sum."""
+    """Return a Python statement with these names, repeated the requested number of times; it has no sum."""
     bound = "; ".join(f"{name} = values[{name!r}]" for name in names)
     timer = Timer(text, bound or "pass", thread_time_ns, {"values": names})
     return lambda repeat: (int(timer.timeit(repeat)), 0)
 
 
 def without_loop(samples: Mapping[str, Samples]) -> dict[str, Samples]:
-    """The samples, without the time of the empty loop in the same round."""
+    """Return the samples, without the time of the empty loop in the same round."""
     loop = samples["loop"].samples_ns
     return {
         name: replace(timed, samples_ns=[took - empty for took, empty in zip(timed.samples_ns, loop, strict=True)])

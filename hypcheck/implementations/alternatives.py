@@ -1,15 +1,17 @@
 """Other ways to decide: the dual form, the roots of g, a sphere or a cylinder about the spheroid, eigenvectors.
 
+A = (α/b)² and B = (γ/d)², as in the paper; −A and B are the poles of the dual function φ(λ), and g is its cubic.
+
 The dual form searches the best λ without cancellation, and takes the sign of φ there. φ(λ) + 1 is a lower bound of the
 squared distance for every λ between the poles, so an answer "clear" is as good as the evaluation of φ; the search
 matters only for false contacts (docs/mathematics.md, "The dual form").
 
 The roots of g decide as follows, for all sizes (docs/mathematics.md, "Root patterns and relative position"). There are
 three real roots, and the two lower ones lie together in one of (−∞, −A], [−A, 0), (0, B] and [B, ∞): exterior if that
-is (0, B], interior if it is [−A, 0). Their mean lies in the same interval, and is never B or −A, which one of them is
-for every centre in the plane of the waist or on the axis. A double root does not count as two, so the ring, where B is
-a double root, reads as contact. The roots come from the closed form for three real roots (an arc cosine and two cosines
-if Δ > 0, which section 3.1 of the paper attributes to its reference [13]), from numpy.roots (eigenvalues of the
+is (0, B], interior if it is [−A, 0). Their mean lies in the same interval. It is never B or −A, while for every centre
+in the plane of the waist or on the axis one of the roots is. A double root does not count as two, so the ring, where B
+is a double root, reads as contact. The roots come from the closed form for three real roots (an arc cosine and two
+cosines if Δ > 0, which section 3.1 of the paper attributes to its reference [13]), from numpy.roots (eigenvalues of the
 companion matrix, one call for each row), and from mpmath.polyroots at a given number of digits; without convergence the
 answer is "cannot say".
 
@@ -52,7 +54,7 @@ _PHI = cut(FORMULAS["dual"].program, DISTANCES, ("phi",))
 
 
 def dual(precision: str) -> ByColumns:
-    """The dual form on columns, with all computation including the search in one float format."""
+    """Return the dual form on columns, with all computation including the search in one float format."""
 
     def sides(columns: Mapping[str, Any]) -> Answers:
         values = searched(columns, precision)
@@ -63,7 +65,7 @@ def dual(precision: str) -> ByColumns:
 
 
 def searched(columns: Mapping[str, Any], precision: str) -> dict[str, AnyFloats]:
-    """The columns in a float format, and the distances of the best λ that is found in it: (n,) each."""
+    """Return the columns in a float format, and the distances of the best λ that is found in it: (n,) each."""
     with np.errstate(all="ignore"):
         rounded = {name: np.asarray(columns[name], dtype=precision) for name in COLUMNS}
         return {**rounded, **dict(zip(DISTANCES, _best_multiplier(**rounded), strict=True))}
@@ -72,7 +74,7 @@ def searched(columns: Mapping[str, Any], precision: str) -> dict[str, AnyFloats]
 def _best_multiplier(
     alpha: AnyFloats, gamma: AnyFloats, b: AnyFloats, d: AnyFloats, x: AnyFloats, y: AnyFloats, z: AnyFloats
 ) -> tuple[AnyFloats, AnyFloats, AnyFloats]:
-    """Approximately the λ at which φ is largest, for each row, with A + λ and B − λ.
+    """Return approximately the λ at which φ is largest, for each row, with A + λ and B − λ.
 
     F = φ' = (a r/(A+λ))² − (c z/(B−λ))² − 1 decreases from one pole to the other. The side of the centre is the sign of
     F(0), and shows on which side of 0 the root lies; the sign half way shows whether the root is nearer to 0 or to the
@@ -93,7 +95,7 @@ def _best_multiplier(
     half = pole / two
 
     def to_poles(distance: AnyFloats, from_zero: Mask) -> tuple[AnyFloats, AnyFloats]:
-        """A + λ and B − λ of the point at this distance from 0, or from the pole."""
+        """Return a + λ and B − λ of the point at this distance from 0, or from the pole."""
         to_pole = np.where(from_zero, pole - distance, distance)
         to_other = other + np.where(from_zero, distance, pole - distance)
         return np.where(inside, to_pole, to_other), np.where(inside, to_other, to_pole)
@@ -123,12 +125,13 @@ _COEFFICIENTS = Evaluator(_LISTED, float_arithmetic("float64"), _CUBIC[:-1])
 
 
 def trigonometric_roots(format_name: str) -> ByColumns:
-    """The trigonometric form on columns, with all computation in one float format."""
+    """Return the trigonometric form on columns, with all computation in one float format."""
     ready = Evaluator(_LISTED, float_arithmetic(format_name), _CUBIC)
     return lambda columns: _root_sides(*ready(columns))
 
 
 def _root_sides(A: Any, B: Any, c0: Any, c1: Any, c2: Any, delta: NDArray[Any]) -> NDArray[np.int8]:  # noqa: ANN401
+    """Return positions (n,) from A, B, the coefficients of g and Δ, by the two lower roots of the closed form."""
     number = delta.dtype.type
     with np.errstate(all="ignore"):
         third = c2 / number(3)
@@ -145,7 +148,7 @@ def _root_sides(A: Any, B: Any, c0: Any, c1: Any, c2: Any, delta: NDArray[Any]) 
 
 
 def delta_with_powers(sizes: Sizes, x: Floats, y: Floats, z: Floats) -> tuple[Floats, Floats, Floats]:
-    """Δ, c1 and c2 (n,) each of many centres, with `**2` and `**3` as equations (13) and (14) of the paper have them.
+    """Return Δ, c1 and c2 of many centres, (n,) each, with `**2` and `**3` as in equations (13) and (14) of the paper.
 
     This is the formula as one writes it in numpy, and is not certified.
     """
@@ -160,7 +163,7 @@ def delta_with_powers(sizes: Sizes, x: Floats, y: Floats, z: Floats) -> tuple[Fl
 
 
 def numpy_roots(rows: Rows) -> Answers:
-    """Positions (n,) by numpy.roots; a root is real if its imaginary part is 0."""
+    """Return positions (n,) by numpy.roots; a root is real if its imaginary part is 0."""
     A, B, c0, c1, c2 = _COEFFICIENTS(dict(zip(COLUMNS, rows.T, strict=True)))
     answers = np.zeros(len(rows), dtype=np.int8)
     for place, coefficients in enumerate(np.column_stack([np.ones(len(rows)), c2, c1, c0])):
@@ -175,11 +178,12 @@ def numpy_roots(rows: Rows) -> Answers:
 
 
 def mpmath_roots(rows: Rows, digits: int) -> Answers:
-    """Positions (n,) by mpmath.polyroots; a root is real if polyroots returns it as real."""
+    """Return positions (n,) by mpmath.polyroots; a root is real if polyroots returns it as real."""
     return np.array([_mpmath_position(row, digits) for row in rows.tolist()], dtype=np.int8)
 
 
 def _mpmath_position(row: list[float], digits: int) -> int:
+    """Return the position of a row by mpmath's roots at so many decimal digits."""
     import mpmath  # noqa: PLC0415 - where it is not asked for, it is not loaded
 
     with mpmath.workdps(digits):
@@ -199,6 +203,7 @@ def _mpmath_position(row: list[float], digits: int) -> int:
 
 
 def _side(lowest: Any, middle: Any, A: Any, B: Any) -> int:  # noqa: ANN401 - of any arithmetic
+    """Return the position that the two lower of three real roots prove."""
     mean = (lowest + middle) / 2
     if lowest == middle:
         return 0
@@ -208,20 +213,20 @@ def _side(lowest: Any, middle: Any, A: Any, B: Any) -> int:  # noqa: ANN401 - of
 
 
 def bounding_sphere(rows: Rows) -> Answers:
-    """Positions (n,) of the sphere, which no axis turns, exact, so that all errors are due to the shape."""
+    """Return positions (n,) of the sphere, which no axis turns, exact, so that all errors are due to the shape."""
     spheres = rows[:, : len(COLUMNS)].copy()
     spheres[:, 2:4] = np.maximum(rows[:, 2], rows[:, 3])[:, np.newaxis]
     return numpy_kernel.positions(spheres)
 
 
 def bounding_sphere_scene(sizes: Sizes, x: Floats, y: Floats, z: Floats, _axis: Axis = UPRIGHT) -> Answers:
-    """Positions of the sphere for many centres and one α, γ, b, d."""
+    """Return positions of the sphere for many centres and one α, γ, b, d."""
     alpha, gamma, b, d = sizes
     return numpy_kernel.positions_of_scene((alpha, gamma, max(b, d), max(b, d)), x, y, z)
 
 
 def bounding_cylinder(columns: Mapping[str, Any]) -> NDArray[np.int8]:
-    """Positions (n,) of the cylinder on columns, in plain floats.
+    """Return positions (n,) of the cylinder on columns, in plain floats.
 
     The hyperboloid's radius grows with |z|, so it is widest at the cylinder's farther end, and narrowest at its nearer
     end or, if that lies between the two, in the plane of the waist.
@@ -234,11 +239,11 @@ def bounding_cylinder(columns: Mapping[str, Any]) -> NDArray[np.int8]:
 
 
 TURNS = 56
-"""Bisections of the interval of λ, down to neighbouring floats: some dual functions are greatest at a pole."""
+"""How often the interval of λ is bisected, down to neighbouring floats: some dual functions are greatest at a pole."""
 
 
 def by_eigenvectors(rows: Rows, turns: int = TURNS) -> Positions:
-    """Positions of rows (n, 10) by numpy.linalg.eigh, and the dual function's greatest value.
+    """Return positions of rows (n, 10) by numpy.linalg.eigh, and the dual function's greatest value.
 
     By bisection for its slope, which is safe from any start. Uncertified: near contact it is sometimes wrong.
     """
@@ -253,7 +258,10 @@ def by_eigenvectors_scene(sizes: Sizes, x: Floats, y: Floats, z: Floats, axis: A
 
 
 def _eigenbasis(sizes: Floats, axes: Floats) -> tuple[Floats, Floats]:
-    """The poles −B, then A1 and A2 with the nearer one last, (n, 3); and the map of a centre to its components."""
+    """Return the poles −B, then A1 and A2 with the nearer one last, (n, 3), and matrices (n, 3, 3).
+
+    A matrix takes a centre to its components in the directions in which both bodies' matrices are diagonal.
+    """
     b, d = sizes[:, 2, None, None], sizes[:, 3, None, None]
     unit = axes / np.linalg.norm(axes, axis=1, keepdims=True)
     along = unit[:, :, None] * unit[:, None, :]
@@ -264,12 +272,13 @@ def _eigenbasis(sizes: Floats, axes: Floats) -> tuple[Floats, Floats]:
 
 
 def _diagonal(sizes: Floats) -> Floats:
-    """The diagonal of D = diag(1/α², 1/α², −1/γ²), (n, 3)."""
+    """Return the diagonal of D = diag(1/α², 1/α², −1/γ²), (n, 3)."""
     alpha, gamma = sizes[:, 0], sizes[:, 1]
     return np.column_stack([alpha**-2, alpha**-2, -(gamma**-2)])
 
 
 def _by_dual(poles: Floats, turned: Floats, centres: Floats, turns: int) -> Positions:
+    """Return the positions (n,) by the sign of the dual function at its maximum, found by `turns` bisections."""
     squares = (turned @ centres[:, :, None])[:, :, 0] ** 2
     low, high = (np.broadcast_to(-poles[:, k], len(centres)) for k in (2, 0))
     for _ in range(turns):
@@ -282,7 +291,9 @@ def _by_dual(poles: Floats, turned: Floats, centres: Floats, turns: int) -> Posi
 
 
 def by_roots(rows: Rows) -> Positions:
-    """Positions of rows (n, 10) by the roots of det(S + λH), which numpy.linalg.eigvals finds; real if they say so.
+    """Return positions of rows (n, 10) by the roots of det(S + λH), which numpy.linalg.eigvals finds.
+
+    A root counts as real if its computed imaginary part is 0.
 
     Exterior: two different roots between 0 and B. Interior: two between −min(A1, A2) and 0.
     """
@@ -310,7 +321,7 @@ def _pair_below(roots: NDArray[Any], pole: Floats) -> Positions:
 
 
 def upright(rows: Rows) -> Answers:
-    """Positions (n,) as if the spheroid stood upright, exact, so that every error is due to its axis."""
+    """Return positions (n,) as if the spheroid stood upright, exact, so that every error is due to its axis."""
     return kernel().answer_rows(np.ascontiguousarray(rows[:, : len(COLUMNS)]), "position", 1)[0]
 
 

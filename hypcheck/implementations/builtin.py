@@ -34,7 +34,7 @@ from hypcheck.truth.nearest import nearest
 from hypcheck.version import VERSION
 
 DIGITS = (15, 30, 50, 100)
-"""Decimal digits with which mpmath computes roots."""
+"""The numbers of decimal digits with which mpmath computes roots."""
 
 SLOW_ROWS = 24
 """The number of rows of a family on which a method that takes milliseconds for a row is tested."""
@@ -48,7 +48,7 @@ PRECISIONS = ("float32", "float64")
 
 @cache
 def methods() -> dict[str, Method]:
-    """Every built-in method by its name, even if what it needs is not installed.
+    """Return every built-in method by its name, even if what it needs is not installed.
 
     mpmath and collision engines are loaded only when a method is called.
     """
@@ -69,6 +69,7 @@ def methods() -> dict[str, Method]:
 
 
 def _fast_methods() -> Iterator[Method]:
+    """Yield the fast path as methods: by the kernel in use, and in numpy."""
     in_use = "the kernel in use" if choice().kernel == "compiled" else "the kernel in use, which is numpy"
     for name, where, answer, scene in (
         ("fast", in_use, fast_positions, fast_scene),
@@ -79,16 +80,20 @@ def _fast_methods() -> Iterator[Method]:
 
 
 def fast_positions(rows: Rows) -> Answers:
-    """Positions (n,) of rows (n, 7) or (n, 10) by the kernel in use, on one thread."""
+    """Return positions (n,) of rows (n, 7) or (n, 10) by the kernel in use, on one thread."""
     return kernel().answer_rows(np.ascontiguousarray(rows), "position", 1)[0]
 
 
 def fast_scene(sizes: Sizes, x: Floats, y: Floats, z: Floats, axis: Axis | None = None) -> Answers:
-    """Positions of one spheroid's centres (n,) by the kernel in use, on one thread; without an axis it is upright."""
+    """Return positions of one spheroid's centres (n,) by the kernel in use, on one thread.
+
+    Without an axis the spheroid is upright.
+    """
     return kernel().answer_scene(sizes, (x, y, z), "position", 1, axis)[0]
 
 
 def _formula_method(formula: Formula, format_name: str) -> Method:
+    """Return a formula in a float format as a method; the dual form has a search of its own."""
     dual = alternatives.dual(format_name) if formula.name == "dual" else None
     return Method(
         f"{formula.name}-{format_name}",
@@ -102,7 +107,7 @@ def _formula_method(formula: Formula, format_name: str) -> Method:
 
 
 def _measured_methods() -> Iterator[Method]:
-    """Methods that only bench uses: other precisions, roots, exact methods, and other shapes."""
+    """Yield methods that only bench uses: other precisions, roots, exact methods, and other shapes."""
     for format_name, precision in (("float16", "float16"), ("longdouble", LONG_DOUBLE)):
         if precision is not None:
             yield replace(_formula_method(FORMULAS["table-2"], format_name), precision=precision)
@@ -132,14 +137,17 @@ def _measured_methods() -> Iterator[Method]:
 
 
 def _integers(rows: Rows) -> Answers:
+    """Return positions (n,) by the fast path's last stage, in integers."""
     return np.array([integers.upright_position(Pair.from_row(row).lengths) for row in rows.tolist()], dtype=np.int8)
 
 
 def _oracle(rows: Rows) -> Answers:
+    """Return positions (n,) by the exact oracle."""
     return np.array([exact.position(Pair.from_row(row).lengths) for row in rows.tolist()], dtype=np.int8)
 
 
 def _nearest(rows: Rows) -> Answers:
+    """Return positions (n,) by the oracle of the nearest point."""
     return nearest_rows.positions(np.ascontiguousarray(rows)).position
 
 
@@ -155,13 +163,14 @@ NAIVE_FCL = {
 
 
 def _naive_methods() -> Iterator[Method]:
+    """Yield the naive use of FCL, one method for each pairing."""
     for pairing, title in NAIVE_FCL.items():
         answer = partial(naive_fcl, pairing=pairing)
         yield Method(f"fcl-{pairing}-mesh", title, answer, max_rows=FCL_ROWS, needs=FCL.title)
 
 
 def _tilted_methods() -> Iterator[Method]:
-    """Methods whose rows have an axis; the fast path and the exact methods take rows with an axis and without."""
+    """Yield methods whose rows have an axis; the fast path and the exact methods take rows with an axis and without."""
     for name, title, answer, scene in (
         (
             "eigh",
@@ -188,18 +197,19 @@ def _tilted_methods() -> Iterator[Method]:
 
 
 def _nearest_enclosed(rows: Rows) -> Answers:
+    """Return positions (n,) by the nearest point in intervals of mpmath."""
     return np.array([nearest(Pair.from_row(row)).position for row in rows.tolist()], dtype=np.int8)
 
 
 SAMPLES = (4, 16, 64, 256)
-"""Positions of a sweep at which a sampling method looks."""
+"""How many positions of a sweep a sampling method tests."""
 
 SWEEP_ROWS = 200
 """The number of sweeps of a family on which a method that takes a millisecond for a sweep is tested."""
 
 
 def _passage_methods() -> Iterator[Method]:
-    """Every method that answers the question passage."""
+    """Yield every method that answers the question passage."""
     yield _passage_method("passage-exact", "roots and steps in integers", sweeps.exact, exact=True, max_rows=SWEEP_ROWS)
     yield Method(
         "passage-certified",
@@ -227,6 +237,7 @@ def _passage_method(
     exact: bool = False,
     max_rows: int | None = None,
 ) -> Method:
+    """Return a method for sweeps; `timed` gives hits and times."""
     return Method(
         name,
         title,
@@ -240,17 +251,20 @@ def _passage_method(
 
 
 def names() -> list[str]:
-    """The names that `builtin:NAME` takes. Methods with `tilt` are left out: their eigenvalues fail on extreme rows."""
+    """Return the names that `builtin:NAME` takes.
+
+    Methods with `tilt` are left out: their eigenvalues fail on extreme rows.
+    """
     return [name for name, method in methods().items() if not method.tilt]
 
 
 def trouble_with(method: Method) -> str | None:
-    """The reason why a method cannot be used here, or None; the engine that it needs is loaded."""
+    """Return the reason why a method cannot be used here, or None; the engine that it needs is loaded."""
     return ENGINES[method.needs].trouble() if method.needs else None
 
 
 def builtin(name: str) -> Method:
-    """The built-in method of that name. Raises InputError naming the known methods, or a missing requirement."""
+    """Return the built-in method of that name. Raises InputError naming the known methods, or a missing requirement."""
     if name not in (known := names()):
         raise InputError(f"there is no built-in method {name!r}; {suggestion(name, known)}")
     method = methods()[name]
@@ -282,7 +296,7 @@ class BuiltinSession:
         )
 
     def classify(self, rows: Rows, *, by_scene: bool = False) -> GivenAnswers:  # noqa: ARG002 - it has no entry for scenes
-        """The method's answers."""
+        """Return the method's answers."""
         if self.method.timed is not None:
             return GivenAnswers(*self.method.timed(rows))
         return GivenAnswers(self.method.answer(rows))
@@ -295,7 +309,10 @@ class BuiltinSession:
         by_scene: bool = False,  # noqa: ARG002
         row_by_row: bool = False,
     ) -> tuple[int, int]:
-        """Nanoseconds for `repeat` times the rows, and the sum of the answers; `row_by_row`: one call for each row."""
+        """Return nanoseconds for `repeat` times the rows, and the sum of the answers.
+
+        With `row_by_row` it makes one call for each row.
+        """
         parts = [rows[place : place + 1] for place in range(len(rows))] if row_by_row else [rows]
         answers: list[NDArray[np.int8]] = []
         start = time.perf_counter_ns()

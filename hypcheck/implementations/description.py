@@ -28,11 +28,11 @@ from hypcheck.toml import Path
 class Question:
     """A question to an implementation: its name, its answers besides CANNOT_SAY, and the columns of its rows.
 
-    `contact` is the answer after which a program stops, since it claims contact or does not exclude it. `position` is
-    the one that is asked about, by yes or no; None: the answer is the truth itself, a position or a hit.
-    `entry` is what a library's function is called after: hypcheck_ENTRY and hypcheck_ENTRY_tilted. `forms` stand before
-    "text" and "binary" in the protocol of commands, for upright and for tilted spheroids. `times` says that a time may
-    go with each answer 1.
+    `contact` is the answer on which a caller must stop a motion, since it claims contact or does not exclude it.
+    `position` is the position that a question with the answers yes and no is about; None if the answer is the position
+    itself, or a hit. `layout` has the columns of its rows. `entry` is part of the names of a library's functions:
+    hypcheck_ENTRY and hypcheck_ENTRY_tilted. `forms` come before "text" and "binary" in the protocol of commands, for
+    upright and for tilted spheroids. `times` says that an implementation may give a time with each answer 1.
     """
 
     name: str
@@ -59,11 +59,11 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
         )
     }
 )
-"""The position itself, whether it is one of the three, and whether there is contact on the sweep between two."""
+"""The questions by name: the position, whether it is a certain one, and whether there is contact on a sweep."""
 
 
 def foreign_text(text: object, width: int = WIDTH) -> str:
-    """A text of a foreign program on one line, as messages.escaped, without the secrets of our environment."""
+    """Return a text of a foreign program on one line, as messages.escaped, without the secrets of our environment."""
     return escaped(masked(str(text)), width)
 
 
@@ -77,9 +77,9 @@ class Description:
     """An implementation's description of itself.
 
     `domain` is where it claims to be right. `refuses` says that it answers invalid rows with 127. `binary` and `time`
-    say what a command offers of the protocol. `tilt` says that rows have the spheroid's axis after the other numbers,
-    `heights` that they have the heights between which the hyperboloid ends, at last. `times` says that a time goes with
-    each answer 1.
+    say which optional parts of the protocol a command offers. `tilt` says that its rows have the spheroid's axis after
+    the other numbers, `heights` that their last columns are the heights between which the hyperboloid exists. `times`
+    says that it gives a time with each answer 1.
     """
 
     name: str
@@ -119,9 +119,10 @@ class Description:
     def overridden(
         self, precision: str | None = None, question: str | None = None, domain: Domain | None = None
     ) -> Description:
-        """The description with values of the caller; raises InputError if there is no such precision or question.
+        """Return the description with values of the caller.
 
-        It also raises that if the question is about other rows than those that the description declares.
+        Raises InputError if there is no such precision or question, and if the question is about rows with other
+        columns than those that the description declares.
         """
         changed = replace(
             self,
@@ -138,7 +139,7 @@ class Description:
 
 
 def described(raw: object, defaults: Description, required: tuple[str, ...] = ()) -> Description:
-    """The description in a mapping, completed from `defaults`; raises InputError naming key and value."""
+    """Return the description in a mapping, completed from `defaults`; raises InputError naming key and value."""
     table = StrictTable(_Foreign("the description"), (), raw, _KEYS)
     for key in required:
         table.required(key, _CHECKS[key])
@@ -166,17 +167,17 @@ def described(raw: object, defaults: Description, required: tuple[str, ...] = ()
 
 
 def described_by_json(text: str | bytes, defaults: Description, required: tuple[str, ...] = ()) -> Description:
-    """The description in a JSON text; raises InputError."""
+    """Return the description in a JSON text; raises InputError."""
     return described(_json(text, "the description"), defaults, required)
 
 
 def parse_domain(text: str) -> Domain:
-    """The domain in a JSON text of the command line; raises InputError."""
+    """Return the domain in a JSON text of the command line; raises InputError."""
     return domain_of(_json(text, "the domain"))
 
 
 def domain_of(value: object) -> Domain:
-    """The domain in a mapping; raises InputError naming key and value."""
+    """Return the domain in a mapping; raises InputError naming key and value."""
     return _domain(StrictTable(_Foreign("the domain"), (), value, DOMAIN_KEYS))
 
 
@@ -189,6 +190,7 @@ _STRICT = strict_decoder(constant=_unbounded)
 
 
 def _json(text: str | bytes, where: str) -> object:
+    """Return the value of a JSON text. Raises InputError, which begins with `where`."""
     if len(text) > LONGEST:
         raise InputError(f"{where} is longer than {LONGEST} bytes")
     try:
@@ -207,39 +209,42 @@ class _Foreign(Origin):
     title: str
 
     def named(self, path: Path) -> str:
-        """The table or the value at a path: the description's domain.ratio."""
+        """Return the table or the value at a path: the description's domain.ratio."""
         return f"{self.title}'s {dotted(path)}" if path else self.title
 
     def shown(self, value: object) -> str:
-        """The value as Python writes it, short and masked."""
+        """Return the value as Python writes it, short and masked."""
         return foreign_text(repr(value), 80)
 
 
 def _chosen(title: str, name: str, choices: Collection[str]) -> str:
-    """The name, if it is one of the choices. Raises InputError."""
+    """Return the name, if it is one of the choices. Raises InputError."""
     return _Foreign(title).checked((), name, strict.one_of(*choices))
 
 
 def _protocol(value: object) -> int:
+    """Return the version of the protocol. Raises ValueError with what it must be, as all checks here do."""
     if value != PROTOCOL or isinstance(value, bool):
         raise ValueError(f"{PROTOCOL}, the only version")
     return PROTOCOL
 
 
 def _text(value: object) -> str:
+    """Return a text, masked and on one line."""
     if not isinstance(value, str):
         raise ValueError("a text")  # noqa: TRY004 - turned into a sentence about the value
     return foreign_text(value, 200)
 
 
 def _name(value: object) -> str:
+    """Return a text that is not empty, masked and on one line."""
     if not isinstance(value, str) or not _text(value):
         raise ValueError("a text that is not empty")
     return _text(value)
 
 
 def _groups(value: object) -> tuple[str, ...]:
-    """Names of groups of columns, in any order."""
+    """Return names of groups of columns, in any order."""
     names = value if isinstance(value, list) else [None]
     if len(set(map(str, names))) != len(names) or not all(isinstance(name, str) and name in GROUPS for name in names):
         raise ValueError(f"a list of {', '.join(GROUPS)}, of none, some or all of them, each once")
@@ -247,17 +252,20 @@ def _groups(value: object) -> tuple[str, ...]:
 
 
 def _sizes(value: object) -> Sizes:
+    """Return four numbers, which may be infinite."""
     wanted = f"four numbers, {', '.join(SIZES)}"
     alpha, gamma, b, d = strict.numbers_of(value, len(SIZES), wanted, infinite=True)
     return alpha, gamma, b, d
 
 
 def _range(value: object) -> tuple[float, float]:
+    """Return two numbers, which may be infinite."""
     low, high = strict.numbers_of(value, 2, "two numbers, [least, greatest]", infinite=True)
     return low, high
 
 
 def _span(value: object) -> tuple[float, float]:
+    """Return two numbers, the least first."""
     low, high = _range(value)
     if not low <= high:
         raise ValueError("two numbers, [least, greatest], the least first")
@@ -265,6 +273,7 @@ def _span(value: object) -> tuple[float, float]:
 
 
 def _axis(value: object) -> tuple[float, float, float] | Literal["free"] | None:
+    """Return an axis, the word free, or None."""
     return None if value is None else _AXIS(value)
 
 
@@ -275,6 +284,7 @@ DOMAIN_KEYS = ("regimes", "ratio", "magnitude", "settings")
 
 
 def _domain(table: StrictTable) -> Domain:
+    """Return the domain in a table. Raises InputError."""
     wanted = "a list of mappings with sizes, and optionally x, y, z, axis"
     settings = table.tables("settings", ("sizes", *CENTER, "axis"), wanted, least=1)
     return Domain(
@@ -286,6 +296,7 @@ def _domain(table: StrictTable) -> Domain:
 
 
 def _setting(table: StrictTable) -> rows.FixedSizes:
+    """Return the sizes in a table, with the ranges of their centres. Raises InputError."""
     sizes = table.required("sizes", _sizes)
     for name, size in zip(SIZES, sizes, strict=True):
         trouble = trouble_with(name, size)

@@ -55,7 +55,7 @@ NORMAL_RANGE: dict[str, Range] = {
 
 
 _CORNERS = np.array([(*sizes, *[center] * 12) for *sizes, center in product((0, 1), repeat=5)])
-"""Least or greatest, of four sizes and of all other numbers: of centres, of the axis and of heights."""
+"""The 32 combinations of least (0) or greatest (1): for each of four sizes, and for all other numbers together."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,7 +82,7 @@ class Domain:
                 raise InputError(f"the domain's {name} is {shown}; it must be two numbers with 0 ≤ low ≤ high")
 
     def holds(self, rows: Rows, *, extreme: bool = False, layout: Layout = PAIRS) -> Mask:
-        """A mask (n,) of the rows inside the domain.
+        """Return a mask (n,) of the rows inside the domain.
 
         `extreme` rows belong to a family that runs only on request; then ranges that were not declared are
         unbounded.
@@ -98,10 +98,11 @@ class Domain:
 
 
 ORDINARY, EVERYWHERE = Domain(), Domain(ratio=UNBOUNDED, magnitude=UNBOUNDED)
+"""The domain of a method that declares none, and that of a method that claims all rows."""
 
 
 def in_regime(rows: Rows, regime: str) -> Mask:
-    """A mask (n,) of the rows in a regime of REGIMES, decided exactly."""
+    """Return a mask (n,) of the rows in a regime of REGIMES, decided exactly."""
     alpha, gamma, b, d = rows[:, :4].T
     if regime == "a>=1":
         return np.asarray(alpha >= b)
@@ -118,7 +119,7 @@ def in_regime(rows: Rows, regime: str) -> Mask:
 
 
 def representable(rows: Rows, precision: str, *, subnormal: bool = False) -> Mask:
-    """A mask (n,) of the rows in which every number is zero or normal in the declared precision.
+    """Return a mask (n,) of the rows in which every number is zero or normal in the declared precision.
 
     With `subnormal` also of those with subnormal numbers, if the precision holds these exactly.
     """
@@ -143,7 +144,7 @@ def claimed(
     subnormal: bool = False,
     layout: Layout = PAIRS,
 ) -> NDArray[np.intp]:
-    """The ascending indices of the rows that lie in the domain and are representable in the declared precision.
+    """Return the ascending indices of the rows that lie in the domain and are representable in the declared precision.
 
     `extreme` is as in Domain.holds, `subnormal` as in representable.
     """
@@ -157,7 +158,7 @@ def claimed(
 
 
 def _corners(rows: Rows) -> Rows:
-    """Rows (32, their columns) of the extremes of |rows|: all combinations of sizes, least and greatest of the others.
+    """Return 32 rows of the extremes of |rows|: all combinations of sizes, with all other numbers least or greatest.
 
     Each condition of a domain except its settings is monotone in each length. So is the range of a precision, except
     for zero, which is always representable. Hence a condition that holds for these rows holds for all.
@@ -195,7 +196,7 @@ FAMILIES: Mapping[str, str] = MappingProxyType(
 
 
 FEWEST, SHARE = 100, 100
-"""Where the domain or the precision leaves out most rows, at least FEWEST must be judged, and one in SHARE of all."""
+"""If most rows are skipped, at least FEWEST rows must be judged, and at least one in SHARE of all."""
 
 
 def too_few(judged: int, skipped: int) -> bool:
@@ -206,7 +207,7 @@ def too_few(judged: int, skipped: int) -> bool:
 def reasons(
     rows: Rows, domain: Domain, precision: str, *, extreme: bool, subnormal: bool, layout: Layout = PAIRS
 ) -> dict[str, int]:
-    """The number of rows that domain.claimed leaves out, by reason: the first of ROWS that applies."""
+    """Return the number of rows that domain.claimed leaves out, by reason: the first of ROWS that applies."""
     if not len(rows):
         return {}
     free = replace(domain, ratio=UNBOUNDED, magnitude=UNBOUNDED)

@@ -67,22 +67,23 @@ class ForeignCode(Protocol):
     """JSON; empty if it has no description."""
 
     entries: tuple[str, ...]
-    """Those of frames.ENTRIES that a library exports."""
+    """The functions of frames.ENTRIES that a library exports."""
 
     def classify(self, rows: Rows, call: CallForm) -> GivenAnswers:
-        """Answers to rows, by that call."""
+        """Return answers to rows, by that call."""
         ...
 
     def time(self, rows: Rows, repeat: int, call: CallForm, *, row_by_row: bool) -> tuple[int, int]:
-        """Nanoseconds of `repeat` times the rows, in one call or in one for each, and the sum of the last answers.
+        """Return the nanoseconds of `repeat` times the rows, and the sum of the last answers.
 
-        For a library, no rows by row mean a call that does nothing.
+        All rows are in one call, or with `row_by_row` each in its own. For a library, no rows with `row_by_row` mean a
+        call that does nothing.
         """
         ...
 
 
 def description_as_json(description: object) -> str:
-    """A module's description as JSON; raises LoadError."""
+    """Return a module's description as JSON; raises LoadError."""
     try:
         return json.dumps(dict(description) if isinstance(description, Mapping) else description)
     except (TypeError, ValueError, RecursionError):
@@ -97,7 +98,7 @@ _OURS = os.path.dirname(os.path.dirname(__file__)) + os.sep
 _INSTALLED = os.path.dirname(os.path.dirname(np.__file__)) + os.sep
 _SEARCHED = frozenset(sys.path)
 _NOT_UNDER_TEST = ("<frozen", os.path.dirname(os.__file__) + os.sep)
-"""The folders of lines of a traceback: this package, installed packages, Python itself."""
+"""Beginnings of file names in a traceback: this package, installed packages, the path at the start, Python itself."""
 
 
 class PythonFunction:
@@ -125,11 +126,17 @@ class PythonFunction:
         )
 
     def classify(self, rows: Rows, call: CallForm) -> GivenAnswers:
-        """Answers to rows; raises ContractError if the function returns no array of n integers, or no times beside."""
+        """Return answers to rows.
+
+        Raises ContractError if the function does not return an array of n integers, or not the times that it promises.
+        """
         return _given(self._function(rows), len(rows), call)
 
     def time(self, rows: Rows, repeat: int, call: CallForm, *, row_by_row: bool) -> tuple[int, int]:
-        """Nanoseconds of `repeat` times the rows, in one call or in one for each, and the sum of the last answers."""
+        """Return the nanoseconds of `repeat` times the rows, and the sum of the last answers.
+
+        All rows are in one call, or with `row_by_row` each in its own.
+        """
         function, parts = self._function, [rows]
         if row_by_row:
             parts = [rows[place : place + 1] for place in range(len(rows))]
@@ -143,7 +150,7 @@ class PythonFunction:
 
 
 def error_text(error: BaseException) -> str:
-    """The exception and its line, as the end of a sentence."""
+    """Return the exception and its line, as the end of a sentence."""
     text = traceback.format_exception_only(type(error), error)[-1].strip()
     if isinstance(error, ModuleNotFoundError):
         text += "".join(f"; sys.path has {folder!r}, which is not there" for folder in _missing_folders())
@@ -160,7 +167,7 @@ def error_text(error: BaseException) -> str:
 
 
 def _missing_folders() -> Iterator[str]:
-    """The folders that foreign code added to the path of modules, and that cannot be listed."""
+    """Yield the folders that foreign code added to the path of modules, and that cannot be listed."""
     for folder in sys.path:
         if folder not in _SEARCHED and os.path.isabs(folder):
             try:
@@ -172,6 +179,7 @@ def _missing_folders() -> Iterator[str]:
 
 
 def _of_name(name: str) -> ModuleType:
+    """Import a module by its name, from the working directory first."""
     sys.path.insert(0, os.getcwd())
     return importlib.import_module(name)
 
@@ -193,7 +201,7 @@ def _require_one_argument(function: Callable[..., Any], target: str, name: str) 
 
 
 def _of_file(path: str) -> ModuleType:
-    """The file as a module, with its folder first on the path, as when Python runs it as a script."""
+    """Return the file as a module, with its folder first on the path, as when Python runs it as a script."""
     if not os.path.isfile(path):
         raise LoadError(f"there is no file {path!r}")
     path = os.path.abspath(path)
@@ -211,6 +219,7 @@ def _of_file(path: str) -> ModuleType:
 
 
 def _given(result: object, n: int, call: CallForm) -> GivenAnswers:
+    """Return what a function returned as answers, with times if the call has them. Raises ContractError."""
     if not call.times:
         return GivenAnswers(_integers(result, n))
     if not isinstance(result, (tuple, list)) or len(result) != 2:
@@ -220,6 +229,7 @@ def _given(result: object, n: int, call: CallForm) -> GivenAnswers:
 
 
 def _times(result: object, n: int) -> Floats:
+    """Return n times as float64. Raises ContractError for anything else."""
     try:
         array = np.asarray(result)
     except ValueError:  # of several lengths
@@ -231,6 +241,7 @@ def _times(result: object, n: int) -> Floats:
 
 
 def _integers(result: object, n: int) -> IntegerAnswers:
+    """Return n answers as int8, or int64 if one does not fit. Raises ContractError for anything else."""
     if isinstance(result, np.ma.MaskedArray) and np.any(result.mask):
         raise ContractError("it returned a masked array with masked answers; it must answer every row")
     try:
@@ -252,4 +263,5 @@ def _integers(result: object, n: int) -> IntegerAnswers:
 
 
 def _kind(result: object) -> str:
+    """Return the kind of a value in words."""
     return "an array" if isinstance(result, np.ndarray) else f"a {type(result).__name__}"

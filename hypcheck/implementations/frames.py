@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from hypcheck.geometry.rows import PAIRS, SWEEPS, Floats, Layout, Rows
 
 WIDTH = 400
-"""Characters of a text."""
+"""The most characters of a text that is shown."""
 
 LARGEST = 65_536
 """The most rows of a question."""
@@ -33,10 +33,11 @@ class GivenAnswers(NamedTuple):
 
 
 class CallForm(NamedTuple):
-    """The function of foreign code that is called, and the columns of its rows.
+    """Which function of foreign code is called, and the columns of its rows.
 
-    `times` says that it gives times, `scene` that the entry for many centres is called, whose rows have the same sizes
-    and axis, `columns` that the entry for rows of any width is called.
+    `entry` and the question's `layout` are those of description.Question. `times`: it gives times. `scene`: it is the
+    function for many centres, whose rows have the same sizes and axis. `columns`: it is the function for rows of any
+    width.
     """
 
     entry: str
@@ -46,7 +47,7 @@ class CallForm(NamedTuple):
     columns: bool = False
 
     def entry_name(self, *, tilt: bool) -> str:
-        """The one of ENTRIES that is called, with an axis or without."""
+        """Return the one of ENTRIES that is called, with an axis or without."""
         if self.columns:
             return f"hypcheck_{self.entry}_columns"
         return f"hypcheck_{self.entry}{'_tilted' if tilt else ''}{'_scene' if self.scene else ''}"
@@ -76,7 +77,10 @@ the next question. The first reply, which has no request, has the mark 0.
 """
 
 CLASSIFY, TIME, TIME_EACH = b"clas", b"time", b"each"
+"""The kinds of requests: answers, the time of all rows in one call, the time of a call for each row."""
+
 READY, ANSWERS, TIMED, ERROR, PROTOCOL = b"here", b"answ", b"took", b"erro", b"prot"
+"""The kinds of replies: loaded, answers, times, foreign code raised an error, it broke the contract of a call."""
 
 ENTRIES = (
     "hypcheck_classify",
@@ -94,17 +98,17 @@ READY says which it exports.
 """
 
 TIMES = struct.Struct("=qq")
-"""Nanoseconds and the sum of the answers."""
+"""The body of TIMED: nanoseconds, and the sum of the answers."""
 
 UNWRITTEN = -86
 """The value of a library's positions before it is called; no question has this answer."""
 
 
 def row_bytes(rows: Rows) -> memoryview:
-    """Rows (n, as many columns) as little-endian bytes, without a copy if they have that layout."""
+    """Return rows (n, as many columns) as little-endian bytes, without a copy if they have that layout."""
     return np.ascontiguousarray(rows, dtype="<f8").data.cast("B") if rows.size else memoryview(b"")
 
 
 def integers(data: bytes | bytearray | memoryview, width: int) -> NDArray[np.signedinteger]:
-    """Answers from bytes."""
+    """Return answers from bytes."""
     return np.frombuffer(data, dtype=np.int8 if width == 1 else np.int64)

@@ -1,6 +1,6 @@
 """An implementation under test in any language: opened from a SPEC, tested on rows, timed, restarted.
 
-A fault costs only the row that causes it, which is found by asking smaller parts of a question.
+A fault costs only the row that causes it, which is found by sending smaller parts of a question.
 """
 
 from __future__ import annotations
@@ -40,8 +40,8 @@ MAX_FAULTS = 1 << 14
 
 _FIRST, _GROWTH = 64, 16
 _SHARE = 10
-"""The first batch is small. Batches grow until one takes this part of the timeout, so that a slow implementation gets
-small batches, and does not look like one that hangs."""
+"""The first batch has _FIRST rows. Batches grow by up to _GROWTH times, until one takes the timeout divided by _SHARE,
+so that a slow implementation gets small batches, and does not look like one that hangs."""
 
 _SLACK_NS, _MAX_RATIO = 5_000_000_000, 20
 """A timed question may take this time by our clock for transport and warm-up, and so many times the reported time.
@@ -110,7 +110,7 @@ class Implementation:
         self._supervisor.kill()
 
     def classify(self, rows: Rows, *, batch: int | None = None, by_scene: bool = False) -> Answered:
-        """The answers to rows, float64 (n, 7), and the faults of rows without an answer.
+        """Return the answers to rows, float64 (n, 7), and the faults of rows without an answer.
 
         Sweeps have rows (n, 10). If the description says tilt, rows may also have the three numbers of an axis; the
         implementation then gets all rows with an axis. A question has `batch` rows; by default it has as many as the
@@ -132,6 +132,7 @@ class Implementation:
         return asking.result
 
     def _ask_all(self, asking: RowQuestions, n: int, batch: int | None) -> None:
+        """Send all rows in batches, whose size follows the time that they take unless `batch` is given."""
         start = 0
         while start < n:
             size = min(batch or self.proven_batch, self._supervisor.max_batch)
@@ -143,6 +144,7 @@ class Implementation:
             start = stop
 
     def _adapt(self, seconds: float, rows: int) -> None:
+        """Adapt the size of batches to the time that a batch of so many rows took."""
         target = self._limits.timeout / _SHARE
         if seconds > target:
             self.proven_batch = max(1, self.proven_batch // 2)
@@ -151,7 +153,9 @@ class Implementation:
             self.proven_batch = max(self.proven_batch, min(self._supervisor.max_batch, rows * growth))
 
     def time(self, rows: Rows, repeat: int, *, by_scene: bool = False, row_by_row: bool = False) -> int | None:
-        """Nanoseconds, by its own clock, for `repeat` times the rows, 65,536 at most; None if it offers no timing.
+        """Return nanoseconds, by its own clock, for `repeat` times the rows, 65,536 at most.
+
+        Return None if it offers no timing.
 
         `row_by_row` makes one call for each row. A library may be timed on no rows too: that is the cost of a call.
 
@@ -190,7 +194,7 @@ class Implementation:
         return times[0]
 
     def _rows(self, rows: Rows) -> Rows:
-        """The rows in the layout of the implementation. Raises InputError if they are not rows that it takes."""
+        """Return the rows in the layout of the implementation. Raises InputError if they are not rows that it takes."""
         tilt, layout = self.description.tilt, self.description.asked.layout
         rows = as_rows(rows, self.description.groups, layout)
         if not tilt and layout.has_heights(rows) and parts_of(rows, layout)[1][:, :2].any():  # the length is free
@@ -198,6 +202,7 @@ class Implementation:
         return with_axis(rows, layout) if tilt else rows
 
     def _check_scene(self, rows: Rows, *, by_scene: bool) -> None:
+        """Raise InputError if the rows cannot be answered by the function for scenes."""
         if by_scene and not self.scene:
             raise InputError(f"{self.spec} has no function for scenes")
         if by_scene and len(scenes_of(rows)) > 1:
@@ -225,7 +230,7 @@ class RowQuestions:
         self.result = Answered(np.full(n, CANNOT_SAY, np.int8), np.full(n, Outcome.NOT_RUN, np.int8), {}, times)
 
     def ask(self, start: int, stop: int) -> None:
-        """Ask rows [start, stop), together if possible; raises GivenUpError if the implementation is given up."""
+        """Send rows [start, stop), together if possible. Raises GivenUpError if the implementation is given up."""
         try:
             self._question(start, stop)
         except FaultError as fault:
@@ -237,6 +242,7 @@ class RowQuestions:
         self.result.reasons.update(dict.fromkeys(left.tolist(), reason))
 
     def _question(self, start: int, stop: int) -> None:
+        """Send rows [start, stop) in one question and keep the answers. Raises FaultError and GivenUpError."""
         rows = self._rows[start:stop]
         reply = self._supervisor.session().classify(rows, by_scene=self._by_scene)
         self._supervisor.note_answer()
@@ -251,7 +257,7 @@ class RowQuestions:
             self._mark(start + index, Outcome.PROTOCOL, self._allowed.trouble_with(int(answers[index]), time))
 
     def _search(self, start: int, stop: int, fault: FaultError, reason: str) -> None:
-        """Find the rows at fault by asking parts, and parts of the parts that fail.
+        """Find the rows at fault by sending parts, and parts of the parts that fail.
 
         Only the rows at fault are charged, because the cost of the search depends on the size of the question.
         """
@@ -279,17 +285,19 @@ class RowQuestions:
             self._supervisor.charge_fault(fault, reason)
 
     def _charge(self, index: int, fault: FaultError, reason: str) -> None:
+        """Mark a row as at fault, and charge it to the allowance."""
         self._mark(index, fault.outcome, reason)
         self._supervisor.charge_fault(fault, reason)
 
     def _mark(self, index: int, outcome: Outcome, reason: str) -> None:
+        """Set the outcome of a row without a valid answer, and the reason."""
         self.result.answers[index] = CANNOT_SAY
         self.result.status[index] = outcome
         self.result.reasons[index] = reason
 
 
 def _part(n: int, *, fatal: bool) -> int:
-    """The size of the parts of n rows that failed: halves; if failing ends the process, ALONE rows, then one."""
+    """Return the size of the parts of n rows that failed: halves; if failing ends the process, ALONE rows, then one."""
     if not fatal:
         return (n + 1) // 2
     return ALONE if n > ALONE else 1
@@ -314,7 +322,7 @@ class Crashed:
         """Do nothing: there is no process."""
 
     def classify(self, rows: Rows, *, batch: int | None = None, by_scene: bool = False) -> Answered:  # noqa: ARG002 - however it is asked
-        """CRASH for every row."""
+        """Return CRASH for every row."""
         n = len(rows)
         status = np.full(n, Outcome.CRASH, dtype=np.int8)
         return Answered(np.full(n, CANNOT_SAY, dtype=np.int8), status, dict.fromkeys(range(n), self._reason))
@@ -328,7 +336,9 @@ def open_implementation(
     question: str | None = None,
     domain: Domain | None = None,
 ) -> Implementation:
-    """The implementation that a SPEC names, running; `precision`, `question` and `domain` replace what it declares.
+    """Return the implementation that a SPEC names, running.
+
+    `precision`, `question` and `domain` replace what it declares.
 
     Raises InputError if the text is not a SPEC, and StartError if the implementation cannot be started.
     """
@@ -349,7 +359,7 @@ def require_named(specs: Iterable[str]) -> None:
 
 
 def _session(spec: Spec, limits: Limits, run: int) -> Session:
-    """A session of what a SPEC names; `run` counts those before it."""
+    """Return a session of what a SPEC names; `run` counts those before it."""
     if spec.kind == "builtin":
         return _builtin_session(spec)
     if spec.kind == "command":
@@ -358,7 +368,7 @@ def _session(spec: Spec, limits: Limits, run: int) -> Session:
 
 
 def _builtin_session(spec: Spec) -> Session:
-    """The session of a built-in method. Raises InputError if there is none of that name."""
+    """Return the session of a built-in method. Raises InputError if there is none of that name."""
     from hypcheck.implementations.builtin import BuiltinSession  # noqa: PLC0415 - loads every formula
 
     return BuiltinSession(spec.words[0])

@@ -1,8 +1,8 @@
 """A shared library with a C ABI, in the worker: its entries, and the guarded memory that they are given.
 
-The functions that a library exports are in foreign.py. Its arguments stand in memory between pages that nothing can be
-read from or written to. An array stands at the one end or at the other in turn, so that a library that reaches one byte
-too far, before or behind, ends there. What is given to be read is read-only. On a system without mprotect the memory is
+foreign.py lists the functions that a library exports. Its arguments are in memory between two pages that cannot be read
+or written. Arrays are placed in turn at the one end of this memory and at the other, so that a library that reaches one
+byte too far, before or behind, ends there. Arrays for reading are read-only. On a system without mprotect the memory is
 ordinary.
 """
 
@@ -30,6 +30,8 @@ except ImportError:  # not compiled: ctypes makes the calls, and a fault is not 
     _calls = None  # type: ignore[assignment]
 
 _FENCE = 64
+"""How many bytes on each side of an array are checked for writes."""
+
 _HINTS = (
     (("wrong ELF class", "architecture"), "it is built for another machine"),
     (("invalid ELF header", "file too short", "not a mach-o", "slice is not valid"), "it is not a shared library"),
@@ -48,13 +50,16 @@ class Library:
         self._memory = _Memory()
 
     def classify(self, rows: Rows, call: CallForm) -> GivenAnswers:
-        """Answers to rows; raises ContractError if it writes outside the memory for answers and times."""
+        """Return answers to rows; raises ContractError if it writes outside the memory for answers and times."""
         room = _AnswerRoom(self._memory, rows, call)
         self._entry(rows, call)(*self._words(rows, call, room))
         return room.written()
 
     def time(self, rows: Rows, repeat: int, call: CallForm, *, row_by_row: bool) -> tuple[int, int]:
-        """Nanoseconds of `repeat` times the rows, in one call or in one for each, and the sum of the last answers."""
+        """Return the nanoseconds of `repeat` times the rows, and the sum of the last answers.
+
+        All rows are in one call, or with `row_by_row` each in its own.
+        """
         if row_by_row:
             return self._time_each(rows, repeat, call)
         room = _AnswerRoom(self._memory, rows, call)
@@ -66,14 +71,14 @@ class Library:
         return took, room.total()
 
     def _words(self, rows: Rows, call: CallForm, room: _AnswerRoom) -> tuple[int | None, ...]:
-        """The arguments of a call."""
+        """Return the arguments of a call."""
         if not call.scene:
             return len(rows), *self._width(rows, call), rows.ctypes.data, *room.words
         *fixed, x, y, z = self._memory.scene(rows)
         return *fixed, len(rows), x, y, z, *room.words
 
     def _time_each(self, rows: Rows, repeat: int, call: CallForm) -> tuple[int, int]:
-        """Nanoseconds of `repeat` times a call for each row, and the sum of the last answers.
+        """Return nanoseconds of `repeat` times a call for each row, and the sum of the last answers.
 
         A compiled loop makes the calls if there is one, else ctypes. No rows mean a call that does nothing: of
         an empty function of hypcheck, or with ctypes of this library without rows.
@@ -89,6 +94,7 @@ class Library:
         return took, room.total()
 
     def _time_by_ctypes(self, rows: Rows, repeat: int, call: CallForm, room: _AnswerRoom) -> tuple[int, int]:
+        """Return nanoseconds and sum as _time_each does, with a call by ctypes for each row."""
         function, begin, n = self._entry(rows, call), rows.ctypes.data, len(rows)
         width = self._width(rows, call)
         calls = [(1, *width, begin + 8 * rows.shape[1] * place, *room.words_at(place)) for place in range(n)]
@@ -102,10 +108,11 @@ class Library:
 
     @staticmethod
     def _width(rows: Rows, call: CallForm) -> tuple[int, ...]:
-        """The argument that says how many numbers a row has, of an entry for rows of any width."""
+        """Return the argument that says how many numbers a row has, of an entry for rows of any width."""
         return (rows.shape[1],) if call.columns else ()
 
     def _entry(self, rows: Rows, call: CallForm) -> Any:  # noqa: ANN401 - ctypes' own is private
+        """Return the function for this call and these rows."""
         return self._entries[call.entry_name(tilt=call.layout.has_axis(rows))]
 
 
@@ -115,6 +122,7 @@ _NONE, _READ, _WRITE = 0, 1, 2
 
 
 def _libc() -> ctypes.CDLL | None:
+    """Return the C library, for mprotect; None on Windows."""
     if sys.platform == "win32":
         return None
     libc = ctypes.CDLL(None, use_errno=True)
@@ -125,7 +133,7 @@ def _libc() -> ctypes.CDLL | None:
 class GuardedMemory:
     """Room for one array, which grows as it is needed. `what` names it in a message, such as "the rows".
 
-    `turn` counts the places, and may begin with any number, so that two processes begin with others.
+    `turn` counts the places. It may begin with any number, so that two processes begin at different addresses.
     """
 
     def __init__(self, what: str, turn: int = 0) -> None:
@@ -138,6 +146,7 @@ class GuardedMemory:
         self._grow(_PAGE)
 
     def _grow(self, size: int) -> None:
+        """Make room for at least so many bytes, between two guard pages."""
         pages = -(-max(size, 1) // _PAGE)
         pages = max(pages, 2 * self._size // _PAGE)
         size = (pages + 2) * _PAGE
@@ -157,7 +166,9 @@ class GuardedMemory:
             _calls.watch(begin, end, f"it wrote into {self._what}, which are read-only")
 
     def place(self, size: int, step: int = 8) -> slice:
-        """The place among `bytes` of an array of that many, which may be written; it begins a multiple of `step` on.
+        """Return the place in `bytes` of an array of `size` bytes, which may be written.
+
+        Its beginning varies by multiples of `step`.
 
         It is the last place, or near the first, so that its address modulo 64 varies: code that depends on that fails
         the tests.
@@ -178,6 +189,7 @@ class GuardedMemory:
         self._readable_only = True
 
     def _protect(self, how: int) -> None:
+        """Set how the memory may be used."""
         if self._libc is not None and self._size:
             self._libc.mprotect(self.bytes.ctypes.data, self._size, how)
 
@@ -191,7 +203,7 @@ class _Memory:
         self._parts = {name: GuardedMemory(name, 3 + 3 * place) for place, name in enumerate(parts)}
 
     def scene(self, rows: Rows) -> list[int]:
-        """The addresses of sizes, the axis of rows of ten, x, y, z, which nothing can be written to."""
+        """Return the addresses of sizes, the axis of rows of ten, x, y, z, which nothing can be written to."""
         x, y, z = rows[:, 4:7].T
         arguments = {"the sizes": rows[0, :4], "the axis": rows[0, 7:], "the x": x, "the y": y, "the z": z}
         if not PAIRS.has_axis(rows):
@@ -200,6 +212,7 @@ class _Memory:
 
     @staticmethod
     def _placed(memory: GuardedMemory, part: NDArray[np.float64]) -> int:
+        """Copy numbers into the memory, make it read-only, and return its address."""
         place = memory.place(8 * part.size)  # which may replace the bytes
         placed = memory.bytes[place].view(np.float64)
         placed[...] = part
@@ -220,7 +233,7 @@ class _AnswerRoom:
         self.words = self.words_at(0)
 
     def words_at(self, place: int) -> tuple[int | None, ...]:
-        """The arguments for the row at that place."""
+        """Return the arguments for the row at that place."""
         answers = self._answers.address + place
         if not self._call.layout.has_end:
             return (answers,)
@@ -233,14 +246,14 @@ class _AnswerRoom:
         return answers
 
     def written(self) -> GivenAnswers:
-        """The values that were written. Raises ContractError if anything was written outside the memory."""
+        """Return the values that were written. Raises ContractError if anything was written outside the memory."""
         self._answers.check("hit" if self._call.layout.has_end else "position")
         if self._times is not None:
             self._times.check("time")
         return GivenAnswers(self.answers, None if self._times is None else self._times.values)
 
     def total(self) -> int:
-        """The sum of the answers that were written; raises ContractError as written does."""
+        """Return the sum of the answers that were written; raises ContractError as written does."""
         return int(self.written().integers.sum(dtype=np.int64))
 
 
@@ -264,6 +277,7 @@ class _Fenced:
 
 
 def _loaded(path: str) -> ctypes.CDLL:
+    """Load a library. Raises LoadError with the likely reason."""
     if not os.path.exists(path):
         raise LoadError(f"there is no file {path!r}")
     try:

@@ -57,7 +57,7 @@ _ROUNDS = 5
 
 
 def new_environment_mark() -> str:
-    """The name of an environment variable; several marks may be in one environment."""
+    """Return the name of an environment variable; several marks may be in one environment."""
     return f"HYPCHECK_{secrets.token_hex(16)}"
 
 
@@ -82,6 +82,7 @@ def is_marked(process: int, mark: str) -> bool:
 
 
 def _marked(mark: str) -> Iterator[int]:
+    """Yield the numbers of all processes with the mark."""
     try:
         names = os.listdir("/proc")
     except OSError:
@@ -140,7 +141,7 @@ class MemoryWatch:
             raise FaultError(Outcome.CRASH, reason, fatal=True)
 
     def waited(self) -> float:
-        """The longest time, in seconds since the last call, that one of the program's threads waited for a processor.
+        """Return the longest time in seconds that a thread of the program waited for a processor since the last call.
 
         0 if the system does not tell.
         """
@@ -154,7 +155,9 @@ class MemoryWatch:
         )
 
     def used(self) -> int:
-        """The bytes that the program's processes use, with their page tables; 0 if the system does not report them.
+        """Return the bytes that the program's processes use, with their page tables.
+
+        Return 0 if the system does not report them.
 
         If their sum exceeds the limit, shared pages count once. The system needs to visit every page for that.
         """
@@ -164,6 +167,7 @@ class MemoryWatch:
         return tables + (resident if tables + resident <= self._limit else sum(map(_proportional, ours)))
 
     def _ours(self, processes: list[_ProcessMemory]) -> Iterator[_ProcessMemory]:
+        """Yield the processes that belong to the program, of all processes of the system."""
         known = self._belongs
         self._belongs = {
             process.identity: known[process.identity] for process in processes if process.identity in known
@@ -190,10 +194,12 @@ class MemoryWatch:
 
 
 def _all_processes() -> Iterable[_ProcessMemory]:
+    """Return all processes of the system."""
     return _by_proc() if os.path.exists("/proc/self/stat") else _by_ps()
 
 
 def _by_proc() -> Iterator[_ProcessMemory]:
+    """Yield the processes that Linux shows in /proc."""
     page = os.sysconf("SC_PAGE_SIZE")
     for name in filter(str.isdigit, os.listdir("/proc")):
         try:
@@ -207,7 +213,7 @@ def _by_proc() -> Iterator[_ProcessMemory]:
 
 
 def _by_ps() -> Iterator[_ProcessMemory]:
-    """The processes on systems without /proc, such as macOS; ps counts in KiB."""
+    """Yield the processes on systems without /proc, such as macOS; ps counts in KiB."""
     try:
         listing = subprocess.run(
             ("ps", "-A", "-o", "pid=", "-o", "ppid=", "-o", "pgid=", "-o", "rss="),  # noqa: S607 - not everywhere in the same place
@@ -224,13 +230,16 @@ def _by_ps() -> Iterator[_ProcessMemory]:
 
 
 def _proportional(process: _ProcessMemory) -> int:
-    """The bytes that a process uses, with its share of shared pages; all resident bytes if the share is not known."""
+    """Return the bytes that a process uses, with its share of shared pages.
+
+    If the share is not known, return all resident bytes.
+    """
     proportional = _bytes_in(f"/proc/{process.number}/smaps_rollup", b"Pss:")
     return process.resident if proportional is None else proportional
 
 
 def _bytes_in(path: str, name: bytes) -> int | None:
-    """The bytes in a line of a file of /proc, which counts in KiB; None if the system does not report them."""
+    """Return the bytes in a line of a file of /proc, which counts in KiB; None if the system does not report them."""
     try:
         with open(path, "rb") as file:
             return next((int(line.split()[1]) << 10 for line in file if line.startswith(name)), None)

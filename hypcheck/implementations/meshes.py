@@ -7,7 +7,8 @@ A scene has one mesh of the whole surface, built once. The mesh is inscribed: it
 is the best one with so many triangles, equally inaccurate in both directions. There are three pairings: the ellipsoid
 in the caller's units; and the unit sphere, or the distance of the centre, in spheroid radii (Theorem 1 of the paper).
 The answer is 0 if the engine reports contact, else the sign of F(C) = (x² + y²)/α² − z²/γ² − 1 in plain floats, and
-CANNOT_SAY if the engine refuses the mesh.
+CANNOT_SAY if the engine refuses the mesh. α, γ are the sizes of the hyperboloid, b, d those of the spheroid, and C =
+(x, y, z) is its centre.
 
 The naive use of FCL builds a plain mesh for each row, as one would write it at first. It is under test, and no source
 of truth. The mesh differs from the surface by up to its sagitta on one side; docs/mesh-oracle.md shows the effect of
@@ -50,15 +51,17 @@ class Distance(Protocol):
 
 
 PAIRINGS = ("point", "sphere", "ellipsoid")
-"""The pairings: distance from the centre, compared with 1; the unit sphere; the spheroid itself."""
+"""What is compared with the mesh: the centre, which touches if its distance is at most 1; the unit sphere; the
+spheroid. For the first two, lengths are in spheroid radii."""
 
 
 @dataclass(frozen=True, slots=True)
 class MeshLibrary:
     """A collision engine; `trouble` gives the reason why it cannot be used, or None.
 
-    `mesh` makes the engine's object of vertices and triangles, or None where the engine refuses them. From that object
-    `collides` makes the query of the pairing sphere or ellipsoid, which has b and d, and `distance` the distance.
+    `mesh` makes the engine's object from vertices and triangles, or None if the engine refuses them. From that object,
+    `collides` makes the query for the pairing "sphere" or "ellipsoid" with the semi-axes b and d, and `distance` makes
+    the function for the distance of a point.
     """
 
     name: str
@@ -69,7 +72,11 @@ class MeshLibrary:
     distance: Callable[[Any], Distance]
 
     def question(self, pairing: str, built: object | None, b: float, d: float) -> ContactQuery | None:
-        """The query of one of PAIRINGS about a mesh that the engine built; None if it refused the mesh."""
+        """Return the query of one of PAIRINGS about a mesh that the engine built; None if the engine refused the mesh.
+
+        With "point" the body touches if the distance of its centre from the mesh is at most 1: lengths are in spheroid
+        radii, so the spheroid is the unit ball.
+        """
         if built is None:
             return None
         if pairing != "point":
@@ -79,6 +86,7 @@ class MeshLibrary:
 
 
 def _fcl_collides(mesh: object, pairing: str, b: float, d: float) -> ContactQuery:
+    """Return the query by FCL for the unit sphere, or for the ellipsoid b, b, d."""
     fcl = fcl_module()
     body = fcl.CollisionObject(fcl.Sphere(1.0) if pairing == "sphere" else fcl.Ellipsoid(b, b, d))
     request = fcl.CollisionRequest()
@@ -93,6 +101,7 @@ def _fcl_collides(mesh: object, pairing: str, b: float, d: float) -> ContactQuer
 
 
 def _fcl_distance(mesh: object) -> Distance:
+    """Return the function for the distance of a point by FCL."""
     fcl = fcl_module()
     point, near = fcl.CollisionObject(fcl.Sphere(0.0)), fcl.DistanceRequest()
 
@@ -104,6 +113,7 @@ def _fcl_distance(mesh: object) -> Distance:
 
 
 def _coal_collides(mesh: object, pairing: str, b: float, d: float) -> ContactQuery:
+    """Return the query by coal for the unit sphere, or for the ellipsoid b, b, d."""
     coal = _coal_module()
     shape = coal.Sphere(1.0) if pairing == "sphere" else coal.Ellipsoid(b, b, d)
     here, there = coal.Transform3s(), coal.Transform3s()
@@ -119,6 +129,7 @@ def _coal_collides(mesh: object, pairing: str, b: float, d: float) -> ContactQue
 
 
 def _coal_distance(mesh: object) -> Distance:
+    """Return the function for the distance of a point by coal."""
     coal = _coal_module()
     point, here, there, near = coal.Sphere(0.0), coal.Transform3s(), coal.Transform3s(), coal.DistanceRequest()
 
@@ -130,7 +141,7 @@ def _coal_distance(mesh: object) -> Distance:
 
 
 def _coal_mesh(vertices: Vertices, triangles: Triangles) -> Any:  # noqa: ANN401 - it has no types
-    """coal's model of a mesh, or None where coal refuses it."""
+    """Return coal's model of a mesh, or None where coal refuses it."""
     mesh = _coal_module().BVHModelOBBRSS()
     mesh.beginModel(len(triangles), len(vertices))
     mesh.addVertices(vertices)
@@ -139,13 +150,14 @@ def _coal_mesh(vertices: Vertices, triangles: Triangles) -> Any:  # noqa: ANN401
 
 
 def _coal_module() -> Any:  # noqa: ANN401 - it has no types
-    """The module of coal. Raises ImportError if it is not installed."""
+    """Return the module of coal. Raises ImportError if it is not installed."""
     import coal  # noqa: PLC0415
 
     return coal
 
 
 def _coal_trouble() -> str | None:
+    """Return the reason why coal cannot be used, or None."""
     try:
         _coal_module()
     except ImportError as error:
@@ -187,7 +199,7 @@ class MeshGrid:
         return max(inward, outward)
 
     def mesh(self) -> tuple[Vertices, Triangles]:
-        """Vertices (n, 3) and triangles (m, 3)."""
+        """Return vertices (n, 3) and triangles (m, 3)."""
         azimuths = np.linspace(0, 2 * pi, self.around, endpoint=False)
         heights = np.linspace(-self.height, self.height, self.along + 1)
         z, azimuth = np.meshgrid(heights, azimuths, indexing="ij")
@@ -202,21 +214,21 @@ class MeshGrid:
 
 
 def grid_of(a: float, c: float, height: float, triangles: int) -> MeshGrid:
-    """The grid of about so many triangles that is equally inaccurate around the axis and along it."""
+    """Return the grid of about so many triangles that is equally inaccurate around the axis and along it."""
     across = pi * c / height * sqrt(hypot(1.0, height / c))
     around = max(3, round(sqrt(triangles / 2 * across)))
     return MeshGrid(a, c, height, around, max(1, round(triangles / 2 / around)))
 
 
 def height_of(sizes: Sizes, rows: Rows) -> float:
-    """The height of a scene's mesh, in the caller's unit: above γ, and above every body that is tested."""
+    """Return the height of a scene's mesh, in the caller's unit: above γ, and above every body that is tested."""
     _, gamma, b, d = sizes
     reach = max(b, d) if PAIRS.has_axis(rows) else d
     return float(max(1.2 * gamma, np.abs(rows[:, 6]).max(initial=0.0)) + 1.1 * reach)
 
 
 def turns_of(axes: Floats) -> Floats:
-    """Rotations (n, 3, 3) that take the z axis to each of these axes, (n, 3)."""
+    """Return rotations (n, 3, 3) that take the z axis to each of these axes, (n, 3)."""
     along = axes / np.linalg.norm(axes, axis=1, keepdims=True)
     level = np.column_stack([-along[:, 1], along[:, 0], np.zeros(len(axes))])
     length = np.linalg.norm(level, axis=1, keepdims=True)
@@ -226,7 +238,7 @@ def turns_of(axes: Floats) -> Floats:
 
 @dataclass(frozen=True, slots=True)
 class SceneMesh:
-    """A mesh in an engine, for one α, γ, b, d; `unit` are the units of a centre's three coordinates.
+    """A mesh in an engine, for one α, γ, b, d; `unit` has the lengths by which x, y and z of a centre are divided.
 
     `deviation` bounds the distance between the mesh and the surface, in spheroid radii.
     """
@@ -238,7 +250,7 @@ class SceneMesh:
     touches: ContactQuery | None
 
     def answers(self, rows: Rows) -> Answers:
-        """Positions (n,) of rows that have these sizes, (n, 7), or of an ellipsoid also (n, 10)."""
+        """Return positions (n,) of rows that have these sizes, (n, 7), or of an ellipsoid also (n, 10)."""
         touches = self.touches
         if touches is None:
             return np.full(len(rows), CANNOT_SAY, dtype=np.int8)
@@ -257,7 +269,7 @@ class SceneMesh:
 
 
 def scene_mesh(engine: MeshLibrary, pairing: str, sizes: Sizes, height: float, triangles: int) -> SceneMesh:
-    """The scene's mesh for one of PAIRINGS."""
+    """Return the scene's mesh for one of PAIRINGS."""
     alpha, gamma, b, d = sizes
     scaled = grid_of(alpha / b, gamma / d, height / d, triangles)
     whole = pairing == "ellipsoid"
@@ -267,7 +279,7 @@ def scene_mesh(engine: MeshLibrary, pairing: str, sizes: Sizes, height: float, t
 
 
 def rows_by_sizes(rows: Rows) -> Iterator[tuple[Sizes, NDArray[np.intp]]]:
-    """The sizes that occur, each with the indices of its rows."""
+    """Yield the sizes that occur, each with the indices of its rows."""
     scenes, scene_of = np.unique(rows[:, :4], axis=0, return_inverse=True)
     for index, (alpha, gamma, b, d) in enumerate(scenes.tolist()):
         yield (alpha, gamma, b, d), np.flatnonzero(scene_of.reshape(-1) == index)
@@ -306,6 +318,7 @@ def shared_meshes() -> Iterator[None]:
 
 
 def _built(body: _Body, triangles: int, mesh: tuple[Vertices, Triangles]) -> object | None:
+    """Return FCL's object of a mesh, or None if FCL refuses it; within shared_meshes() it is built once."""
     shared, key = _SHARED.get(), (body, triangles)
     if shared is not None and key in shared:
         return shared[key]
@@ -316,13 +329,14 @@ def _built(body: _Body, triangles: int, mesh: tuple[Vertices, Triangles]) -> obj
 
 
 def naive_fcl(rows: Rows, pairing: str, triangles: int = 2000) -> Positions:
-    """Positions (n,) of rows (n, 7) by one of PAIRINGS and a mesh of about that many triangles for each row."""
+    """Return positions (n,) of rows (n, 7) by one of PAIRINGS and a mesh of about that many triangles for each row."""
     require_fcl()
     with np.errstate(all="ignore"):
         return np.array([_position(_body(row, pairing), pairing, triangles) for row in rows], dtype=np.int8)
 
 
 def _body(row: Floats, pairing: str) -> _Body:
+    """Return a row as a pair for FCL: in spheroid radii, except for the pairing "ellipsoid"."""
     alpha, gamma, b, d, x, y, z = row
     if pairing == "ellipsoid":
         return _Body(alpha, gamma, b, d, np.hypot(x, y), z)
@@ -330,6 +344,7 @@ def _body(row: Floats, pairing: str) -> _Body:
 
 
 def _position(body: _Body, pairing: str, triangles: int) -> int:
+    """Return the position of a pair by this pairing, or CANNOT_SAY."""
     level = (body.rho / body.alpha) ** 2 - (body.z / body.gamma) ** 2 - 1
     if np.isnan(level):
         return CANNOT_SAY
@@ -346,7 +361,7 @@ def _position(body: _Body, pairing: str, triangles: int) -> int:
 
 
 def _mesh(body: _Body, triangles: int) -> tuple[Vertices, Triangles]:
-    """A square grid of about that many triangles inscribed in the surface near the body; empty if none is there.
+    """Return a square grid of about that many triangles inscribed in the surface near the body; empty if none is there.
 
     Its heights are those of the body, cut off beyond the body's greatest distance from the axis; its azimuths are those
     that the body covers as seen from the axis.

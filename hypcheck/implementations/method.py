@@ -1,4 +1,4 @@
-"""A method: a name, a domain, and a function from rows to answers; formulas as methods in numpy.
+"""Defines methods: a name, a domain, and a function from rows to answers; and makes formulas methods in numpy.
 
 A formula is evaluated chunk by chunk. For a scene, the steps that depend on sizes only are evaluated once. Names of a
 program are looked up once, so that a timing measures little besides the arithmetic.
@@ -65,7 +65,7 @@ class Method(MethodClaims):
 
 
 CHUNK = 8192
-"""Rows of a chunk, whose temporaries stay in the cache."""
+"""How many rows are computed at a time: their temporary arrays stay in the cache."""
 
 ByColumns = Callable[[Mapping[str, Any]], NDArray[Any]]
 """A function from the seven columns by name, (n,) each or a number for a size, to answers (n,)."""
@@ -75,12 +75,12 @@ ByScene = Callable[[Sizes, Floats, Floats, Floats], Answers]
 
 
 def on_rows(answer: ByColumns) -> ByRows:
-    """The function on rows (n, 7), a chunk at a time."""
+    """Return the function on rows (n, 7), a chunk at a time."""
     return lambda rows: in_chunks(len(rows), lambda part: answer(dict(zip(COLUMNS, rows[part].T, strict=True))))
 
 
 def on_scene(answer: ByColumns, before: Callable[[Mapping[str, Any]], Mapping[str, Any]] = dict) -> ByScene:
-    """The function on many centres and one α, γ, b, d; it gets the results of `before`, computed once a call."""
+    """Return the function on many centres and one α, γ, b, d; it gets the results of `before`, computed once a call."""
 
     def answers(sizes: Sizes, x: Floats, y: Floats, z: Floats) -> Answers:
         known = before(dict(zip(SIZES, sizes, strict=True)))
@@ -90,13 +90,15 @@ def on_scene(answer: ByColumns, before: Callable[[Mapping[str, Any]], Mapping[st
 
 
 def by_rows(formula: Formula, format_name: str) -> ByRows:
-    """The formula on rows in one float format: a function to answers, int8 (n,)."""
+    """Return the formula on rows in one float format: a function to answers, int8 (n,)."""
     ready = Evaluator(formula.program, float_arithmetic(format_name), (formula.answer,))
     return on_rows(lambda columns: ready(columns)[0])
 
 
 def by_scene(formula: Formula, format_name: str) -> ByScene:
-    """The formula for many centres and one α, γ, b, d; steps that depend on these only are evaluated once a call.
+    """Return the formula for many centres and one α, γ, b, d.
+
+    Steps that depend on these only are evaluated once a call.
 
     The first call makes the evaluators, which take longer than a run without scenes needs to list its methods.
     """
@@ -118,12 +120,12 @@ def by_scene(formula: Formula, format_name: str) -> ByScene:
 
 @cache
 def parts(formula: Formula) -> tuple[Program, Program]:
-    """The formula's program in two parts: the steps that depend on sizes only, and the rest."""
+    """Return the formula's program in two parts: the steps that depend on sizes only, and the rest."""
     return split(formula.program, (formula.answer,), SIZES)
 
 
 def in_chunks(count: int, answer: Callable[[slice], Any]) -> Answers:
-    """The answers of `count` rows, CHUNK at a time; int8 (n,)."""
+    """Return the answers of `count` rows, CHUNK at a time; int8 (n,)."""
     answers = np.empty(count, dtype=np.int8)
     for start in range(0, count, CHUNK):
         part = slice(start, start + CHUNK)
@@ -132,7 +134,7 @@ def in_chunks(count: int, answer: Callable[[slice], Any]) -> Answers:
 
 
 def with_reciprocals(formula: Formula, fixed: Collection[str]) -> Formula:
-    """The formula with 1/divisor before the loop, for each divisor that depends on the `fixed` inputs only.
+    """Return the formula with 1/divisor before the loop, for each divisor that depends on the `fixed` inputs only.
 
     The products round once more than the division, so this is another formula with other answers near contact.
     """
@@ -143,6 +145,7 @@ def with_reciprocals(formula: Formula, fixed: Collection[str]) -> Formula:
 
 
 def _changed(step: Step, known: Collection[str]) -> Iterator[Step]:
+    """Yield the step, or two for it: the reciprocal of its divisor, and the product with that."""
     dividend, divisor = step.arguments if step.operation == "div" else ("", "")
     if step.operation != "div" or divisor not in known or step.name in known:
         yield step

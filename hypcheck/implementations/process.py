@@ -39,18 +39,18 @@ STEP = 0.25
 
 
 _WAITS = 0.05
-"""Seconds between two questions how long the program waited; what it waited since then counts as its own time."""
+"""Every so many seconds the system is asked how long the program waited. A wait after that counts as its own time."""
 
 _OTHERS = 0.9
-"""At most this share of the time counts as waiting for a processor: a program cannot make it up without end."""
+"""At most this share of a time counts as waiting for a processor: so a program cannot stop the clock by waiting."""
 
 
 class Clock:
     """Counts the seconds in which the program could work and this process could read; it is read many times a second.
 
     It stops while this process is stopped (Ctrl-Z, a debugger, a machine that sleeps or is overloaded): a reply that
-    arrives meanwhile cannot be read. It slows down while the program waits for a processor that others have. `waited`
-    gives the seconds of that since it was called last. Neither is a delay of the implementation.
+    arrives meanwhile cannot be read. It slows down while the program waits for a processor that others use. `waited`
+    returns how many seconds the program waited so since the last call. Neither is a delay of the implementation.
     """
 
     def __init__(self, waited: Callable[[], float] = lambda: 0.0) -> None:
@@ -58,7 +58,7 @@ class Clock:
         self._waited, self._asked, self._off = waited, self._looked, 0.0
 
     def now(self) -> float:
-        """Seconds since the start."""
+        """Return seconds since the start."""
         looked = time.monotonic()
         if looked - self._asked >= _WAITS:
             self._off += min(self._waited(), looked - self._asked)
@@ -75,11 +75,11 @@ KEPT = 16_384
 """The number of last bytes of standard error that are kept: the output before a program's end says the most."""
 
 LINES = 3
-"""Lines of standard error in a sentence."""
+"""The most lines of standard error in a sentence."""
 
 
 def quoted(data: bytes | bytearray) -> str:
-    """The bytes as text in quotation marks for a message. Blanks are kept, because an extra blank may be the fault."""
+    """Return the bytes as text in quotation marks for a message, with all blanks, as one too many may be the fault."""
     lines = masked(bytes(data[:320]).decode("utf-8", "replace")).splitlines()
     return f"'{shortened(printable(' '.join(lines)), 80)}'"
 
@@ -101,14 +101,14 @@ class OutputTail:
         self._bytes.clear()
 
     def lines(self) -> tuple[str, ...]:
-        """The lines since the mark that are kept, safe to print."""
+        """Return the lines since the mark that are kept, safe to print."""
         text = masked(self._bytes[-KEPT:].decode("utf-8", "replace"))
         shown = (escaped(line, WIDTH) for line in text.splitlines())
         return tuple(line for line in shown if line)
 
 
 def stderr_excerpt(lines: Sequence[str]) -> str:
-    """The last lines of standard error as the end of a sentence; empty if there are none."""
+    """Return the last lines of standard error as the end of a sentence; empty if there are none."""
     return f"; stderr: {escaped(' | '.join(lines[-LINES:]), WIDTH)}" if lines else ""
 
 
@@ -130,6 +130,7 @@ ONE_THREAD = dict.fromkeys(
 """Environment variables that limit libraries to one thread."""
 
 _TICK = 0.05
+"""The most seconds that one call of pump() waits."""
 _CHUNK = 1 << 16
 _ROOM = 1 << 18
 """Bytes of a pipe's buffer if the system allows it: both sides wait for each other less often than with 64 KiB."""
@@ -137,10 +138,13 @@ _TOGETHER = 1 << 12
 """The number of bytes of a question that are written at once, even if they come in several parts."""
 
 _SOON = 1e-4
-"""For so many seconds a busy loop waits for the answer to so small a question: sleeping and waking takes as long."""
+"""A busy loop waits so many seconds for the answer to a question of _TOGETHER bytes or less: sleeping takes as long."""
 
 _GOODBYE = 1.0
+"""Seconds in which a program may end by itself after its input has ended."""
+
 _LAST_WORDS = 0.5
+"""Seconds in which a program may end after it closed its standard output."""
 
 
 class Process:
@@ -216,6 +220,7 @@ class Process:
         return grew
 
     def _events(self, seconds: float) -> list[tuple[int, int]]:
+        """Wait at most so many seconds, and return the pipes that are ready, with what they are ready for."""
         while seconds > 0 and time.monotonic() < self._soon:
             if events := self._poll.poll(0):
                 return events
@@ -252,6 +257,7 @@ class Process:
         return bool(together)
 
     def _read(self) -> bool:
+        """Read standard output into `incoming`; true if there was something."""
         data = os.read(self._out, _CHUNK)
         if not data:
             self._poll.unregister(self._out)
@@ -266,6 +272,7 @@ class Process:
         self._tail.add(data)
 
     def _ending(self) -> FaultError:
+        """Return the fault of a program that ended, or closed its standard output."""
         try:
             code = self._popen.wait(_LAST_WORDS)
         except subprocess.TimeoutExpired:
@@ -330,7 +337,7 @@ class Process:
 class ProcessSession:
     """The common part of all sessions of a program. Raises StartError.
 
-    `revealed` is as in Process. A subclass says how the program describes itself, and asks it.
+    `revealed` is as in Process. A subclass reads the program's description (`_meet`), and sends questions to it.
     """
 
     max_rows: int | None = None
@@ -344,6 +351,7 @@ class ProcessSession:
             raise StartError(f"{error}{self.advice(str(error))}") from None
 
     def _begin(self, revealed: Sequence[str]) -> None:
+        """Start the program and read its description. Raises StartError."""
         self._process = Process(self._words, self._limits, revealed)
         try:
             self.description = self._meet()
@@ -352,11 +360,11 @@ class ProcessSession:
             raise
 
     def _meet(self) -> Description:
-        """The description of the program, which has just started; raises StartError."""
+        """Return the description of the program, which has just started; raises StartError."""
         raise NotImplementedError
 
     def _columns(self, rows: Rows) -> Rows:
-        """The rows with exactly the columns that the description takes."""
+        """Return the rows with exactly the columns that the description takes."""
         layout = self.description.asked.layout
         if not self.description.heights:
             return rows
@@ -369,7 +377,7 @@ class ProcessSession:
         return stderr_excerpt(self._process.stderr)
 
     def advice(self, reason: str) -> str:
-        """The advice if isolation caused a fault, as the end of a sentence."""
+        """Return the advice if isolation caused a fault, as the end of a sentence."""
         return isolation_advice(reason, self._words, self._limits.isolation)
 
     def close(self) -> None:
@@ -388,7 +396,7 @@ def _widen(pipe: int) -> None:
 
 
 def _guard(group: int, mark: str) -> subprocess.Popen[bytes] | None:
-    """The guard of a group; None if the system has no shell."""
+    """Return the guard of a group; None if the system has no shell."""
     try:
         return subprocess.Popen(  # noqa: S603 - the words are ours, and a number
             ("/bin/sh", "-c", GUARD, "hypcheck-guard", str(group), mark, str(LOOK), str(int(signal.SIGSTOP))),
@@ -400,11 +408,13 @@ def _guard(group: int, mark: str) -> subprocess.Popen[bytes] | None:
 
 
 def _dismiss(guard: subprocess.Popen[bytes]) -> None:
+    """End a guard, which must not see its input end first."""
     os.killpg(guard.pid, signal.SIGKILL)  # before its input ends, the sign that hypcheck was killed
     guard.communicate()
 
 
 def _not_run(program: str, error: OSError) -> str:
+    """Return the reason why the system could not run a program, as a sentence."""
     if isinstance(error, FileNotFoundError):
         if shutil.which(program):
             return f"the interpreter that {program!r} names in its first line was not found"
@@ -421,11 +431,11 @@ _BY_ISOLATION = {
     31: "; isolation does that when it makes a system call that only an attack makes",
     25: "; isolation does that when it writes more than fits the scratch folder",
 }
-"""Who else may have sent a signal; 31 and 25 are SIGSYS and SIGXFSZ."""
+"""Other causes of a signal than the program, by its number; 31 and 25 are SIGSYS and SIGXFSZ."""
 
 
 def _end_of(code: int, *, isolated: bool) -> str:
-    """The end of a process with this return code, in words."""
+    """Return the end of a process with this return code, in words."""
     if code < 0:
         others = _OTHER_CAUSES | (_BY_ISOLATION if isolated else {})
         return f"it was ended by {_signal_name(-code)}{others.get(-code, '')}"

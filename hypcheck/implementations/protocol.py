@@ -47,7 +47,7 @@ _FIRST_LINE = 4096
 
 
 def broken(reason: str) -> FaultError:
-    """A fault that breaks the protocol, after which the process cannot be trusted."""
+    """Return a fault that breaks the protocol, after which the process cannot be trusted."""
     return FaultError(Outcome.PROTOCOL, reason, fatal=True)
 
 
@@ -60,7 +60,7 @@ class Reply:
         """The text of `error TEXT`, if the reply is that."""
 
     def length(self, incoming: bytearray) -> int:
-        """Bytes of the complete reply that `incoming` begins with, 0 while it is incomplete.
+        """Return bytes of the complete reply that `incoming` begins with, 0 while it is incomplete.
 
         Raises FaultError where no reply to the question begins so.
         """
@@ -75,18 +75,19 @@ class Reply:
         return self._after(incoming, end)
 
     def _after(self, incoming: bytearray, end: int) -> int:
-        """The length as in `length`, after the first line, which ends at `end`."""
+        """Return the length as in `length`, after the first line, which ends at `end`."""
         raise NotImplementedError
 
     def share(self, incoming: bytearray) -> float:  # noqa: ARG002 - of one line none is a share
-        """The part of an incomplete reply's answers that have arrived, from 0 to 1."""
+        """Return the part of an incomplete reply's answers that have arrived, from 0 to 1."""
         return 0.0
 
     def progress(self, incoming: bytearray) -> str:
-        """The state of an incomplete reply, in words."""
+        """Return the state of an incomplete reply, in words."""
         return f"only {quoted(incoming)} of a reply" if incoming else "no reply"
 
     def _same_sequence(self, sequence: int) -> None:
+        """Raise FaultError if a reply has the number of another question."""
         if sequence < self.sequence:
             raise broken(f"it replied to question {sequence} again, when {self.sequence} was asked")
         if sequence > self.sequence:
@@ -102,6 +103,7 @@ class _Answers(Reply):
         self._times = times
 
     def _check_head(self, incoming: bytearray, end: int) -> None:
+        """Raise FaultError if the first line is not the one expected."""
         head = _HEAD.fullmatch(incoming, 0, end)
         if not head:
             raise broken(f"it wrote {quoted(incoming[:end])} where '{self.sequence} {self._n}' had to come")
@@ -110,6 +112,7 @@ class _Answers(Reply):
             raise broken(f"it announced {int(head[2])} answers to {self._n} rows")
 
     def _so_far(self, incoming: bytearray, end: int) -> int:
+        """Return how many answers have arrived."""
         raise NotImplementedError
 
     def share(self, incoming: bytearray) -> float:
@@ -136,7 +139,7 @@ class BinaryReply(_Answers):
         return (len(incoming) - end) * self._n // max(1, self._size)
 
     def answers(self, reply: bytes) -> GivenAnswers:
-        """The answers of a complete reply."""
+        """Return the answers of a complete reply."""
         if not self._times:
             return GivenAnswers(integers(reply[-self._n :], 1))
         body = reply[len(reply) - self._size :]
@@ -162,7 +165,7 @@ class TextReply(_Answers):
         return incoming.count(b"\n", end)
 
     def answers(self, reply: bytes) -> GivenAnswers:
-        """The answers of a complete reply; raises FaultError naming the first line that is no integer."""
+        """Return the answers of a complete reply; raises FaultError naming the first line that is no integer."""
         lines = reply.split(b"\n")[1:-1]
         if self._times:
             timed = [self._timed(number, line) for number, line in enumerate(lines, start=1)]
@@ -173,6 +176,7 @@ class TextReply(_Answers):
         return GivenAnswers(np.array(values, dtype=np.int64))
 
     def _timed(self, number: int, line: bytes) -> tuple[int, float]:
+        """Return an answer and its time, NaN unless the answer is 1. Raises FaultError."""
         hit = _HIT.fullmatch(line)
         answer = 1 if hit else self._integer(number, line)
         if answer == 1 and not hit:
@@ -181,6 +185,7 @@ class TextReply(_Answers):
         return answer, float(hit[1]) if hit else math.nan
 
     def _integer(self, number: int, line: bytes) -> int:
+        """Return the integer of a line. Raises FaultError."""
         match = _INTEGER.fullmatch(line)
         if not match:
             raise broken(f"answer {number} of {self._n} is {quoted(line)}; it must be an integer on a line of its own")
@@ -198,7 +203,7 @@ class TimeReply(Reply):
         return end
 
     def times(self, line: bytes) -> tuple[int, int]:
-        """Nanoseconds and checksum of the complete reply."""
+        """Return nanoseconds and checksum of the complete reply."""
         _, nanoseconds, checksum = line.split()
         return int(nanoseconds), int(checksum)
 
@@ -213,7 +218,7 @@ _STEPS = 16
 """The timeout starts again whenever one more part of so many of the question was read, or of the answers has arrived.
 So a slow program has time, and a program that sends single bytes is stopped."""
 _WIDEST_TEXT = 25
-"""Bytes of a number in text at most, and of what parts it from the next."""
+"""The most bytes of a number in text, with the blank or the end of line after it."""
 _STALL = 4
 """After this part of the timeout without a byte, a second question follows. If its reply arrives, the first reply was
 short or missing, and the program is not slow."""
@@ -244,6 +249,7 @@ class CommandSession(ProcessSession):
             raise StartError(f"its first line is not a description: {error}{self.evidence}") from None
 
     def _first_line(self) -> bytes:
+        """Return the program's first line. Raises FaultError."""
         seconds = self._limits.startup_timeout
         until = self._process.now() + seconds
         incoming = self._process.incoming
@@ -262,7 +268,7 @@ class CommandSession(ProcessSession):
         return line
 
     def classify(self, rows: Rows, *, by_scene: bool = False) -> GivenAnswers:  # noqa: ARG002 - it has no entry for scenes
-        """An integer for each row, and times if the description promises them."""
+        """Return an integer for each row, and times if the description promises them."""
         n, rows = len(rows), self._columns(rows)
         self._sequence += 1
         question, reply = f"classify {self._sequence} {n} {self._how}", self._reply(n)
@@ -281,7 +287,7 @@ class CommandSession(ProcessSession):
         by_scene: bool = False,  # noqa: ARG002
         row_by_row: bool = False,
     ) -> tuple[int, int] | None:
-        """Nanoseconds for `repeat` times the rows, and the sum of the answers; None if it does not offer timing.
+        """Return nanoseconds for `repeat` times the rows, and the sum of the answers; None if it does not offer timing.
 
         `row_by_row` asks a question for each row.
         """
@@ -293,6 +299,7 @@ class CommandSession(ProcessSession):
         return sum(nanoseconds), sum(totals)
 
     def _time(self, rows: Rows, repeat: int) -> tuple[int, int]:
+        """Return nanoseconds and checksum of one question."""
         self._sequence += 1
         reply = TimeReply(self._sequence)
         question = f"time {self._sequence} {len(rows)} {repeat} {self._form}binary"
@@ -301,7 +308,10 @@ class CommandSession(ProcessSession):
     def _ask(
         self, question: str, body: Iterable[bytes | memoryview], reply: Reply, again: Rows | None = None, size: int = 0
     ) -> bytes:
-        """The reply to a question of `size` bytes; `again` is a row for a second question, if the reply stalls."""
+        """Return the reply to a question of `size` bytes.
+
+        `again` is a row for a second question, sent if the reply stalls: its reply shows that the first one was short.
+        """
         process = self._process
         process.mark()
         process.pump(0)
@@ -323,7 +333,7 @@ class CommandSession(ProcessSession):
         return answer
 
     def _await(self, reply: Reply, again: Rows | None = None, size: int = 0) -> tuple[int, Reply | None]:
-        """The length of the reply once it is complete, and the second reply that is still to come."""
+        """Return the length of the reply once it is complete, and the second reply that is still to come."""
         process, seconds = self._process, self._limits.timeout
         second: Reply | None = None
         steps, read, heard = 0, 0.0, process.now()
@@ -350,6 +360,7 @@ class CommandSession(ProcessSession):
                 steps, until = come, process.now() + seconds
 
     def _ask_behind(self, row: Rows) -> Reply:
+        """Send a second question about one row; return the expected reply."""
         self._sequence += 1
         self._process.send(chain((f"classify {self._sequence} 1 {self._how}\n".encode(),), self._body(row)))
         return self._reply(1)
@@ -364,13 +375,15 @@ class CommandSession(ProcessSession):
 
     @property
     def _widest(self) -> int:
-        """The most bytes of a number."""
+        """The most bytes of a number in a question."""
         return 8 if self.description.binary else _WIDEST_TEXT
 
     def _body(self, rows: Rows) -> Iterable[bytes | memoryview]:
+        """Return rows as the body of a question, in parts."""
         return (row_bytes(rows),) if self.description.binary else row_text(rows)
 
     def _reply(self, n: int) -> BinaryReply | TextReply:
+        """Return the expected reply about n rows."""
         kind = BinaryReply if self.description.binary else TextReply
         return kind(self._sequence, n, times=self.description.times)
 
@@ -387,7 +400,7 @@ def _check_order(incoming: bytearray, length: int, reply: Reply, second: Reply) 
 
 
 def row_text(rows: Rows) -> Iterator[bytes]:
-    """Rows as lines of decimals, each the shortest that reads back as the same float64; some lines at a time."""
+    """Yield rows as lines of decimals, each the shortest that reads back as the same float64; some lines at a time."""
     line = " ".join(["%r"] * rows.shape[1]) + "\n"
     for start in range(0, len(rows), _LINES):
         part = rows[start : start + _LINES]

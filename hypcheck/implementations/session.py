@@ -110,7 +110,7 @@ class Session(Protocol):
     def time(
         self, rows: Rows, repeat: int, *, by_scene: bool = False, row_by_row: bool = False
     ) -> tuple[int, int] | None:
-        """Nanoseconds for `repeat` times the rows, and the sum of the answers; None if it does not offer timing.
+        """Return nanoseconds for `repeat` times the rows, and the sum of the answers; None if it does not offer timing.
 
         `row_by_row` makes a call for each row.
         """
@@ -122,7 +122,7 @@ class Session(Protocol):
         ...
 
     def advice(self, reason: str) -> str:
-        """The advice if isolation caused a fault, as the end of a sentence."""
+        """Return the advice if isolation caused a fault, as the end of a sentence."""
         ...
 
     def close(self) -> None:
@@ -149,7 +149,7 @@ class Answered:
 
     @classmethod
     def of(cls, answers: NDArray[np.int8], times: Floats | None = None) -> Answered:
-        """A result in which every row is answered."""
+        """Return a result in which every row is answered."""
         return cls(answers, np.full(len(answers), Outcome.ANSWERED, dtype=np.int8), {}, times)
 
     @property
@@ -165,7 +165,7 @@ class Answered:
         return frozenset(map(Outcome, np.unique(self.status).tolist()))
 
     def count(self, outcome: Outcome) -> int:
-        """The number of rows with this outcome."""
+        """Return the number of rows with this outcome."""
         return int(np.count_nonzero(self.status == outcome))
 
 
@@ -181,7 +181,10 @@ class AllowedAnswers:
         self._usable[[answer % 256 for answer in (*self.answers, CANNOT_SAY, *[REFUSED] * self._refuses)]] = True
 
     def understood(self, reply: GivenAnswers, rows: Rows) -> Mask:
-        """A mask (n,) of the allowed answers. REFUSED is allowed for invalid rows only; a time is from 0 to 1."""
+        """Return a mask (n,) of the allowed answers.
+
+        REFUSED is allowed for invalid rows only; a time is from 0 to 1.
+        """
         answers, times = reply
         short = answers.astype(np.int8, copy=False)
         usable = self._usable.take(short.view(np.uint8))
@@ -195,7 +198,7 @@ class AllowedAnswers:
         return np.asarray(usable)
 
     def trouble_with(self, answer: int, time: float | None = None) -> str:
-        """The reason why an answer with this time is not allowed."""
+        """Return the reason why an answer with this time is not allowed."""
         if answer == 1 and time is not None:
             return f"it answered 1 with the time {time!r}; it must be a number from 0 to 1"
         if answer == REFUSED and self._refuses:
@@ -231,7 +234,7 @@ class Allowance:
     last: str = ""
 
     def after(self, task: Allowance, limits: Allowance) -> Allowance:
-        """The allowance of the run after one more task, which started with the full `limits` and left `task`.
+        """Return the allowance of the run after one more task, which started with the full `limits` and left `task`.
 
         If tasks together exceed the limits, the task that exceeds them is the last that counts.
         """
@@ -246,11 +249,12 @@ class Allowance:
         return Allowance(max(0, restarts), max(0, faults), over, hangs)
 
     def most_faults(self, *, answered: bool) -> int:
-        """The rows at fault at which it is given up, where these are the limits and it has or has never answered."""
+        """Return at how many rows at fault it is given up, if these are the limits: fewer if it has never answered."""
         return self.faults if answered else min(self.faults, MAX_UNANSWERED)
 
 
 def _too_many_faults(faults: int, last: str, *, answered: bool) -> str:
+    """Return the sentence that too many rows were at fault."""
     were = "row before was" if faults == 1 else "rows before were"
     return f"not asked: {faults:,} {were} at fault{'' if answered else ' and none was answered'}; the last: {last}"
 
@@ -274,7 +278,7 @@ class Supervisor:
         self.max_batch = self._session.max_batch
 
     def session(self) -> Session:
-        """The running session, started if necessary; raises GivenUpError if the implementation was given up."""
+        """Return the running session, started if necessary; raises GivenUpError if the implementation was given up."""
         if not self.left.over and self._session is None:
             self._session = self._begin()
         if self.left.over or self._session is None:
@@ -282,6 +286,7 @@ class Supervisor:
         return self._session
 
     def _begin(self) -> Session | None:
+        """Start another session, or give the implementation up and return None."""
         try:
             session = self._start(self._count)
         except StartError as error:
@@ -295,6 +300,7 @@ class Supervisor:
         return None
 
     def _end(self, reason: str) -> None:
+        """Give the implementation up, for this reason if it is the first."""
         self.left = replace(self.left, over=self.left.over or reason)
 
     def note_answer(self) -> None:
@@ -320,6 +326,7 @@ class Supervisor:
         return reason
 
     def _count_hang(self, fault: FaultError, reason: str) -> None:
+        """Count a timeout of an implementation that has never answered, and give it up after MAX_HANGS in a row."""
         if self.left.hangs is None:
             return
         hangs = self.left.hangs - 1 if fault.outcome is Outcome.TIMEOUT else MAX_HANGS
@@ -339,6 +346,7 @@ class Supervisor:
             self._count_fault(reason)
 
     def _count_fault(self, reason: str) -> None:
+        """Charge a row at fault that did not end the process, and give the implementation up if there are too many."""
         answered = self.left.hangs is None
         self.left = replace(self.left, faults=max(0, self.left.faults - 1), last=reason)
         faults = self._most.faults - self.left.faults
@@ -359,7 +367,7 @@ class Supervisor:
 
 
 def _used_up(restarts: int) -> str:
-    """The part of a sentence about restarts that are used up."""
+    """Return the part of a sentence about restarts that are used up."""
     if not restarts:
         return "no restart is allowed"
     return "the one restart is used up" if restarts == 1 else f"{restarts} restarts are used up"

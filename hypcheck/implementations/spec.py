@@ -37,7 +37,7 @@ class Spec:
 
 
 def parse_spec(text: str) -> Spec:
-    """The SPEC in `text`. Raises InputError with the allowed forms."""
+    """Return the SPEC in `text`. Raises InputError with the allowed forms."""
     kind, _, rest = text.partition(":")
     if not begins_as_spec(text):
         kinds = ", ".join(f"{name}:" for name in _KINDS)
@@ -54,12 +54,14 @@ def begins_as_spec(text: str) -> bool:
 
 
 def _builtin(text: str, rest: str) -> tuple[str, ...]:
+    """Return the words of builtin:NAME. Raises InputError."""
     if not rest:
         raise InputError(f"{_said(text)} names no method; it must be builtin:NAME")
     return (rest,)
 
 
 def _python(text: str, rest: str) -> tuple[str, ...]:
+    """Return the words of python:…, the file or module and the function. Raises InputError."""
     target, _, function = rest.rpartition(":")  # the last colon: a path may hold others
     right = "python:package.module:function or python:file.py:function"
     if not target or not function.isidentifier():
@@ -70,12 +72,14 @@ def _python(text: str, rest: str) -> tuple[str, ...]:
 
 
 def _library(text: str, rest: str) -> tuple[str, ...]:
+    """Return the words of library:…, the path. Raises InputError."""
     if not _LIBRARY.search(rest):
         raise InputError(f"{_said(text)} names no shared library; it must be library: and a .so, .dylib or .dll")
     return (rest,)
 
 
 def _command(text: str, rest: str) -> tuple[str, ...]:
+    """Return the words of command:…, the program and its arguments. Raises InputError."""
     words = _json_words(text, rest) if rest.lstrip().startswith("[") else _shell_words(text, rest)
     if not words or not words[0]:
         raise InputError(f"{_said(text)} names no program; it must be command: and a program with its arguments")
@@ -83,6 +87,7 @@ def _command(text: str, rest: str) -> tuple[str, ...]:
 
 
 def _json_words(text: str, rest: str) -> tuple[str, ...]:
+    """Return the words of a JSON array. Raises InputError."""
     try:
         words = json.loads(rest)
     except (ValueError, RecursionError):
@@ -96,6 +101,7 @@ def _json_words(text: str, rest: str) -> tuple[str, ...]:
 
 
 def _shell_words(text: str, rest: str) -> tuple[str, ...]:
+    """Return the words that a shell would read. Raises InputError."""
     try:
         return tuple(shlex.split(rest))
     except ValueError as error:
@@ -109,10 +115,12 @@ def is_file(target: str) -> bool:
 
 
 def _said(text: str) -> str:
+    """Return the beginning of a message about the SPEC."""
     return f"the implementation '{escaped(text, 200)}'"
 
 
 def _meant(text: str) -> str:
+    """Return the end of a message: what may have been meant."""
     kind, _, rest = text.partition(":")
     near = get_close_matches(kind.lower(), _KINDS, n=1)
     if near and rest:

@@ -1,10 +1,10 @@
-"""Methods that answer whether a spheroid meets the hyperboloid on a straight sweep, and when first.
+"""Methods that answer whether a spheroid has contact with the hyperboloid on a straight sweep, and when first.
 
 Lengths are in spheroid radii here: across the axis divided by b, along it by d. The spheroid is then a unit ball, and
 it is in contact as long as its centre is no farther than 1 from the surface. A method returns hits, int8 (n,), and
 times, float64 (n,), NaN where it sees no contact. Rows are those of upright spheroids, or have an axis.
 
-Collision engines are asked too, about upright spheroids: FCL's continuous collision on meshes, and steps by an
+Collision engines answer too, about upright spheroids: FCL's continuous collision on meshes, and steps by an
 engine's distance, which coal's users must take. A scene has one inscribed mesh of the whole surface (meshes.py), as
 high as its sweeps. What FCL's solvers do with a mesh, as python-fcl 0.7.0.11 has them:
 
@@ -50,33 +50,36 @@ SWEEP_ENDS = slice(len(COLUMNS), len(SWEEP_COLUMNS))
 """The columns of where a sweep ends."""
 
 _HALVINGS = 100
-"""Bisections of the multiplier: enough for every float64 between its two ends."""
+"""How often the multiplier is bisected: enough for every float64 between its two ends."""
 
 _ZOOM, _ZOOMS = 64, 5
-"""The least distance of a sweep is looked for on so many pieces, so often, then between the neighbours of the best."""
+"""The least distance on a sweep is searched at the ends of _ZOOM pieces, _ZOOMS times: each time nearer to the best."""
 
 MOST_ADVANCES = 400
-"""Steps of conservative advancement before it gives up."""
+"""The most steps of conservative advancement."""
 
 NEARNESS = 1e-6
-"""Conservative advancement calls it contact within this part of a radius."""
+"""A gap of at most this part of a radius is contact to conservative advancement."""
 
 
 def exact(rows: Rows) -> HitsAndTimes:
-    """The exact decision, and the float64 below the first contact."""
+    """Return the exact decision, and the float64 below the first contact."""
     sweeps = [passage_of_row(row) for row in rows.tolist()]
     return np.array([sweep.hit for sweep in sweeps], dtype=np.int8), np.array([sweep.first_lower for sweep in sweeps])
 
 
 def sampled(rows: Rows, count: int) -> HitsAndTimes:
-    """Exact positions at `count` equally distant times, both ends included: contact, or the other side than before."""
+    """Return hits and times by exact positions at `count` equally distant times, both ends included.
+
+    A hit is contact, or the other side of the hyperboloid than at the time before.
+    """
     times = np.linspace(0.0, 1.0, count)
     positions = _positions(rows, times)
     return _first(positions == 0, times)
 
 
 def _positions(rows: Rows, times: Floats) -> NDArray[np.int8]:
-    """Positions (n, m) at m times."""
+    """Return positions (n, m) at m times."""
     n, m, width = len(rows), len(times), len(COLUMNS)
     pairs = np.repeat(np.delete(rows, SWEEP_ENDS, axis=1)[:, None, :], m, axis=1)
     pairs[:, :, 4:width] += times[None, :, None] * (rows[:, SWEEP_ENDS] - rows[:, 4:7])[:, None, :]
@@ -85,14 +88,14 @@ def _positions(rows: Rows, times: Floats) -> NDArray[np.int8]:
 
 
 def _first(touching: NDArray[np.bool_], times: Floats) -> HitsAndTimes:
-    """The first of the times at which each row is touching."""
+    """Return the first of the times at which each row is touching."""
     hits = touching.any(axis=1)
     first: Floats = np.where(hits, times[np.argmax(touching, axis=1)], np.nan)
     return np.asarray(hits, dtype=np.int8), first
 
 
 def distances(rows: Rows, times: Floats) -> Floats:
-    """Distances (n,) of the centres at the times (n,) from the surface, in spheroid radii.
+    """Return distances (n,) of the centres at the times (n,) from the surface, in spheroid radii.
 
     The nearest point is where a multiplier solves the secular equation, which falls in it, between two poles.
     """
@@ -114,9 +117,10 @@ def distances(rows: Rows, times: Floats) -> Floats:
 
 
 def _in_radii(rows: Rows, centres: Floats) -> tuple[Floats, Floats]:
-    """The hyperboloid Σ λ_i q_i² = 1 where the spheroid is a unit ball: λ ascending (n, 3), and centres (n, 3) there.
+    """Return the hyperboloids in coordinates q in which the spheroid is a unit ball and they are Σ λ_i q_i² = 1.
 
-    Of a surface of revolution about the spheroid's axis the plane through the centre is enough.
+    These are λ ascending, (n, 3), and the centres there, (n, 3). For upright spheroids the plane through the axis and
+    the centre is enough.
     """
     alpha, gamma, b, d = rows[:, :4].T
     if not SWEEPS.has_axis(rows):
@@ -133,7 +137,7 @@ def _in_radii(rows: Rows, centres: Floats) -> tuple[Floats, Floats]:
 
 
 def _along_and_across(rows: Rows, along: Floats, across: Floats) -> Floats:
-    """Matrices (n, 3, 3) that multiply by `along` along the spheroid's axis, by `across` across it."""
+    """Return matrices (n, 3, 3) that multiply by `along` along the spheroid's axis, by `across` across it."""
     _, axis, _ = parts_of(rows, SWEEPS)
     axis = axis / np.abs(axis).max(axis=1, keepdims=True)  # the square of a number of the axis may be infinite, or 0
     axis = axis / np.linalg.norm(axis, axis=1, keepdims=True)
@@ -142,7 +146,10 @@ def _along_and_across(rows: Rows, along: Floats, across: Floats) -> Floats:
 
 
 def least_distances(rows: Rows) -> Floats:
-    """Rough least distances (n,) on each sweep, in spheroid radii: the factor of the size that first has contact."""
+    """Return rough least distances (n,) of the centre from the surface on each sweep, in spheroid radii.
+
+    A spheroid made so many times as large just touches on its sweep.
+    """
     n = len(rows)
     low, high = np.zeros(n), np.ones(n)
     best = np.full(n, np.inf)
@@ -157,7 +164,7 @@ def least_distances(rows: Rows) -> Floats:
 
 
 def lengths_of(rows: Rows) -> Floats:
-    """Lengths (n,) of sweeps in spheroid radii."""
+    """Return lengths (n,) of sweeps in spheroid radii."""
     step, (b, d) = rows[:, SWEEP_ENDS] - rows[:, 4:7], rows[:, 2:4].T
     if not SWEEPS.has_axis(rows):
         return np.asarray(np.hypot(np.hypot(step[:, 0] / b, step[:, 1] / b), step[:, 2] / d))
@@ -165,9 +172,10 @@ def lengths_of(rows: Rows) -> Floats:
 
 
 def advanced(rows: Rows) -> HitsAndTimes:
-    """Conservative advancement: from each time as far as the distance then allows, until within NEARNESS of contact.
+    """Return hits and times by conservative advancement, until the spheroid is within NEARNESS of contact.
 
-    CANNOT_SAY where MOST_ADVANCES steps reach neither the surface nor the end of the sweep.
+    Each step goes as far as the distance at its time allows. The hit is CANNOT_SAY where MOST_ADVANCES steps reach
+    neither the surface nor the end of the sweep.
     """
     n, speed = len(rows), lengths_of(rows)
     hits, times, now = np.full(n, CANNOT_SAY, dtype=np.int8), np.full(n, np.nan), np.zeros(n)
@@ -188,14 +196,14 @@ def advanced(rows: Rows) -> HitsAndTimes:
 
 
 def capsule(rows: Rows) -> HitsAndTimes:
-    """The swept ball around the spheroid in its place: conservative advancement of a ball with the larger semi-axis."""
+    """Return hits and times of the ball about the spheroid, with the larger semi-axis, by conservative advancement."""
     balls = rows.copy()
     balls[:, 2] = balls[:, 3] = np.maximum(rows[:, 2], rows[:, 3])
     return advanced(balls)
 
 
 def certified(rows: Rows) -> NDArray[np.int8]:
-    """Hits (n,): by the kernel where its bounds prove them, else by the exact decision."""
+    """Return hits (n,): by the kernel where its bounds prove them, else by the exact decision."""
     hits = kernel().answer_sweeps(rows)[0]
     rest = np.flatnonzero(hits == CANNOT_SAY)
     hits[rest] = exact(rows[rest])[0]
@@ -203,7 +211,7 @@ def certified(rows: Rows) -> NDArray[np.int8]:
 
 
 def certified_times(rows: Rows) -> HitsAndTimes:
-    """Hits and times by the kernel where its bounds prove both, else exact ones."""
+    """Return hits and times by the kernel where its bounds prove both, else exact ones."""
     hits, times = kernel().answer_sweeps(rows)
     rest = np.flatnonzero((hits == CANNOT_SAY) | ((hits == 1) & np.isnan(times)))
     hits[rest], times[rest] = exact(rows[rest])
@@ -211,17 +219,17 @@ def certified_times(rows: Rows) -> HitsAndTimes:
 
 
 def rough_exponents(rows: Rows) -> Floats:
-    """About log2 of how far spheroids' sizes are from those with which contact begins on their sweeps: (n,)."""
+    """Return about log2 |k − 1|, (n,), where k is the factor of the spheroid's size at which its sweep just touches."""
     off = np.abs(least_distances(rows) - 1)
     with np.errstate(divide="ignore"):
         return np.asarray(np.where(np.isnan(off), -np.inf, np.log2(off)))
 
 
 TRIANGLES = 2000
-"""Of the hyperboloid's mesh, about."""
+"""About how many triangles the hyperboloid's mesh has."""
 
 BALL = 500
-"""Triangles of the spheroid's mesh, about."""
+"""About how many triangles the spheroid's mesh has."""
 
 Meets = Callable[[Floats, Floats], tuple[int, float]]
 """Whether the body meets the mesh between two centres (3,), and the time of first contact, NaN if there is none."""
@@ -244,14 +252,14 @@ class SweepSolver:
 
 @dataclass(frozen=True, slots=True)
 class SweepMesh:
-    """A mesh in an engine, for one α, γ, b, d; `unit` are the units of a centre's three coordinates."""
+    """A mesh in an engine, for one α, γ, b, d; `unit` has the lengths by which x, y and z of a centre are divided."""
 
     triangles: int
     unit: tuple[float, float, float]
     meets: Meets | None
 
     def hits_and_times(self, rows: Rows) -> HitsAndTimes:
-        """Hits and times (n,) of rows (n, 10) that have these sizes."""
+        """Return hits and times (n,) of rows (n, 10) that have these sizes."""
         hits, times = np.full(len(rows), CANNOT_SAY, dtype=np.int8), np.full(len(rows), np.nan)
         ends = rows[:, 4:] / np.array(self.unit * 2)
         if self.meets is not None:
@@ -260,18 +268,18 @@ class SweepMesh:
         return hits, times
 
     def answers(self, rows: Rows) -> Answers:
-        """Hits alone."""
+        """Return the hits only."""
         return self.hits_and_times(rows)[0]
 
 
 def height_of_sweeps(sizes: Sizes, rows: Rows) -> float:
-    """The height of a scene's mesh, in the caller's unit: above γ, and above every sweep that is tested."""
+    """Return the height of a scene's mesh, in the caller's unit: above γ, and above every sweep that is tested."""
     _, gamma, _, d = sizes
     return float(max(1.2 * gamma, np.abs(rows[:, [6, 9]]).max(initial=0.0)) + 1.1 * d)
 
 
 def sweep_mesh(solver: SweepSolver, sizes: Sizes, height: float, triangles: int = TRIANGLES) -> SweepMesh:
-    """The scene's mesh for a solver."""
+    """Return the scene's mesh for a solver."""
     alpha, gamma, b, d = sizes
     grid = grid_of(alpha / b, gamma / d, height / d, triangles)
     whole = grid if solver.scaled else MeshGrid(alpha, gamma, height, grid.around, grid.along)
@@ -283,7 +291,7 @@ def sweep_mesh(solver: SweepSolver, sizes: Sizes, height: float, triangles: int 
 
 
 def hits_and_times(solver: SweepSolver, rows: Rows) -> HitsAndTimes:
-    """Hits and times of rows (n, 10) of any sizes, each scene with a mesh that is built now."""
+    """Return hits and times of rows (n, 10) of any sizes, each scene with a mesh that is built now."""
     hits, times = np.empty(len(rows), dtype=np.int8), np.empty(len(rows))
     for sizes, places in rows_by_sizes(rows):
         mesh = sweep_mesh(solver, sizes, height_of_sweeps(sizes, rows[places]))
@@ -292,13 +300,15 @@ def hits_and_times(solver: SweepSolver, rows: Rows) -> HitsAndTimes:
 
 
 def _solved(result: Any, returned: float) -> tuple[int, float]:  # noqa: ANN401 - FCL has no types
-    """The results of FCL, which returns −1 if it fails."""
+    """Return the results of FCL, which returns −1 if it fails."""
     if returned < 0:
         return CANNOT_SAY, math.nan
     return (1, float(result.time_of_contact)) if result.is_collide else (0, math.nan)
 
 
 def _naive(count: int) -> Callable[[object, float, float], Meets]:
+    """Return FCL's naive solver, at `count` times."""
+
     def make(mesh: object, b: float, d: float) -> Meets:
         fcl = fcl_module()
         body, still = fcl.CollisionObject(fcl.Ellipsoid(b, b, d)), fcl.Transform()
@@ -315,6 +325,7 @@ def _naive(count: int) -> Callable[[object, float, float], Meets]:
 
 
 def _advancement(mesh: object, _b: float, _d: float) -> Meets:
+    """Return FCL's conservative advancement of the unit sphere."""
     fcl = fcl_module()
     body, still = fcl.CollisionObject(fcl.Sphere(1.0)), fcl.Transform()
     request = _request(fcl.CCDSolverType.CCDC_CONSERVATIVE_ADVANCEMENT)
@@ -328,6 +339,7 @@ def _advancement(mesh: object, _b: float, _d: float) -> Meets:
 
 
 def _polynomial(mesh: object, _b: float, _d: float) -> Meets:
+    """Return FCL's polynomial solver, with a mesh of the unit sphere."""
     fcl = fcl_module()
     still, (ball, facets) = fcl.Transform(), ball_mesh(BALL)
     request = _request(fcl.CCDSolverType.CCDC_POLYNOMIAL_SOLVER)
@@ -344,6 +356,7 @@ def _polynomial(mesh: object, _b: float, _d: float) -> Meets:
 
 
 def _request(solver: int, **more: int) -> object:
+    """Return a request for one of FCL's solvers, for translations."""
     fcl = fcl_module()
     request: object = fcl.ContinuousCollisionRequest(
         ccd_solver_type=solver, ccd_motion_type=fcl.CCDMotionType.CCDM_TRANS, **more
@@ -353,7 +366,7 @@ def _request(solver: int, **more: int) -> object:
 
 @cache
 def ball_mesh(triangles: int) -> tuple[Vertices, Triangles]:
-    """A unit sphere of about so many triangles, inscribed: parallels and meridians, twice as many of these."""
+    """Return a unit sphere of about so many triangles, inscribed: parallels and meridians, twice as many of these."""
     parallels = max(2, round(math.sqrt(triangles) / 2))
     around = 2 * parallels
     polar, azimuth = np.meshgrid(
@@ -371,7 +384,7 @@ def ball_mesh(triangles: int) -> tuple[Vertices, Triangles]:
 
 
 def _stepping(engine: MeshLibrary) -> Callable[[object, float, float], Meets]:
-    """Conservative advancement: from each time as far as the centre's distance from the mesh allows, in radii."""
+    """Return a solver by conservative advancement: each step goes as far as the centre's distance allows."""
 
     def make(mesh: object, _b: float, _d: float) -> Meets:
         distance = engine.distance(mesh)
@@ -394,7 +407,7 @@ def _stepping(engine: MeshLibrary) -> Callable[[object, float, float], Meets]:
 
 
 NAIVE_TIMES = (10, 100)
-"""Times at which the naive solver looks; ten are FCL's own choice."""
+"""At how many times the naive solver tests; ten are FCL's own choice."""
 
 SWEEP_SOLVERS = {
     solver.name: solver
@@ -433,4 +446,4 @@ SWEEP_SOLVERS = {
         ),
     )
 }
-"""By name: what a collision engine offers for a sweep."""
+"""The solvers for sweeps that collision engines offer, by name."""

@@ -41,7 +41,7 @@ KINDS: Mapping[str, Callable[..., ForeignCode]] = MappingProxyType({"python": Py
 
 
 class WorkerChannel:
-    """The worker's end of the conversation; the addresses of rows vary with `count`, the first, and their number."""
+    """The worker's end of the conversation. Addresses of rows vary with their number, which begins with `count`."""
 
     def __init__(self, count: int) -> None:
         self._requests, self._replies = os.dup(0), os.dup(1)
@@ -55,7 +55,7 @@ class WorkerChannel:
         self._rows = GuardedMemory("the rows", count)
 
     def request(self, *, read_only: bool) -> tuple[bytes, CallForm, int, Rows] | None:
-        """The next question: its kind, the call, the repetitions, and the rows; None at the end of input."""
+        """Return the next question: its kind, the call, the repetitions, and the rows; None at the end of input."""
         head = bytearray(frames.REQUEST.size)
         if not self._fill(memoryview(head)):
             return None
@@ -69,6 +69,7 @@ class WorkerChannel:
         return kind, frames.CALLS[call], repeat, np.frombuffer(body, dtype="<f8").reshape(n, columns)
 
     def _fill(self, room: memoryview) -> bool:
+        """Fill the room from the pipe; false if the input ended before."""
         while room:
             got = os.readv(self._requests, [room])
             if not got:
@@ -116,6 +117,7 @@ Reply = tuple[bytes, bytes | memoryview, int]
 
 
 def _reply(subject: ForeignCode, kind: bytes, call: CallForm, repeat: int, rows: Rows) -> Reply:
+    """Return the reply to a request: its kind, its body, and the bytes of an answer."""
     try:
         if kind != frames.CLASSIFY:
             times = subject.time(rows, repeat, call, row_by_row=kind == frames.TIME_EACH)
@@ -133,6 +135,7 @@ def _reply(subject: ForeignCode, kind: bytes, call: CallForm, repeat: int, rows:
 
 
 def _sentence(text: str) -> bytes:
+    """Return a text as bytes, on one line and short."""
     return escaped(text, WIDTH).encode()
 
 
@@ -140,7 +143,7 @@ _ONE, _TINY = 1.0, 2.0**-60
 
 
 def mode_in_use() -> str:
-    """The rounding mode of float64 sums now."""
+    """Return the rounding mode of float64 sums now."""
     if _ONE + _TINY > _ONE:
         return "upward"
     if -_ONE - _TINY < -_ONE:
@@ -149,6 +152,7 @@ def mode_in_use() -> str:
 
 
 def _libm() -> ctypes.CDLL | None:
+    """Return the C library with the functions of the rounding mode, or None."""
     try:
         libm = ctypes.CDLL(None)
         libm.fegetround, libm.fesetround  # noqa: B018 - raises AttributeError without them
@@ -179,7 +183,8 @@ class _State(NamedTuple):
 class Leftovers:
     """The state before a call; restore() restores it, and raises if a call changed it.
 
-    `whole`: libraries are held to all of it, Python functions to rounding and floating point.
+    With `whole`, for libraries, all of the state is checked; without, for Python functions, only rounding and floating
+    point.
     """
 
     def __init__(self, *, whole: bool) -> None:
@@ -189,6 +194,7 @@ class Leftovers:
         self._state = _state() if whole else None
 
     def _by_libm(self) -> int:
+        """Return the rounding mode that libm knows; 0 without libm."""
         return int(self._libm.fegetround()) if self._libm else 0
 
     def restore(self) -> None:
@@ -207,6 +213,7 @@ class Leftovers:
             raise ContractError(f"it left changed: {', '.join(_changes(before, now))}; {_MUST}")
 
     def _restore_arithmetic(self) -> None:
+        """Restore the rounding mode and the control words."""
         if self._libm:
             self._libm.fesetround(self._mode)
         if _calls:
@@ -217,12 +224,14 @@ _MUST = "a call must leave it as it was"
 
 
 def _control_change(before: tuple[int, int], now: tuple[int, int]) -> str:
+    """Return what changed in the control words, in words."""
     changed = [name for name, bits in _SSE.items() if (before[0] ^ now[0]) & bits]
     changed += [name for name, bits in _X87.items() if (before[1] ^ now[1]) & bits]
     return ", ".join(changed) or "the control word of floating point"
 
 
 def _state() -> _State:
+    """Return the state of the process now."""
     return _State(
         os.getcwd(),
         locale.setlocale(locale.LC_ALL),
@@ -233,7 +242,7 @@ def _state() -> _State:
 
 
 def _lowest_free_descriptor() -> int:
-    """The number of the next opened file: greater if a file was left open, less if one of hypcheck was closed."""
+    """Return the number that the next opened file gets: greater if a file was left open, less if one was closed."""
     with suppress(OSError):
         number = os.dup(2)
         os.close(number)
@@ -242,6 +251,7 @@ def _lowest_free_descriptor() -> int:
 
 
 def _changes(before: _State, now: _State) -> Iterator[str]:
+    """Yield what differs between two states, in words."""
     if before.directory != now.directory:
         yield f"the working directory, which is {now.directory!r} now"
     if before.language != now.language:
@@ -257,6 +267,7 @@ def _changes(before: _State, now: _State) -> Iterator[str]:
 
 
 def _name(number: int) -> str:
+    """Return the name of a signal."""
     try:
         return signal.Signals(number).name
     except ValueError:

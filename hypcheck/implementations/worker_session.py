@@ -41,7 +41,7 @@ WORKER_MODULES = (
 
 @lru_cache
 def worker_files() -> tuple[str, ...]:
-    """The files of these modules with Python's compiled versions, and the compiled extension beside them."""
+    """Return the files of these modules with Python's compiled versions, and the compiled extension beside them."""
     package = Path(__file__).resolve().parents[1]
     sources = [str(package / f"{name}.py") for name in WORKER_MODULES]
     compiled = [cache_from_source(source) for source in sources] if sys.implementation.cache_tag else []
@@ -75,6 +75,7 @@ class WorkerSession(ProcessSession):
         super().__init__(words, limits, worker_files())
 
     def _meet(self) -> Description:
+        """Return the description of the loaded code. Raises StartError."""
         spec = self._spec
         try:
             what, _, body = self._reply(self._limits.startup_timeout)
@@ -108,7 +109,7 @@ class WorkerSession(ProcessSession):
         return description
 
     def classify(self, rows: Rows, *, by_scene: bool = False) -> GivenAnswers:
-        """An integer for each row, and times if the description promises them."""
+        """Return an integer for each row, and times if the description promises them."""
         call = self._call._replace(scene=by_scene)
         width, body = self._ask(frames.CLASSIFY, call, rows, 1, frames.ANSWERS)
         n, times = len(rows), self._call.times
@@ -118,7 +119,10 @@ class WorkerSession(ProcessSession):
         return GivenAnswers(answers, np.frombuffer(body[width * n :], dtype="<f8") if times else None)
 
     def time(self, rows: Rows, repeat: int, *, by_scene: bool = False, row_by_row: bool = False) -> tuple[int, int]:
-        """Nanoseconds for `repeat` times the rows, and the sum of the answers; `row_by_row`: one call for each row."""
+        """Return nanoseconds for `repeat` times the rows, and the sum of the answers.
+
+        With `row_by_row` it makes one call for each row.
+        """
         call = self._call._replace(scene=by_scene and not row_by_row)
         _, body = self._ask(frames.TIME_EACH if row_by_row else frames.TIME, call, rows, repeat, frames.TIMED)
         if len(body) != frames.TIMES.size:
@@ -127,6 +131,7 @@ class WorkerSession(ProcessSession):
         return nanoseconds, total
 
     def _ask(self, kind: bytes, call: CallForm, rows: Rows, repeat: int, expected: bytes) -> tuple[int, bytearray]:
+        """Send a request; return the bytes of an answer and the body of the reply. Raises FaultError."""
         self._process.mark()
         rows, mark = self._columns(rows), secrets.randbits(64)
         head = frames.REQUEST.pack(kind, frames.CALLS.index(call), rows.shape[1], len(rows), repeat, mark)
@@ -140,6 +145,7 @@ class WorkerSession(ProcessSession):
         raise FaultError(outcome, _text(body), fatal=False)
 
     def _reply(self, seconds: float, mark: int = 0) -> tuple[bytes, int, bytearray]:
+        """Return the next reply: its kind, the bytes of an answer, its body. Raises FaultError."""
         until = self._process.now() + seconds
         self._await(frames.REPLY.size, until, seconds)
         incoming = self._process.incoming
@@ -152,6 +158,7 @@ class WorkerSession(ProcessSession):
         return what, width, body
 
     def _await(self, size: int, until: float, seconds: float) -> None:
+        """Wait until so many bytes have arrived. Raises FaultError at the time `until`."""
         while len(self._process.incoming) < size:
             if self._process.now() >= until:
                 raise FaultError(Outcome.TIMEOUT, f"no answer within {seconds:g} s", fatal=True)
@@ -164,7 +171,7 @@ class WorkerSession(ProcessSession):
 
 
 def _lacking(path: str, described: Description, call: CallForm) -> str:
-    """The sentence that a library lacks the function to be called."""
+    """Return the sentence that a library lacks the function to be called."""
     question, name = described.asked, call.entry_name(tilt=described.tilt)
     rows = f"rows{len(described.columns)}" if described.tilt and not call.columns else "rows"
     reasons = [f'"question": "{question.name}"'] if question.layout.has_end else []
@@ -178,9 +185,10 @@ def _lacking(path: str, described: Description, call: CallForm) -> str:
 
 
 def _text(body: bytes | bytearray) -> str:
-    """The text of a reply; foreign code may have written it."""
+    """Return the text of a reply; foreign code may have written it."""
     return foreign_text(body.decode("utf-8", "replace")) or "(without a text)"
 
 
 def _broken(shown: str) -> FaultError:
+    """Return the fault of code that wrote something else into the worker's pipe."""
     return FaultError(Outcome.PROTOCOL, f"it wrote into the worker's pipe: {shown}", fatal=True)

@@ -1,9 +1,9 @@
 """The advice about a program that fails because of isolation, recognised by its error text.
 
 A failure that also happens without isolation must not be attributed to it. So a sign in the text is not enough: it is
-compared with this system, all of which this process sees. A file must exist, a module must belong to this package, and
-this account must be allowed to write to the folder. If this cannot be known, as for a refused system call, the sentence
-says "which may be why".
+compared with this system, of which this process sees everything. A file must exist, a module must belong to this
+package, and this account must be allowed to write to the folder. If this cannot be known, as for a refused system call,
+the sentence says "which may be why".
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ _CARDS = ("/dev/nvidia*", "/dev/dri/*", "/dev/kfd")
 
 
 def isolation_advice(text: str, words: Sequence[str], isolation: Isolation) -> str:
-    """The advice if isolation made the program of these words fail with this text: the end of a sentence.
+    """Return the advice if isolation made the program of these words fail with this text: the end of a sentence.
 
     Empty if nothing isolates, and if the program would fail without isolation too.
     """
@@ -80,7 +80,10 @@ class _View:
         return inside and not any(within(path, needed) or within(needed, path) for needed in self._needed)
 
     def paths(self, text: str) -> Iterator[str]:
-        """The paths that a text names in quotes, or from the root on; relative ones begin where the program does."""
+        """Yield the paths that a text names in quotes, or from the root on.
+
+        Relative ones begin where the program does.
+        """
         for quoted, plain in re.findall(r"""['"`]([^'"`]{1,300})['"`]|(?<![\w.])(/[^\s:;,'"`()]+)""", text):
             yield os.path.join(self.folder, quoted or plain)
 
@@ -97,7 +100,7 @@ class _View:
 
 
 def _hypcheck(text: str, view: _View) -> str:
-    """The advice if the program lacks a module or name of this package that exists."""
+    """Return the advice if the program lacks a module or name of this package that exists."""
     module = re.search(r"No module named '?(hypcheck[\w.]*)", text)
     name = re.search(r"cannot import name '(\w+)' from '(hypcheck[\w.]*)'", text)
     attribute = re.search(r"module '(hypcheck[\w.]*)' has no attribute '(\w+)'", text)
@@ -119,7 +122,7 @@ def _is_ours(module: str) -> bool:
 
 
 def _variable(text: str, view: _View) -> str:
-    """The advice if the program lacks an environment variable that isolation removed."""
+    """Return the advice if the program lacks an environment variable that isolation removed."""
     about = re.search(r"KeyError|environ|variable|not set|unset|undefined|getenv", text)
     words = set(re.findall(r"\w{2,}", text)) if about else set()
     name = min(words & view.withheld, default="")
@@ -136,7 +139,7 @@ _READ_ONLY = re.compile(r"read-?only file ?system|EROFS", re.IGNORECASE)
 
 
 def _file(text: str, view: _View) -> str:
-    """The advice if isolation hides a file that the program names, or the folder in which it would create that file."""
+    """Return the advice if isolation hides a file that the program names, or the folder where it would create it."""
     named = list(view.paths(text)) if _ABSENT.search(text) else []
     hidden = next((path for path in named if view.hides(path)), "")
     if not hidden:
@@ -149,7 +152,7 @@ def _file(text: str, view: _View) -> str:
 
 
 def _library(text: str, _: _View) -> str:
-    """The advice if the system's loader did not find a library; its message names no folder."""
+    """Return the advice if the system's loader did not find a library; its message names no folder."""
     match = re.search(r"(\S+): cannot open shared object file", text)
     shown = "show the folder by --see"
     return (
@@ -158,7 +161,7 @@ def _library(text: str, _: _View) -> str:
 
 
 def _write(text: str, view: _View) -> str:
-    """The advice if the program wrote to a folder that this account may write to, and isolation prevented it.
+    """Return the advice if the program wrote to a folder that this account may write to, and isolation prevented it.
 
     Without namespaces the program's error is that permission was denied.
     """
@@ -174,7 +177,7 @@ def _write(text: str, view: _View) -> str:
 
 
 def _rights(text: str, view: _View) -> str:
-    """The advice if the program needs a file that only the superuser can open."""
+    """Return the advice if the program needs a file that only the superuser can open."""
     if os.geteuid() != 0 or not _DENIED.search(text):
         return ""
     statuses = [os.stat(path) for path in view.paths(text) if os.path.exists(path)]
@@ -183,7 +186,7 @@ def _rights(text: str, view: _View) -> str:
 
 
 def _network(text: str, _: _View) -> str:
-    """The advice if the program needed a network or a socket, which isolation forbids."""
+    """Return the advice if the program needed a network or a socket, which isolation forbids."""
     sign = (
         r"name resolution|Name or service not known|getaddrinfo|gaierror|\b(?:EAI_AGAIN|ENETUNREACH|ENOTFOUND)\b|"
         r"urlopen error|Network is (?:unreachable|down)|[Cc]ould not resolve host|failed to lookup address|"
@@ -193,14 +196,14 @@ def _network(text: str, _: _View) -> str:
 
 
 def _space(text: str, view: _View) -> str:
-    """The advice if the program filled the scratch folder, unless a limit of this system is as narrow."""
+    """Return the advice if the program filled the scratch folder, unless a limit of this system is as narrow."""
     full = view.isolation.means.namespaces and re.search(r"No space left|ENOSPC|StorageFull", text)
     long = re.search(r"File too large|EFBIG|FileTooLarge", text) and _unlimited(resource.RLIMIT_FSIZE, SCRATCH_BYTES)
     return f"and its scratch folder has {SCRATCH_BYTES >> 20} MiB; {_TRUST}" if full or long else ""
 
 
 def _processes(text: str, view: _View) -> str:
-    """The advice if the program needed more processes than isolation allows and this system allows more."""
+    """Return the advice if the program needed more processes than isolation allows and this system allows more."""
     sign = re.search(r"Resource temporarily unavailable|EAGAIN|can't start new thread|WouldBlock", text)
     if not (sign and view.isolation.means.namespaces and _unlimited(resource.RLIMIT_NPROC, THREADS)):
         return ""
@@ -208,18 +211,22 @@ def _processes(text: str, view: _View) -> str:
 
 
 def _unlimited(limit: int, most: int) -> bool:
+    """Whether this system's limit is above `most`, the limit that isolation sets."""
     here, _ = resource.getrlimit(limit)
     return here == resource.RLIM_INFINITY or here > most
 
 
 def _card(text: str, _: _View) -> str:
-    """The advice if the program did not find a graphics card that this machine has."""
+    """Return the advice if the program did not find a graphics card that this machine has."""
     sign = re.search(r"CUDA|cudaError|\bhip[A-Z]|OpenCL|Vulkan|NVIDIA|\bGPU\b", text)
     return f"and sees no graphics card; {_TRUST}" if sign and any(glob(pattern) for pattern in _CARDS) else ""
 
 
 def _call(text: str, _: _View) -> str:
-    """The advice if a system call was refused. The text does not name it; it may be refused without isolation."""
+    """Return the advice if a system call was refused.
+
+    The text does not name it; it may be refused without isolation.
+    """
     if not re.search(r"Operation not permitted|EPERM|Function not implemented|ENOSYS", text):
         return ""
     return f"which refuses sockets, memory in no file and some other system calls, and may be why; {_TRUST}"

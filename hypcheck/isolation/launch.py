@@ -72,12 +72,12 @@ class Means:
 
 
 def isolation_word(means: Sequence[str]) -> str:
-    """The isolation of a program with these means, in words: "isolated", "partly isolated" or "not isolated"."""
+    """Return the isolation of a program with these means, in words: "isolated", "partly isolated" or "not isolated"."""
     return "isolated" if {"namespaces", "seccomp"} <= {*means} else "partly isolated" if means else "not isolated"
 
 
 def isolation_text(means: Sequence[str], missing: Sequence[str]) -> str:
-    """The end of "it is": isolated or partly isolated, by these means, and why others are missing.
+    """Return the end of "it is": isolated or partly isolated, by these means, and why others are missing.
 
     If a program is only partly isolated, the missing means come first.
     """
@@ -92,7 +92,9 @@ OFF = Means(missing=("--isolate is off",))
 
 
 def means_of(mode: str, here: Means | None = None) -> Means:
-    """The means by which programs are isolated in this mode; `here` are the available means, by default this system's.
+    """Return the means by which programs are isolated in this mode.
+
+    `here` are the available means, by default this system's.
 
     Raises NotIsolatedError if the mode is "on" and something is missing.
     """
@@ -109,7 +111,10 @@ def means_of(mode: str, here: Means | None = None) -> Means:
 
 @lru_cache
 def available() -> Means:
-    """The means that this system allows; tried once, since only a trial shows whether a system call is allowed."""
+    """Return the means that this system allows.
+
+    They are tried once, since only a trial shows whether a system call is allowed.
+    """
     if sys.platform != "linux":
         return Means(missing=(f"{sys.platform} has no namespaces, no Landlock and no seccomp",))
     if not os.access(LAUNCHER, os.X_OK):
@@ -174,7 +179,10 @@ MARK = re.compile(r"HYPCHECK_[0-9a-f]{32}")
 
 
 def environment_of(environment: Mapping[str, str], scratch: str, passed: Sequence[str] = ()) -> dict[str, str]:
-    """The variables that a program sees: VARIABLES and those of `passed`; its temporary files go to `scratch`."""
+    """Return the variables that a program sees: VARIABLES and those of `passed`.
+
+    Its temporary files go to `scratch`.
+    """
     seen = {*VARIABLES, *passed}
     kept = {name: value for name, value in environment.items() if name in seen or MARK.fullmatch(name)}
     return {**kept, "TMPDIR": scratch, "XDG_CACHE_HOME": scratch, "DOTNET_EnableDiagnostics": "0"}
@@ -197,7 +205,7 @@ _SHORTEST, _SHORTEST_NAMED = 8, 5
 
 
 def masked(text: str) -> str:
-    """The text of a program, in which MASK replaces each part that looks like a secret.
+    """Return the text of a program, in which MASK replaces each part that looks like a secret.
 
     These are values of variables of this process that are not in VARIABLES and look like secrets, passwords in
     addresses, and keys or tokens of a known form. A program can still reveal a secret if it writes it in another form.
@@ -209,7 +217,7 @@ def masked(text: str) -> str:
 
 @lru_cache(maxsize=1)  # a program may say something of every row
 def _secrets(variables: tuple[tuple[str, str], ...]) -> tuple[str, ...]:
-    """The secrets in the values of variables, the longest first, since it may contain another."""
+    """Return the secrets in the values of variables, the longest first, since it may contain another."""
     secrets: set[str] = set()
     for name, value in variables:
         if name in VARIABLES or MARK.fullmatch(name):
@@ -232,18 +240,20 @@ THREADS = 1024
 """Processes and threads of a program: the Java machine starts one for each processor, twice."""
 
 DESCRIPTORS = 4096
+"""The most files that a program may have open."""
 
 SCRATCH_BYTES = 256 << 20
 """The size of the scratch folder in bytes; if it is not a separate folder in memory, of each file in it."""
 
 _END_S = 2.0
+"""How many seconds an isolated program may take to end, after which we no longer wait for it."""
 
 VARIABLE = "HYPCHECK_ISOLATE"
-"""The environment variable that holds the mode where `--isolate` is not given."""
+"""The environment variable with the mode that holds if `--isolate` is not given."""
 
 
 def usual_mode() -> str:
-    """The default mode."""
+    """Return the default mode."""
     return os.environ.get(VARIABLE) or "auto"
 
 
@@ -256,8 +266,8 @@ class Isolation:
     """The isolation of foreign programs: its mode, and what they may see.
 
     mode: one of MODES. hidden: paths that they must not see. variables: names of environment variables that they see
-    beyond those of runtimes. seen: paths that they see beyond what they need. here: the means of this system; None:
-    those that it has. threads and scratch_bytes: limits of a program.
+    beyond those of runtimes. seen: paths that they see beyond what they need. here: the means of this system, or None
+    to find them out by a trial. threads and scratch_bytes: limits of a program.
     """
 
     mode: str = field(default_factory=usual_mode)
@@ -279,10 +289,11 @@ class Isolation:
 
 
 class Launched:
-    """A program that was started, and the pipe whose end ends it. Raises OSError if the system cannot run it.
+    """A started program, and the pipe that keeps it alive: when the pipe is closed, the launcher ends the program.
 
-    Raises IsolationError and NotIsolatedError too. `isolated` is false where nothing isolates here. `revealed` are the
-    files of this package that it needs to see.
+    Raises OSError if the system cannot run it, and IsolationError or NotIsolatedError if it cannot be isolated.
+    `isolated` is false if this system or the mode isolates nothing. `revealed` are the files of this package that it
+    needs to see.
     """
 
     def __init__(
@@ -310,6 +321,7 @@ class Launched:
         isolation: Isolation,
         revealed: Sequence[str],
     ) -> None:
+        """Start the program by the launcher. Raises OSError if it cannot run, or IsolationError."""
         needed = view.needed_paths(words, environment, isolation.seen)
         private = view.private_folders(needed)
         scratch = self._scratch or next((path for path in view.TEMPORARY if path in private), view.SHARED_MEMORY)
@@ -353,11 +365,13 @@ class Launched:
         self._remove_scratch()
 
     def _end_life(self) -> None:
+        """Close the pipe that keeps an isolated program alive; a second call does nothing."""
         if self._life >= 0:
             os.close(self._life)
             self._life = -1
 
     def _remove_scratch(self) -> None:
+        """Remove the scratch folder, if it is a separate folder."""
         if self._scratch is not None:
             shutil.rmtree(self._scratch, ignore_errors=True)
             self._scratch = None
@@ -366,6 +380,7 @@ class Launched:
 def _started(
     words: Sequence[object], environment: Mapping[str, str], descriptors: tuple[int, ...] = ()
 ) -> subprocess.Popen[bytes]:
+    """Start a process with three pipes, in a session of its own."""
     return subprocess.Popen(  # noqa: S603 - what the user asked to run
         [os.fspath(word) for word in words],  # type: ignore[call-overload]
         bufsize=0,
@@ -386,7 +401,12 @@ def _options(
     hidden: Sequence[str],
     revealed: Sequence[str],
 ) -> list[str]:
-    """The options of the launcher, as launcher.c explains them."""
+    """Return the options of the launcher, as launcher.c explains them.
+
+    `scratch` is the folder for temporary files. The program sees the paths `needed`. Of the folders `private` it sees
+    only the needed parts (view.private_folders). The paths `hidden` appear empty (view.hidden_paths), except for
+    `revealed`, the files of this package that it needs.
+    """
     means = isolation.means
     options = [f"--threads={isolation.threads}", f"--descriptors={DESCRIPTORS}", f"--bytes={isolation.scratch_bytes}"]
     options += ["--seccomp"] * means.seccomp + ["--landlock"] * bool(means.landlock)

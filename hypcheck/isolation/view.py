@@ -26,7 +26,7 @@ _SYSTEM = (
     *("bin", "dev", "etc", "gnu", "lib", "lib32", "lib64", "libx32", "nix", "opt", "proc", "sbin", "snap", "sys"),
     *("usr", "var"),
 )
-"""Folders of the root that programs, libraries and their settings are in; of any other only what is needed is seen."""
+"""Folders of the root with programs, libraries and their settings. Of other folders only needed parts are visible."""
 
 _SECRETS = (
     *(".ssh", ".gnupg", ".aws", ".azure", ".config/gcloud", ".config/gh", ".config/hub", ".docker", ".kube"),
@@ -56,11 +56,11 @@ _PATHS = (
 
 
 _IN_CHECKOUT = (".git", "build", "dist", "cases")
-"""What has answers in the sources of this package, beside itself."""
+"""Folders with answers in a checkout of this package, beside the package itself."""
 
 
 def needed_paths(words: Sequence[str], environment: Mapping[str, str], also: Iterable[str] = ()) -> tuple[str, ...]:
-    """The folders and files that the program of these words needs: outer folders first, none twice.
+    """Return the folders and files that the program of these words needs: outer folders first, none twice.
 
     These are the working directory with the repository that it is in, the folders of the files that its words name,
     those of its interpreter and of this Python with their packages, those of PATH and the like, and `also`.
@@ -85,14 +85,14 @@ def needed_paths(words: Sequence[str], environment: Mapping[str, str], also: Ite
 
 
 def _project(folder: str) -> str:
-    """The top folder of a folder's repository; the folder itself if it has none, or if that is a whole home."""
+    """Return the top folder of a folder's repository; the folder itself if it has none, or if that is a whole home."""
     tops = (outer for outer in _upwards(folder) if os.path.exists(os.path.join(outer, ".git")))
     top = next(tops, folder)
     return folder if top in {*TEMPORARY, "/", _home()} else top
 
 
 def _links(folder: str) -> Iterator[str]:
-    """The targets of the links in a folder: packages may be installed once, and linked into each environment."""
+    """Yield the targets of the links in a folder: packages may be installed once, and linked into each environment."""
     try:
         with os.scandir(folder) as entries:
             yield from (os.path.realpath(entry.path) for entry in entries if entry.is_symlink())
@@ -101,7 +101,7 @@ def _links(folder: str) -> Iterator[str]:
 
 
 def _of_file(path: str, environment: Mapping[str, str]) -> Iterator[str]:
-    """The folders of a file, of the target if it is a link, and of the interpreter that its first line names."""
+    """Yield the folders of a file, of the target if it is a link, and of the interpreter that its first line names."""
     for place in (path, os.path.realpath(path)):
         yield from _installation(_folder_of(place))
     interpreter = _interpreter(path, environment)
@@ -111,13 +111,16 @@ def _of_file(path: str, environment: Mapping[str, str]) -> Iterator[str]:
 
 
 def _folder_of(path: str) -> str:
-    """The folder of a file, or only the file if many users share that folder; for a folder, the folder itself."""
+    """Return the folder of a file, or only the file if many users share that folder.
+
+    For a folder, return the folder itself.
+    """
     folder = path if os.path.isdir(path) else os.path.dirname(path)
     return path if folder in (*TEMPORARY, "/", _home()) else folder
 
 
 def _installation(folder: str) -> tuple[str, ...]:
-    """The folders of an installation: the folder itself or, if it is named bin, its parent with the libraries."""
+    """Return the folders of an installation: the folder or, if it is named bin, its parent with the libraries."""
     outer = os.path.dirname(folder)
     if os.path.basename(folder) not in {"bin", "sbin", "shims"}:
         return (folder,)
@@ -126,7 +129,7 @@ def _installation(folder: str) -> tuple[str, ...]:
 
 
 def _interpreter(path: str, environment: Mapping[str, str]) -> str | None:
-    """The program that the first line of a script names; None of another file."""
+    """Return the program that the first line of a script names; None of another file."""
     try:
         with open(path, "rb") as file:
             line = file.readline(256)
@@ -139,7 +142,7 @@ def _interpreter(path: str, environment: Mapping[str, str]) -> str | None:
 
 
 def private_folders(needed: Iterable[str]) -> tuple[str, ...]:
-    """Folders of which only the needed parts are visible; TEMPORARY first, none within another.
+    """Return folders of which only the needed parts are visible; TEMPORARY first, none within another.
 
     They are the folders of the root that do not belong to the system, and the home folder. A folder that is needed as a
     whole, as the working directory may be, is not among them.
@@ -156,11 +159,11 @@ def private_folders(needed: Iterable[str]) -> tuple[str, ...]:
 
 
 def hidden_paths(also: Iterable[str], needed: Sequence[str] = (), seen: Sequence[str] = ()) -> tuple[str, ...]:
-    """Files and folders that appear empty, although they are in a visible folder.
+    """Return files and folders that appear empty, although they are in a visible folder.
 
-    This package with its vectors, and `also`; and, except for what is in `seen`, repositories, copies of this package
-    and what was built of them, the checkout of the action of GitHub, and files with keys and tokens. A folder in which
-    the working directory or this Python is cannot be.
+    These are this package with its vectors, and `also`; and, except for what is in `seen`, repositories, copies of this
+    package and what was built of them, the checkout of the action of GitHub, and files with keys and tokens. A folder
+    that contains the working directory or this Python cannot be hidden.
     """
     places = (os.getcwd(), sys.prefix, sys.base_prefix)
     hidden = [os.path.join(_home(), path) for path in _SECRETS]
@@ -175,7 +178,7 @@ def hidden_paths(also: Iterable[str], needed: Sequence[str] = (), seen: Sequence
 
 @lru_cache(maxsize=8)
 def _copies(roots: Sequence[str]) -> tuple[str, ...]:
-    """The folders of this package and of its copies, followed by the folders with answers in their checkouts.
+    """Return the folders of this package and of its copies, followed by the folders with answers in their checkouts.
 
     Copies are looked for in Python's usual folders, in the folders `roots`, and one level below these.
     """
@@ -199,10 +202,12 @@ def _is_checkout() -> bool:
 
 
 def _home() -> str:
+    """Return the home folder, with links resolved."""
     return os.path.realpath(os.path.expanduser("~"))
 
 
 def _upwards(folder: str) -> Iterator[str]:
+    """Yield the folder, then each folder that contains it, up to the root."""
     yield folder
     while (parent := os.path.dirname(folder)) != folder:
         folder = parent
@@ -215,7 +220,7 @@ def within(path: str, folder: str) -> bool:
 
 
 def readable_paths(hidden: Sequence[str], private: Sequence[str], needed: Sequence[str]) -> tuple[list[str], list[str]]:
-    """Without a view of its own: the paths that the program may read, and the folders that it may only list.
+    """Return the paths that a program without a view of its own may read, and folders that it may only list.
 
     Together they are everything but what is hidden, and of the private folders only what is needed. A folder with
     something hidden in it is listed, and its other entries are read.
@@ -235,7 +240,7 @@ def readable_paths(hidden: Sequence[str], private: Sequence[str], needed: Sequen
 
 
 def _entries(folder: str) -> list[str]:
-    """The entries of a folder but symbolic links, whose targets are entries of another."""
+    """Return the entries of a folder but symbolic links, whose targets are entries of another."""
     try:
         with os.scandir(folder) as entries:
             return [entry.path for entry in entries if not entry.is_symlink()]

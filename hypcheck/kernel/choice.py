@@ -41,7 +41,7 @@ class KernelChoice:
 
 @cache
 def choice() -> KernelChoice:
-    """The choice for all calls of this process. Raises InputError if a variable asks for a missing part."""
+    """Return the choice for all calls of this process. Raises InputError if a variable asks for a missing part."""
     wanted = os.environ.get("HYPCHECK_KERNEL", "")
     if wanted not in ("", *KERNELS):
         raise InputError(f"HYPCHECK_KERNEL is {wanted!r}; it must be {' or '.join(KERNELS)}, or unset")
@@ -58,7 +58,7 @@ def choice() -> KernelChoice:
 
 
 def compiled() -> ModuleType:
-    """The extension module. Raises ImportError where it was not built or does not load."""
+    """Return the extension module. Raises ImportError where it was not built or does not load."""
     try:
         return import_module(EXTENSION)
     except ModuleNotFoundError as error:
@@ -97,7 +97,7 @@ POSITION_OF = {"exterior": 1, "interior": -1, "contact": 0}
 
 
 def answers_to(question: str, positions: Positions) -> Positions:
-    """The answers to a question from positions, int8 (n,); 127, of an invalid row, stays."""
+    """Return the answers to a question from positions, int8 (n,); 127, of an invalid row, stays."""
     if question == "position":
         return positions
     answers: Positions = (positions == POSITION_OF[question]).astype(positions.dtype)
@@ -106,7 +106,7 @@ def answers_to(question: str, positions: Positions) -> Positions:
 
 
 def required(question: str, threads: int | None, on_invalid: str) -> int | None:
-    """The number of threads, when all three make sense."""
+    """Return the number of threads, when all three make sense."""
     if not isinstance(on_invalid, str) or on_invalid not in ("raise", "flag"):
         raise InputError(f"on_invalid is {on_invalid!r}; it must be 'raise' or 'flag'")
     if question not in QUESTIONS:

@@ -70,7 +70,7 @@ class Prepared:
             object.__setattr__(self, name, value)
 
     def __reduce__(self) -> tuple[type[Prepared], tuple[pair.Sizes, pair.Axis | None]]:
-        """Sizes and axis: prepared data are valid only for the build that made them, so a copy prepares them again."""
+        """Return sizes and axis only: prepared data are valid for the build that made them; a copy prepares again."""
         return Prepared, (self.sizes, self.axis)
 
 
@@ -142,7 +142,7 @@ def classify(
     threads: int | None = None,
     **columns: ArrayLike,
 ) -> Answers:
-    """The exact position of every pair: +1 exterior, 0 contact (tangency included), −1 interior; int8 (n,).
+    """Return the exact position of every pair: +1 exterior, 0 contact (tangency included), −1 interior; int8 (n,).
 
     For one pair the answer is an int, for arrays an array. Pairs are written in any of these forms, with
     lengths in one unit; numbers and columns (n,) are broadcast, `points` are one point (3,) or many (n, 3):
@@ -192,7 +192,10 @@ def classify(
 def _parts_of_scene(
     columns: Mapping[str, Any],
 ) -> tuple[pair.Sizes, Sequence[ArrayLike], Sequence[Argument] | None]:
-    """Sizes, centre and axis of pairs of one spheroid's sizes. Raises InputError for another or a missing column."""
+    """Return sizes, centre and axis of pairs of one spheroid's sizes.
+
+    Raises InputError for another or a missing column.
+    """
     known = (*pair.SIZES, *pair.CENTER, *pair.AXIS)
     for name in columns:
         if name not in known:
@@ -221,7 +224,7 @@ def classify_scene(
     question: Question = "position",
     threads: int | None = None,
 ) -> Positions:
-    """The exact position of one spheroid at many centres; int8 (n,) always, numbers and options as in classify.
+    """Return the exact position of one spheroid at many centres; int8 (n,) always, numbers and options as in classify.
 
     `sizes` are alpha, gamma, b, d; `x`, `y`, `z` are float64 (n,) each, or single numbers for all centres; or `x` alone
     are points, (n, 3) or (3,). `axis` is the spheroid's axis as in classify: (3,) for all centres, or (n, 3); without
@@ -248,7 +251,7 @@ def classify_scene(
 def _axis_of(
     prepared: Prepared, axis: ArrayLike | None, columns: Mapping[str, ArrayLike] | None = None
 ) -> pair.Axis | None:
-    """The axis of a prepared scene. Raises InputError if the call gives one too, whole or by its columns."""
+    """Return the axis of a prepared scene. Raises InputError if the call gives one too, whole or by its columns."""
     if axis is not None or not {"axis", *pair.AXIS}.isdisjoint(columns or ()):
         raise InputError("axis is given, and the scene was prepared with its own; it must be given once")
     return prepared.axis
@@ -265,7 +268,7 @@ def _of_scene(
     out: Positions | None,
     options: _Options,
 ) -> Positions:
-    """The answers about one spheroid of valid sizes; its axis is three numbers, or a column of each."""
+    """Return the answers about one spheroid of valid sizes; its axis is three numbers, or a column of each."""
     on_invalid, question, threads = options
     if axis is not None and any(map(np.ndim, axis)):
         columns = as_columns((*pair.CENTER, *pair.AXIS), (*center, *axis))
@@ -286,7 +289,7 @@ def _of_scene(
 def _with_axes(
     sizes: pair.Sizes, columns: Sequence[Floats], question: Question, threads: int | None, on_invalid: str
 ) -> Positions:
-    """The answers for centres with an axis each: x, y, z, axis_x, axis_y, axis_z, made into rows some at a time."""
+    """Return the answers for centres with an axis each: six columns, which become rows some at a time."""
     result = np.empty(len(columns[0]), dtype=np.int8)
     for start in range(0, len(result), ROWS_AT_A_TIME):
         x, y, z, *axis = (column[start : start + ROWS_AT_A_TIME] for column in columns)
@@ -298,7 +301,7 @@ def _with_axes(
 
 
 def _axes(axis: ArrayLike) -> Floats:
-    """The axis or axes, (3,) or (n, 3); a single row is one axis."""
+    """Return the axis or axes, (3,) or (n, 3); a single row is one axis."""
     wanted = f"it must be three numbers, {', '.join(pair.AXIS)}, or an array (n, 3) of them"
     numbers = as_numbers("axis is", axis, wanted)
     if numbers.ndim not in (1, 2) or numbers.shape[-1] != len(pair.AXIS):
@@ -328,7 +331,7 @@ def _sizes(sizes: pair.Sizes) -> pair.Sizes:
 
 
 def _not_finite(columns: Columns) -> InputError:
-    """A sentence about the first centre that is not finite; there must be one."""
+    """Return a sentence about the first centre that is not finite; there must be one."""
     index = int(np.argmin(np.isfinite(columns).all(axis=0)))
     trouble = pair.trouble_with_row([float(column[index]) for column in columns], pair.CENTER)
     return InputError(f"row {index}: {trouble}")
@@ -366,7 +369,7 @@ def _into(out: Positions | None, result: Positions) -> Positions:
 
 
 def _at_once() -> tuple[Callable[..., Answers], Callable[..., Answers]]:
-    """classify and classify_scene of the kernel in use: those of C, which know these here, or these."""
+    """Return classify and classify_scene of the kernel in use: those of C, which know these here, or these."""
     if choice().kernel == "numpy":
         return classify, classify_scene
     module = extension()

@@ -61,7 +61,7 @@ def clearance(
     threads: int | None = None,
     **columns: ArrayLike,
 ) -> Clearance:
-    """The distance, the nearest points and the clearance of every pair, each between two numbers that are proved.
+    """Return the distance, the nearest points and the clearance of every pair, each between two proved numbers.
 
     Pairs are written as in classify: rows, a table, or sizes and centres. One pair of numbers is answered by numbers.
     The first invalid row raises InputError; with on_invalid="flag" such rows have the position 127 and NaN everywhere.
@@ -88,7 +88,7 @@ def clearance(
 
 
 def clearances(queries: Rows, threads: int | None = None) -> Clearance:
-    """Clearances of rows of any width; invalid rows have the position 127 and NaN everywhere."""
+    """Return clearances of rows of any width; invalid rows have the position 127 and NaN everywhere."""
     if PAIRS.has_heights(queries):
         return _ended_clearances(queries, threads)
     result = clearances_without_ends(queries, threads)
@@ -97,7 +97,7 @@ def clearances(queries: Rows, threads: int | None = None) -> Clearance:
 
 
 def _ended_clearances(rows: Rows, threads: int | None = None) -> Clearance:
-    """The result of clearance() for valid rows (n, 13): rows with infinite ends together, the others one by one.
+    """Return the result of clearance() for valid rows (n, 13): rows with infinite ends together, the others one by one.
 
     `touch` is then the point of wall, rim or disc that the scaled spheroid touches, as far as floats know it, and so is
     `nearest` where no shorter gap was measured. Their errors have no proved bound. Invalid rows keep the values for
@@ -137,7 +137,7 @@ def _ended_clearances(rows: Rows, threads: int | None = None) -> Clearance:
 
 
 def _still_apart(result: Clearance, whole: Mask) -> Mask:
-    """A mask of the rows whose gap must be measured, after the known nearest points were measured again.
+    """Return a mask of the rows whose gap must be measured, after the known nearest points were measured again.
 
     The bound of a long spheroid's measured gap grows by the square of d/b in clearance_bounds.py, and here not at all.
     """
@@ -155,7 +155,7 @@ def _still_apart(result: Clearance, whole: Mask) -> Mask:
 
 
 def _apart(result: Clearance) -> Mask:
-    """A mask of the rows with bounds of the distance that are too far apart, and a gap that can be measured."""
+    """Return a mask of the rows with bounds of the distance that are too far apart, and a gap that can be measured."""
     low, high = result.distance_lower, result.distance_upper
     longer = np.maximum(result.rows[:, 2], result.rows[:, 3])
     apart: Mask = are_apart(low, high, longer) & np.isfinite(high)
@@ -194,13 +194,13 @@ def _measure_some(result: Clearance, clear: Indices) -> None:
 
 
 def _roundings(rows: Rows, point: Rows) -> Floats:
-    """The errors of points of walls and of their distances: 64u of the lengths that they are computed from."""
+    """Return the errors of points of walls and of their distances: 64u of the lengths that they are computed from."""
     lengths = np.abs(point).sum(axis=1) + np.abs(rows[:, 4:7]).sum(axis=1) + rows[:, 2:4].sum(axis=1)
     return np.asarray(_ROUNDED * lengths + _LEAST)
 
 
 def checked_margin(margin: object) -> float:
-    """The margin as a float, 0 or more. Raises InputError."""
+    """Return the margin as a float, 0 or more. Raises InputError."""
     value = margin.item() if isinstance(margin, np.generic) else margin
     trouble = trouble_with("margin", value)
     if trouble is None and value < 0:  # type: ignore[operator]  # a number
@@ -211,7 +211,9 @@ def checked_margin(margin: object) -> float:
 
 
 def enlarged(b: ArrayLike, d: ArrayLike, margin: ArrayLike, half: ArrayLike | None = None) -> tuple[Floats, Floats]:
-    """Semi-axes of spheroids that contain all points within `margin` of those given, (n,) each; inf where unknown.
+    """Return semi-axes of spheroids that contain all points within `margin` of those given, (n,) each.
+
+    They are inf where they are not known.
 
     They are no larger than necessary in the directions in which the given ones are `half` (n,) wide; `half` is b by
     default.
@@ -226,7 +228,7 @@ def enlarged(b: ArrayLike, d: ArrayLike, margin: ArrayLike, half: ArrayLike | No
 
 
 def with_margin(rows: Rows, positions: Positions, margin: float, question: Question, threads: int | None) -> Positions:
-    """The answers for rows of these positions, 127 for invalid ones: contact where less than the margin is proved."""
+    """Return the answers for rows with these positions, 127 for invalid ones: contact unless the margin is proved."""
     margin = checked_margin(margin)
     result = positions.copy()
     clear = np.flatnonzero((positions != 0) & (positions != REFUSED))

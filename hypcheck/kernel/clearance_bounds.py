@@ -103,7 +103,7 @@ class Clearance:
 
     @classmethod
     def empty(cls, rows: Rows) -> Clearance:
-        """Room for these rows, of which nothing is known."""
+        """Return room for these rows, of which nothing is known."""
         count = len(rows)
         distance_lower, distance_upper, lower, upper, touch_error = (np.full(count, np.nan) for _ in range(5))
         nearest, touch = (np.full((count, 3), np.nan) for _ in range(2))
@@ -143,7 +143,10 @@ _MEASURED = tuple(part.name for part in fields(Clearance) if part.name != "rows"
 
 
 def clearances_without_ends(queries: Rows, threads: int | None = None) -> Clearance:
-    """The result of clearance() for rows (n, 7) or (n, 10); invalid ones have the position 127 and NaN everywhere."""
+    """Return the result of clearance() for rows (n, 7) or (n, 10).
+
+    Invalid ones have the position 127 and NaN everywhere.
+    """
     upright = not PAIRS.has_axis(queries)
     compiled = upright and choice().kernel == "compiled"
     result = _compiled(queries, threads) if compiled else Clearance.empty(queries)
@@ -184,7 +187,10 @@ def _fill_ties(result: Clearance, queries: Rows, threads: int | None) -> None:
 
 
 def _compiled(rows: Rows, threads: int | None) -> Clearance:
-    """The result of the compiled kernel for rows (n, 7), by the same steps; touch_error is inf if it has no bound."""
+    """Return the result of the compiled kernel for rows (n, 7), by the same steps.
+
+    touch_error is inf if it has no bound.
+    """
     position, numbers = compiled_kernel.near_rows(rows, threads)
     lower, upper, error, least, most = numbers[:, :5].T
     error[error == _LARGEST] = np.inf
@@ -204,7 +210,7 @@ def _fill(result: Clearance, places: Indices, queries: Rows, threads: int | None
 
 
 def _answers(rows: Rows, threads: int | None) -> Clearance:
-    """The answers about rows that are all tilted, (n, 10), or that are all upright, (n, 7)."""
+    """Return the answers about rows that are all tilted, (n, 10), or that are all upright, (n, 7)."""
     rows, shift = scaled(rows)
     has_axis = PAIRS.has_axis(rows)
     position = _positions(rows, threads)
@@ -232,7 +238,7 @@ def _answers(rows: Rows, threads: int | None) -> Clearance:
 
 
 def scaled(rows: Rows) -> tuple[Rows, Integers]:
-    """The rows with all lengths times 2^shift, exactly: the longest about 1, or longer where b or d would be subnormal.
+    """Return the rows with all lengths times 2^shift: the longest about 1, or longer if b or d would be subnormal.
 
     The shift is 0 where the longest is ordinary, and where a length would be rounded.
     """
@@ -249,7 +255,7 @@ def scaled(rows: Rows) -> tuple[Rows, Integers]:
 
 
 def _lowered(length: Floats, shift: Integers, towards: float) -> Floats:
-    """The lengths times 2^−shift, rounded towards a side."""
+    """Return the lengths times 2^−shift, rounded towards a side."""
     return np.where((shift != 0) & (length > 0), np.nextafter(np.ldexp(length, -shift), towards), length)
 
 
@@ -258,12 +264,12 @@ def _positions(rows: Rows, threads: int | None) -> Positions:
 
 
 def _less_one(factor: Floats, towards: float) -> Floats:
-    """factor − 1, which is exact from 1/2 to 2, and else rounded towards a side."""
+    """Return factor − 1, which is exact from 1/2 to 2, and else rounded towards a side."""
     return np.where((factor >= 0.5) & (factor <= 2), factor - 1, np.nextafter(factor - 1, towards))
 
 
 def _enlarged(rows: Rows, factor: Floats, towards: float) -> Rows:
-    """The rows with b and d times a factor, rounded towards a side; times 1 they are as they were."""
+    """Return the rows with b and d times a factor, rounded towards a side; times 1 they are as they were."""
     grown = rows.copy()
     product = rows[:, 2:4] * factor[:, None]
     grown[:, 2:4] = np.where(factor[:, None] == 1, product, np.nextafter(product, towards))
@@ -271,7 +277,7 @@ def _enlarged(rows: Rows, factor: Floats, towards: float) -> Rows:
 
 
 def _factors(rows: Rows, position: Positions, guess: Floats, threads: int | None) -> tuple[Floats, Floats]:
-    """Factors by which the spheroid, grown, is clear and is in contact: low < 1 + clearance ≤ high, proved."""
+    """Return factors by which the spheroid, grown, is clear and is in contact: low < 1 + clearance ≤ high, proved."""
 
     def clear(some: Indices, factor: Floats) -> Mask:
         return np.isin(_positions(_enlarged(rows[some], factor, np.inf), threads), (-1, 1))
@@ -312,13 +318,13 @@ def _halve(rows: Rows, low: Floats, high: Floats, clear: Question, meets: Questi
 
 
 def _usual(rows: Rows) -> Mask:
-    """A mask of the rows with lengths within the range of the bounds; coordinates may be smaller."""
+    """Return a mask of the rows with lengths within the range of the bounds; coordinates may be smaller."""
     size = np.abs(rows[:, : len(COLUMNS)])
     return np.asarray((size <= RANGE[1]).all(axis=1) & (size[:, :4] >= RANGE[0]).all(axis=1))
 
 
 def _measured(rows: Rows, gaps: points.PointGaps) -> Floats:
-    """The length of each gap, and more than the error of its ends."""
+    """Return the length of each gap, and more than the error of its ends."""
     b, d = rows[:, 2], rows[:, 3]
     largest = np.maximum(b, d)
     if PAIRS.has_axis(rows):
@@ -332,7 +338,10 @@ def _measured(rows: Rows, gaps: points.PointGaps) -> Floats:
 def _separated(
     rows: Rows, gaps: points.PointGaps, usual: Mask, least: Floats, most: Floats, threads: int | None
 ) -> Floats:
-    """The distances that are proved by larger spheroids that contain all points within them; at least `least`."""
+    """Return the distances that are proved by larger spheroids that contain all points within them.
+
+    They are at least `least`.
+    """
     v = gaps.support
 
     def clear(some: Indices, length: Floats) -> Mask:

@@ -108,7 +108,7 @@ class PointGaps:
 
 
 def poles(A: Floats, B: Floats, p: Floats, q: Floats) -> tuple[Floats, Floats]:
-    """τ and σ, by Newton's method from λ = 0."""
+    """Return τ and σ, by Newton's method from λ = 0."""
     W = A + B
     p, q = np.maximum(p, _LEAST), np.maximum(q, _LEAST)
     tau, sigma = A.copy(), B.copy()
@@ -128,7 +128,7 @@ Poles = Callable[[Floats, Floats, Floats, Floats], tuple[Floats, Floats]]
 
 
 def upright_touches(rows: Rows, *, poles_of: Poles = poles, rounding: float = _ROUNDED) -> Touches:
-    """The touches of valid rows (n, 7).
+    """Return the touches of valid rows (n, 7).
 
     Their error holds for any τ and σ that `poles_of` finds, if what is computed is off by less than `rounding` of it.
     """
@@ -155,7 +155,7 @@ def upright_touches(rows: Rows, *, poles_of: Poles = poles, rounding: float = _R
 
 
 def _known(rows: Rows, error: Floats) -> Floats:
-    """The errors where their bounds hold, else inf."""
+    """Return the errors where their bounds hold, else inf."""
     size = np.abs(rows[:, :7])
     usual = (size <= _RANGE[1]).all(axis=1) & (size[:, :4] >= _RANGE[0]).all(axis=1)
     usual &= np.abs(np.log2(rows[:, 2] / rows[:, 3])) <= _RATIO
@@ -163,7 +163,7 @@ def _known(rows: Rows, error: Floats) -> Floats:
 
 
 def _placed(rows: Rows, radius: Floats, height: Floats) -> Floats:
-    """The points (n, 3) with these radii in each centre's meridian plane, at heights that count towards the centre."""
+    """Return the points (n, 3) with these radii in each centre's meridian plane; heights count towards the centre."""
     x, y, z = rows[:, 4], rows[:, 5], rows[:, 6]
     scale = np.maximum(np.abs(x), np.abs(y))  # the direction of subnormal numbers is exact so
     off = scale > 0
@@ -174,7 +174,7 @@ def _placed(rows: Rows, radius: Floats, height: Floats) -> Floats:
 
 
 def upright_gaps(rows: Rows, position: Positions, touch: Floats) -> PointGaps:
-    """Hints for valid rows (n, 7) that are clear, from the places where they first touch, (n, 3)."""
+    """Return hints for valid rows (n, 7) that are clear, from the places where they first touch, (n, 3)."""
     alpha, gamma, b, d, x, y, z = np.ascontiguousarray(rows.T)
     r, level, side = np.hypot(x, y), np.abs(z), position.astype(np.float64)
     height = np.abs(touch[:, 2])
@@ -201,7 +201,7 @@ def upright_gaps(rows: Rows, position: Positions, touch: Floats) -> PointGaps:
 
 
 def tilted_touches(rows: Rows, at: Floats | None = None) -> Touches:
-    """The touches of valid rows (n, 10) whose axis is tilted.
+    """Return the touches of valid rows (n, 10) whose axis is tilted.
 
     Their error holds for any multipliers λ (n,) that are given as `at`; else they are found here.
     """
@@ -243,7 +243,7 @@ def tilted_touches(rows: Rows, at: Floats | None = None) -> Touches:
 
 
 def _at_a_pole(form: Floats, unit: Floats, ratio: Floats, centre: Floats) -> Floats:
-    """The points, (n, 3), of XᵀDX = 1 with the least |X − C|², if the multiplier is at a pole or next to it.
+    """Return the points, (n, 3), of XᵀDX = 1 with the least |X − C|², if the multiplier is at a pole or next to it.
 
     In the principal axes of D beside the spheroid, whose eigenvalues are e, X is g/(1 + λe) there. At the pole λ = −1/e
     one g is 0, as where the centre is on the hyperboloid's axis: then XᵀDX = 1 says how long that part of X is, and
@@ -279,14 +279,14 @@ def _at_a_pole(form: Floats, unit: Floats, ratio: Floats, centre: Floats) -> Flo
 
 
 def _is_before(place: Floats, other: Floats) -> Mask:
-    """A mask of the places that are farther towards +x (if equal: +z, then +y) than the other ones."""
+    """Return a mask of the places that are farther towards +x (if equal: +z, then +y) than the other ones."""
     offset = (place - other)[:, (0, 2, 1)]
     clear = np.abs(offset) > _OFF * np.abs(place).max(axis=1, keepdims=True)
     return np.asarray(clear.any(axis=1) & (offset[np.arange(len(offset)), np.argmax(clear, axis=1)] > 0))
 
 
 def _error(rows: Rows, unit: Floats, at: Floats, form: Floats, place: Floats, matrix: Floats, least: Floats) -> Floats:
-    """A bound of the distance from a computed place to the exact one, in units of b; NaN if no bound is known.
+    """Return a bound of the distance from a computed place to the exact one, in units of b; NaN if no bound is known.
 
     `least` is a guess of half the least eigenvalue of the matrix M + λD.
     """
@@ -321,14 +321,14 @@ _CHUNK = 2048
 
 
 def _adjugate(matrix: Floats) -> tuple[Floats, Floats]:
-    """The adjugates of symmetric matrices (n, 3, 3), row by row, and the determinants (n,)."""
+    """Return the adjugates of symmetric matrices (n, 3, 3), row by row, and the determinants (n,)."""
     rows = np.moveaxis(matrix, 1, 0)
     adjugate = np.stack([np.cross(rows[(k + 1) % 3], rows[(k + 2) % 3]) for k in range(3)], axis=1)
     return adjugate, (rows[0] * adjugate[:, 0]).sum(axis=1)
 
 
 def _factor(rows: Rows, unit: Floats, point: Floats) -> Floats:
-    """The factor by which the spheroid must grow to reach the point."""
+    """Return the factor by which the spheroid must grow to reach the point."""
     offset = point - rows[:, 4:7]
     along = (unit * offset).sum(axis=1)
     across = offset - along[:, None] * unit
@@ -336,7 +336,7 @@ def _factor(rows: Rows, unit: Floats, point: Floats) -> Floats:
 
 
 def reaching(b: Floats, d: Floats, v: Floats, length: Floats) -> tuple[Floats, Floats]:
-    """Semi-axes, (n,) each, of spheroids that contain all points within a length of those of semi-axes b and d.
+    """Return semi-axes, (n,) each, of spheroids that contain all points within a length of those of semi-axes b and d.
 
     They are no larger than necessary in the directions in which the given ones are `v` wide: clearance_bounds.py proves
     it, but for roundings.
@@ -346,7 +346,7 @@ def reaching(b: Floats, d: Floats, v: Floats, length: Floats) -> tuple[Floats, F
 
 
 def tilted_gaps(rows: Rows, position: Positions, touch: Floats) -> PointGaps:
-    """Hints for valid rows (n, 10) that are clear, from the places where they first touch, (n, 3).
+    """Return hints for valid rows (n, 10) that are clear, from the places where they first touch, (n, 3).
 
     A spheroid that contains all points within some length of the given one, and no more of them in the direction of the
     gap, first touches where the gap is.
@@ -371,7 +371,7 @@ _TURNS, _FOOT_SETTLED = 100, 2.0**-50
 
 
 def normals(rows: Rows, nearest: Rows, position: Positions) -> Rows:
-    """Unit vectors (n, 3) from nearest points to the spheroids of rows of any width; NaN in contact."""
+    """Return unit vectors (n, 3) from nearest points to the spheroids of rows of any width; NaN in contact."""
     with np.errstate(all="ignore"):
         axis = unit_vectors(with_heights(rows)[:, 7:10])
         size = rows[:, 2:4].max(axis=1)
@@ -387,7 +387,7 @@ def normals(rows: Rows, nearest: Rows, position: Positions) -> Rows:
 
 
 def _foot(b2: Floats, d2: Floats, u: Floats, w: Floats) -> Floats:
-    """The t of points (u, w) outside spheroids of these squared semi-axes, to about 2⁻⁴⁸ of themselves."""
+    """Return the t of points (u, w) outside spheroids of these squared semi-axes, to about 2⁻⁴⁸ of themselves."""
     t = np.maximum(np.maximum(np.sqrt(b2) * u - b2, np.sqrt(d2) * w - d2), 0)
     for _ in range(_TURNS):
         p, q = b2 + t, d2 + t
@@ -400,7 +400,7 @@ def _foot(b2: Floats, d2: Floats, u: Floats, w: Floats) -> Floats:
 
 
 def unit_vectors(vectors: Rows) -> Rows:
-    """Vectors (n, 3), of any lengths, divided by their lengths."""
+    """Return vectors (n, 3), of any lengths, divided by their lengths."""
     scaled = vectors / np.abs(vectors).max(axis=1, keepdims=True)
     return np.asarray(scaled / np.sqrt((scaled * scaled).sum(axis=1, keepdims=True)))
 

@@ -30,7 +30,7 @@ _SCALARS = (np.float32, np.int8, np.uint8, np.int16, np.uint16, np.int32, np.uin
 
 @cache
 def extension() -> ModuleType:
-    """The extension module, after giving it numpy's array type."""
+    """Return the extension module, after giving it numpy's array type."""
     module = compiled()
     samples = tuple(kind(77) for kind in _SCALARS)
     module.use_arrays(np.ndarray, np.empty, np.dtype(np.int8), 2 * ROWS_A_THREAD - 1, samples)
@@ -129,14 +129,14 @@ NEAR_NUMBERS = 11
 
 
 def near_rows(rows: Rows, threads: int | None = None) -> tuple[Positions, Floats]:
-    """Positions (n,), 127 for invalid ones, and the results (n, 11) for contiguous rows (n, 7)."""
+    """Return positions (n,), 127 for invalid ones, and the results (n, 11) for contiguous rows (n, 7)."""
     positions, numbers = np.empty(len(rows), dtype=np.int8), np.empty((len(rows), NEAR_NUMBERS))
     _by_row(compiled().clearance, rows, (positions, numbers), threads)
     return positions, numbers
 
 
 def in_parts(part: Callable[[int, int], int], count: int, threads: int | None) -> int:
-    """The sum of part(start, stop) over equal parts, the first in this thread and each other in one of its own.
+    """Return the sum of part(start, stop) over equal parts, the first in this thread and each other in one of its own.
 
     An exception of a part is raised here after all parts have ended.
     """

@@ -25,10 +25,10 @@ class Kernel(Protocol):
         """
 
     def prepared(self, sizes: Sizes, like: Columns, axis: Axis | None = None) -> bytes:
-        """Data prepared from valid sizes, a valid axis and sample centres; only the same kernel can use them."""
+        """Return data prepared from valid sizes, a valid axis and sample centres; only the same kernel can use them."""
 
     def answer_rows(self, rows: Rows, question: Question, threads: int | None = None) -> tuple[Positions, int]:
-        """Answers for C-contiguous rows, (n, 7) or (n, 10); `threads` None is as many as are worth it."""
+        """Return answers for C-contiguous rows, (n, 7) or (n, 10); `threads` None is as many as are worth it."""
 
     def answer_scene(
         self,
@@ -38,21 +38,24 @@ class Kernel(Protocol):
         threads: int | None = None,
         axis: Axis | None = None,
     ) -> tuple[Positions, int]:
-        """Answers for valid sizes and the centres of three columns; None is upright, an invalid axis answers 127."""
+        """Return answers for valid sizes and the centres of three columns.
+
+        None is upright, an invalid axis answers 127.
+        """
 
     def answer_sweeps(self, rows: Rows) -> tuple[Positions, Floats]:
-        """Contact on sweeps, C-contiguous rows (n, 10), (n, 13) or (n, 16) as geometry.rows.SWEEPS has them.
+        """Return contact on sweeps, C-contiguous rows (n, 10), (n, 13) or (n, 16) as geometry.rows.SWEEPS has them.
 
         Hits, int8 (n,): 1 and 0 are exact, 2 means that bounds do not decide, 127 is an invalid row. Times, float64
         (n,): no contact comes before them; NaN if there is no hit, or if bounds do not give its time.
         """
 
     def answer_ended(self, rows: Rows, threads: int | None = None) -> Positions:
-        """Exact positions for C-contiguous rows (n, 13); 2 if bounds do not decide, 127 for an invalid row."""
+        """Return exact positions for C-contiguous rows (n, 13); 2 if bounds do not decide, 127 for an invalid row."""
 
 
 def kernel() -> Kernel:
-    """The module that choice() names. Raises InputError if the environment requires a missing one."""
+    """Return the module that choice() names. Raises InputError if the environment requires a missing one."""
     return _kernel_named(choice().kernel)
 
 
@@ -66,7 +69,7 @@ def _kernel_named(name: str) -> Kernel:
 
 
 def positions_of_rows(rows: Rows, question: Question, threads: int | None = None) -> tuple[Positions, int]:
-    """Answers for C-contiguous rows of any width, 127 for invalid ones, and how many these are."""
+    """Return answers for C-contiguous rows of any width, 127 for invalid ones, and how many these are."""
     if not PAIRS.has_heights(rows):
         return kernel().answer_rows(rows, question, threads)
     positions = kernel().answer_ended(rows, threads)

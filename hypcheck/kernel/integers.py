@@ -35,7 +35,7 @@ from hypcheck.geometry.pair import COLUMNS, Lengths, Pair, Position, to_integers
 
 
 def upright_position(lengths: Lengths) -> Position:
-    """The exact position; lengths as in pairs.Lengths."""
+    """Return the exact position; lengths as in pairs.Lengths."""
     return upright_position_of_squares(
         lengths.alpha**2,
         lengths.b**2,
@@ -47,7 +47,7 @@ def upright_position(lengths: Lengths) -> Position:
 
 
 def upright_position_of_squares(p: int, q: int, s: int, t: int, radius: int, height: int) -> Position:
-    """The position from the squares of α, b, γ, d, of the centre's distance from the axis, and of its height."""
+    """Return the position from the squares of α, b, γ, d, of the centre's distance from the axis, and of its height."""
     N = q * t
     C2 = (p + q - radius) * t - (s + height) * q  # N c2
     C1 = p * (t - s - height) + s * (radius - q)  # N c1
@@ -105,7 +105,7 @@ class Squares:
 
 
 def squares(row: Sequence[float]) -> Squares:
-    """The squares of a row of ten, in units that make all of its numbers whole."""
+    """Return the squares of a row of ten, in units that make all of its numbers whole."""
     alpha, gamma, b, d, x, y, z = to_integers(row[:7])
     vx, vy, vz = to_integers(row[7:])
     cross, along = vx * y - vy * x, vx * x + vy * y + vz * z
@@ -118,7 +118,9 @@ def squares(row: Sequence[float]) -> Squares:
 def squares_between_axes(
     sizes: Sequence[float], centre: Sequence[Fraction | float], axis: Sequence[float], other: Sequence[float]
 ) -> Squares:
-    """The squares for a tilted hyperboloid with axis `other`, w; `centre` is the spheroid's, from the hyperboloid's.
+    """Return the squares for a tilted hyperboloid with axis `other`, w.
+
+    `centre` is the spheroid's, from the hyperboloid's.
 
     Nothing is rotated: with W = w·w, C·w and v·w the parts along w are (C·w)²/W and (v·w)²/W, and those across are what
     is left of C·C and v·v; the part of v × C along w is det(v, C, w)²/W. All are multiplied by as many W as they need.
@@ -134,7 +136,7 @@ def squares_between_axes(
 
 
 def quartic(of: Squares) -> QuarticWithPoles:
-    """The quartic of a pair whose axes are not parallel, and whose spheroid is not a sphere."""
+    """Return the quartic of a pair whose axes are not parallel, and whose spheroid is not a sphere."""
     p, q, s, t = of.p, of.q, of.s, of.t
     w = of.level + of.upward
     E = (t - q) * (s + p) * of.cross
@@ -153,14 +155,14 @@ def quartic(of: Squares) -> QuarticWithPoles:
 
 
 def position(row: Sequence[float]) -> Position:
-    """The exact position of a valid row of ten."""
+    """Return the exact position of a valid row of ten."""
     if row[7] == row[8] == 0 or row[2] == row[3]:
         return upright_position(Pair.from_row(row[: len(COLUMNS)]).lengths)
     return position_of_squares(squares(row))
 
 
 def position_of_squares(of: Squares) -> Position:
-    """The exact position of the pair that has these squares."""
+    """Return the exact position of the pair that has these squares."""
     if of.upright:
         return upright_position_of_squares(of.p, of.q, of.s, of.t, of.radius, of.height)
     pair = quartic(of)
@@ -174,7 +176,7 @@ def position_of_squares(of: Squares) -> Position:
 
 
 def discriminant(f: tuple[int, int, int, int, int]) -> int:
-    """27 times the discriminant of the quartic."""
+    """Return 27 times the discriminant of the quartic."""
     e, d, c, b, a = f
     i = 12 * a * e - 3 * b * d + c * c
     j = 72 * a * c * e + 9 * b * c * d - 27 * (a * d * d + e * b * b) - 2 * c * c * c
@@ -182,7 +184,7 @@ def discriminant(f: tuple[int, int, int, int, int]) -> int:
 
 
 def _on_a_pole(pair: QuarticWithPoles) -> Position:
-    """The position where F has a multiple root: clear where that is a pole and F > 0 on its inner side."""
+    """Return the position where F has a multiple root: clear where that is a pole and F > 0 on its inner side."""
     for side in (Position.EXTERIOR, Position.INTERIOR):
         value, slope, curve = _outwards(pair, side)[:3]
         if value == slope == 0 and curve > 0:
@@ -191,14 +193,14 @@ def _on_a_pole(pair: QuarticWithPoles) -> Position:
 
 
 def _outwards(pair: QuarticWithPoles, side: Position) -> list[int]:
-    """The signs of the coefficients of F in the distance beyond the pole on that side, lowest first."""
+    """Return the signs of the coefficients of F in the distance beyond the pole on that side, lowest first."""
     at_ratio = side < 0 and pair.oblate
     signs = _at_ratio(pair.f, -pair.p, pair.q) if at_ratio else _at_root(pair, side)
     return [sign if side > 0 or power % 2 == 0 else -sign for power, sign in enumerate(signs)]
 
 
 def _at_ratio(f: Sequence[int], over: int, under: int) -> list[int]:
-    """The signs of F's coefficients at over/under, under > 0."""
+    """Return the signs of F's coefficients at over/under, under > 0."""
     left = [coefficient * under ** (4 - power) for power, coefficient in enumerate(f)]
     for first in range(4):
         for power in range(3, first - 1, -1):
@@ -207,7 +209,10 @@ def _at_ratio(f: Sequence[int], over: int, under: int) -> list[int]:
 
 
 def _at_root(pair: QuarticWithPoles, side: Position) -> list[int]:
-    """The signs of F's coefficients at B (side 1) or −A2: with μ = k2 λ, a root of μ² = k1 μ + k0 k2, each is u+vμ."""
+    """Return the signs of F's coefficients at B (side 1) or −A2.
+
+    Each coefficient is u + vμ with μ = k2 λ, a root of μ² = k1 μ + k0 k2.
+    """
     (f0, f1, f2, f3, _), (k0, k1, k2) = pair.f, pair.k
     left = [(k2**3 * f0, 0), (k2 * k2 * f1, 0), (k2 * f2, 0), (f3, 0), (pair.q, 0)]
     for first in range(4):

@@ -65,7 +65,10 @@ Number = TypeVar("Number", np.float32, np.float64)
 
 
 def positions(rows: Rows) -> Positions:
-    """The exact position of every row, int8 (n,), 127 for invalid ones; float64 (n, 7) or (n, 10) as in rows.py."""
+    """Return the exact position of every row, int8 (n,), 127 for invalid ones.
+
+    Rows are float64 (n, 7) or (n, 10) as in geometry/rows.py.
+    """
     if PAIRS.has_axis(rows):
         return _positions_of_ten(rows)
     result = np.empty(len(rows), dtype=np.int8)
@@ -91,7 +94,7 @@ def _positions_of_ten(rows: Rows) -> Positions:
 
 
 def positions_of_scene(sizes: Sizes, x: Floats, y: Floats, z: Floats, axis: Axis | None = None) -> Positions:
-    """The exact position of every centre (x, y, z), float64 (n,) each, for valid α, γ, b, d and axis; int8 (n,).
+    """Return the exact position of every centre (x, y, z), float64 (n,) each, for valid α, γ, b, d and axis; int8 (n,).
 
     All are 127 where the axis has no direction.
     """
@@ -191,7 +194,7 @@ class Buffers(Generic[Number]):
         self._rows = rows
 
     def of(self, rows: int) -> tuple[list[NDArray[Number]], list[Mask]]:
-        """Arrays for a chunk of so many rows."""
+        """Return arrays for a chunk of so many rows."""
         if rows == self._rows:
             return self._numbers, self._truths
         return [buffer[:rows] for buffer in self._numbers], [buffer[:rows] for buffer in self._truths]
@@ -264,7 +267,7 @@ def _by_integers(rows: Rows, places: Indices, result: Positions, position: Calla
 
 
 def _tilted_positions(rows: Rows) -> Positions:
-    """The positions of a chunk of rows of ten that are tilted, 127 for invalid ones."""
+    """Return the positions of a chunk of rows of ten that are tilted, 127 for invalid ones."""
     result = np.empty(len(rows), dtype=np.int8)
     with np.errstate(all="ignore"):
         row = _columns_of_ten(rows)
@@ -276,7 +279,7 @@ def _tilted_positions(rows: Rows) -> Positions:
 
 
 def multipliers(rows: Rows) -> Floats:
-    """Near the multiplier, in squares of b, where the dual function of each row (n, 10) is greatest: a hint, (n,)."""
+    """Return rough multipliers (n,), in squares of b, at which the dual functions of rows (n, 10) are greatest."""
     return _multiplier(_columns_of_ten(rows))
 
 
@@ -284,13 +287,13 @@ TenColumns = tuple[Floats, Floats, Floats, Floats, Floats, Floats, Floats, Float
 
 
 def _columns_of_ten(rows: Rows) -> TenColumns:
-    """The columns, (n,) each, with scaled axes."""
+    """Return the columns, (n,) each, with scaled axes."""
     alpha, gamma, b, d, x, y, z, *axis = np.ascontiguousarray(rows.T)
     return alpha, gamma, b, d, x, y, z, *_scaled(np.stack(axis))
 
 
 def _scaled(axes: Floats) -> tuple[Floats, Floats, Floats]:
-    """Axes of any length, (3, n), with the largest number in [1/2, 1): times a power of two, NaN where not exact."""
+    """Return axes (3, n) times powers of two, with the largest number in [1/2, 1); NaN where that is not exact."""
     exponents = np.frexp(np.abs(axes).max(axis=0))[1]
     scaled = np.ldexp(axes, -exponents)
     scaled[:, (np.ldexp(scaled, exponents) != axes).any(axis=0)] = np.nan
@@ -299,7 +302,7 @@ def _scaled(axes: Floats) -> tuple[Floats, Floats, Floats]:
 
 
 def _multiplier(row: TenColumns) -> Floats:
-    """Near the multipliers where the dual functions are greatest: core/parts/tilted_level.h says how."""
+    """Return rough multipliers at which the dual functions are greatest; core/parts/tilted_level.h explains how."""
     form = tilted.tilted_form(*row, list(np.empty((tilted.TILTED_FORM_BUFFERS[0], len(row[0])))))
     p, s, t, k0, k1, m, radius, height, cross_squared, level = form
     P1 = np.fmax(cross_squared / level, 0)  # 0/0 is 0: the axis is tilted by less than 2⁻⁵⁰⁰

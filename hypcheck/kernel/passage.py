@@ -93,7 +93,7 @@ def passage(
 
 
 def _of_python(value: Argument) -> Any:  # noqa: ANN401 - whatever it is
-    """Numbers of numpy as numbers of Python, in sequences too, and arrays as lists; a tuple is a list then."""
+    """Return numbers of numpy as numbers of Python, in sequences too, and arrays as lists; a tuple is a list then."""
     if isinstance(value, (list, tuple)):
         return [_of_python(part) for part in value]
     return value.tolist() if hasattr(value, "tolist") else value
@@ -102,7 +102,7 @@ def _of_python(value: Argument) -> Any:  # noqa: ANN401 - whatever it is
 def _by_position(
     sweeps: tuple[Argument, ...], columns: dict[str, Argument]
 ) -> tuple[tuple[Argument, ...], dict[str, Argument]]:
-    """Named arguments in order of position, if these are all sizes, a start and an end."""
+    """Return named arguments in order of position, if these are all sizes, a start and an end."""
     first = SIZES if len(sweeps) in (0, 4, 5) else ("sizes",)
     names = (*first, "start", "end")[len(sweeps) :]
     if set(columns) != set(names):

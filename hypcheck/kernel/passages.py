@@ -89,7 +89,7 @@ def passages(
     axis: ArrayLike | None,
     heights: Sequence[Argument],
 ) -> Passages:
-    """The results for sweeps in a form that hypcheck.passage accepts. Raises InputError."""
+    """Return the results for sweeps in a form that hypcheck.passage accepts. Raises InputError."""
     call = questions_of(sweeps, columns, axis, heights, SWEEP)
     rows = np.ascontiguousarray(call.rows())
     call.require_valid(rows)
@@ -98,7 +98,10 @@ def passages(
 
 
 def _hits(rows: Rows) -> Mask:
-    """Hits, by bounds and else exactly. A sweep that is clear of an infinite hyperboloid is clear of its open wall."""
+    """Return hits, by bounds and else exactly.
+
+    A sweep that is clear of an infinite hyperboloid is clear of its open wall.
+    """
     width = len(SWEEPS.tilted)
     whole = np.ascontiguousarray(rows[:, :width])
     answers = kernel().answer_sweeps(whole)[0]

@@ -110,7 +110,7 @@ def exact_position(
 def _ended_position(
     numbers: Sequence[float], axis: Sequence[float] | None, heights: Sequence[float], whole: Callable[..., int]
 ) -> int:
-    """The position where the hyperboloid ends; `whole` gives that without ends. Raises InputError."""
+    """Return the position where the hyperboloid ends; `whole` gives that without ends. Raises InputError."""
     trouble = trouble_with_heights(heights)
     if trouble is not None:
         raise InputError(trouble)
@@ -124,7 +124,7 @@ def _ended_position(
 
 
 def _valid_row(numbers: Sequence[float], axis: object) -> list[float]:
-    """The row of ten numbers. Raises InputError if it is not valid."""
+    """Return the row of ten numbers. Raises InputError if it is not valid."""
     values = axis.tolist() if hasattr(axis, "tolist") else axis
     if not isinstance(values, (list, tuple)) or len(values) != len(AXIS):
         raise InputError(f"axis is {escaped(reprlib.repr(axis), 60)}; it must be three numbers: {', '.join(AXIS)}")
@@ -136,7 +136,9 @@ def _valid_row(numbers: Sequence[float], axis: object) -> list[float]:
 
 
 def distance_at_once(pair: Pair) -> tuple[float, float] | None:
-    """The distance of an upright pair without ends; None if C is missing or its bounds are farther apart than promised.
+    """Return the distance of an upright pair without ends.
+
+    Return None if C is missing or its bounds are farther apart than promised.
 
     All other pairs have None too: kernel/clearance.py answers them.
     """
@@ -151,7 +153,10 @@ def distance_at_once(pair: Pair) -> tuple[float, float] | None:
 
 
 def _plain(number: Argument) -> Argument:
-    """A scalar of numpy as a number of Python; other values are unchanged. Afterwards C knows numpy's scalar types."""
+    """Return a scalar of numpy as a number of Python.
+
+    Other values are unchanged. Afterwards C knows numpy's scalar types.
+    """
     numpy = sys.modules.get("numpy")  # until something imports it, nothing can be one
     if numpy is None or not isinstance(number, numpy.number):
         return number
@@ -176,7 +181,7 @@ def _looked_at(
     margin: float = 0.0,
     **columns: Argument,
 ) -> Answers:
-    """The exact position of one pair: +1 exterior, 0 contact (tangency included), −1 interior.
+    """Return the exact position of one pair: +1 exterior, 0 contact (tangency included), −1 interior.
 
     position(alpha, gamma, b, d, x, y, z) are the semi-axes and the centre, in one unit; it loads no numpy. `axis` is
     any finite vector ≠ 0 along the spheroid's axis of revolution, of any length; without it the spheroid is upright.

@@ -92,7 +92,9 @@ class Scene(PreparedScene):
         axis: ArrayLike | None = None,
         margin: float = 0.0,
     ) -> Answers:
-        """The exact answer to the scene's question for centres in the scene's coordinates; int8 (n,), an int for one.
+        """Return the exact answer to the scene's question for centres in the scene's coordinates.
+
+        They are int8 (n,), or an int for one centre.
 
         `x`, `y`, `z` are (n,) each or single numbers, or `x` alone are points, (n, 3) or (3,); `heading` is the mover's
         direction in degrees, which places its parts. `axis`, (3,) or (n, 3), is the mover's if the scene says that it
@@ -126,7 +128,7 @@ class Scene(PreparedScene):
         axis: ArrayLike | None,
         margin: float,
     ) -> Positions:
-        """The positions with contact where neither a larger mover nor its distance proves the margin (clearance.py)."""
+        """Return the positions, with contact unless a larger mover or its distance proves the margin (clearance.py)."""
         larger = self._enlarged(checked_margin(margin))
         sure = larger is not None and larger._positions(center, heading, axis) == positions
         sure = np.broadcast_to(sure, positions.shape) & (positions != CONTACT)
@@ -145,7 +147,7 @@ class Scene(PreparedScene):
         axis: ArrayLike | None = None,
         margin: float = 0.0,
     ) -> Answers:
-        """The exact answer to the scene's question for one centre, as classify, at the price of a step.
+        """Return the exact answer to the scene's question for one centre, as classify, at the price of a step.
 
         The centre is three numbers, or a point (3,); many are answered by classify. Raises InputError for numbers that
         are not finite, and for an axis where the scene fixes it.
@@ -202,7 +204,7 @@ class Scene(PreparedScene):
     def first_contact(
         self, path: ArrayLike | Sequence[ArrayLike], heading: ArrayLike = 0.0, *, axis: ArrayLike | None = None
     ) -> FirstContact:
-        """The first contact of the mover on a flight, a polyline of its centre, and its least distance all along.
+        """Return the mover's first contact on a flight, a polyline of its centre, and its least distance all along.
 
         `path` is (T, 3), or many: (k, T, 3), or a list of points (T, 3), in the scene's coordinates. `heading` and
         `axis` are as in passage, one for all, or one for each segment, with the segments of all paths one after the
@@ -231,7 +233,7 @@ class Scene(PreparedScene):
     def show(
         self, path: ArrayLike | None = None, heading: ArrayLike = 0.0, *, axis: ArrayLike | None = None
     ) -> ScenePage:
-        """The scene, and a flight (T, 3) through it, as a page in 3-D: `.save("view.html")`, or a notebook's last line.
+        """Return a page in 3-D of the scene, and of a flight (T, 3): `.save("view.html")`, or a notebook's last line.
 
         It needs a browser and no network: three.js is in it. The flight is drawn with all that the mover sweeps, its
         contacts, and the least distance on each of 240 pieces. Arguments are as in first_contact.
@@ -241,14 +243,14 @@ class Scene(PreparedScene):
 
     @in_default_environment
     def plot(self, path: ArrayLike | None = None, heading: ArrayLike = 0.0, *, axis: ArrayLike | None = None) -> Figure:
-        """Plan and elevation of the scene and a flight (T, 3), a figure of matplotlib: `.savefig("view.pdf")`.
+        """Return plan and elevation of the scene and a flight (T, 3), a figure of matplotlib: `.savefig("view.pdf")`.
 
         Arguments are as in first_contact. Raises UnavailableError where matplotlib is missing.
         """
         return plot_of(self.model, None if path is None else shown_flight(self, path, heading, axis, count_of_pieces=1))
 
     def _least(self, paths: Paths, swept: Swept) -> LeastDistance:
-        """The least distance of each path; segments are counted over all paths."""
+        """Return the least distance of each path; segments are counted over all paths."""
         hit, segments = first_segments(paths, np.unique(swept.query[swept.own]))
         own = measured(self._measure(swept, parts=False), segments)
         clear = np.flatnonzero(~hit[paths.path])
@@ -262,7 +264,7 @@ class Scene(PreparedScene):
         return least
 
     def _swept(self, start: ArrayLike, end: ArrayLike, heading: ArrayLike, axis: ArrayLike | None) -> Swept:
-        """Straight sweeps, and which pairs of them and of hyperboloids have contact."""
+        """Return straight sweeps, and which pairs of them and of hyperboloids have contact."""
         bodies, mover = self._bodies, self.model.mover
         axes = self._axes(axis) if axis is not None or is_tilted(mover.axis) else ()
         starts, ends, headings, *columns = sweeps_of(start, end, heading, axes)
@@ -287,11 +289,11 @@ class Scene(PreparedScene):
         return None if hit and mover.parts else hit
 
     def _first_on(self, start: ArrayLike, end: ArrayLike, heading: ArrayLike, sweep: int) -> First:
-        """The first contact of one sweep that has one, which is prepared now."""
+        """Return the first contact of one sweep that has one, which is prepared now."""
         return self._measure(self._swept(start, end, heading, None))(sweep)
 
     def _measure(self, swept: Swept, *, parts: bool = True) -> Callable[[int], First]:
-        """The function that finds the first contact of a sweep that has one: of the parts, or of the mover itself."""
+        """Return the function that finds the first contact of a sweep that has one, of the parts or of the mover."""
         hits = swept.hits if parts else swept.own
 
         def measure(sweep: int) -> First:
@@ -311,7 +313,7 @@ class Scene(PreparedScene):
         return measure
 
     def _sweeps(self, swept: Swept, sweep: int) -> tuple[Spheroid, list[Spheroid]]:
-        """One sweep of the mover, and those of its parts."""
+        """Return one sweep of the mover, and those of its parts."""
         mover, heading = self.model.mover, float(swept.headings[sweep])
         start, end = swept.starts[sweep].tolist(), swept.ends[sweep].tolist()
         axis = UPRIGHT if swept.movers is None else swept.movers[sweep].tolist()
@@ -325,7 +327,7 @@ class Scene(PreparedScene):
     def nearest(
         self, x: ArrayLike, y: ArrayLike | None = None, z: ArrayLike | None = None, *, axis: ArrayLike | None = None
     ) -> Nearest:
-        """The nearest hyperboloid to the mover, proved bounds of its distance, the nearest point and the normal.
+        """Return the nearest hyperboloid to the mover, proved bounds of its distance, the nearest point and the normal.
 
         `x`, `y`, `z` are (n,) each or single numbers, or `x` alone are points, (n, 3) or (3,); one centre is answered
         by numbers. The distance is Euclidean, from the mover itself, not its parts, to the real surface between its
@@ -347,7 +349,7 @@ class Scene(PreparedScene):
         return scene_nearest.first_of(result) if are_one(center, 0, axis) else result
 
     def _tilted_position(self, centre: Point, heading: float, axis: ArrayLike | None) -> int:
-        """The position where the mover or a hyperboloid is tilted."""
+        """Return the position where the mover or a hyperboloid is tilted."""
         mover_axis = [float(number) for number in self._axes(axis)]
         trouble = trouble_with_axis(mover_axis)
         if trouble is not None:
@@ -356,7 +358,7 @@ class Scene(PreparedScene):
         return self._answer(_OF_RANK[max((_RANK[position] for position in replies), default=0)])
 
     def _tilted_reply(self, index: int, centre: Point, heading: float, axis: list[float]) -> int:
-        """The position of one centre beside one hyperboloid."""
+        """Return the position of one centre beside one hyperboloid."""
         mover = self.model.mover
         reply = position_of(self._numbers(index)[0], (mover.b, mover.d), centre, axis)
         return self._of_parts(index, centre, heading, axis) if reply == CONTACT and mover.parts else reply
@@ -368,7 +370,7 @@ class Scene(PreparedScene):
         return int(position == POSITION_OF[question])
 
     def _axes(self, axis: ArrayLike | None) -> tuple[float, float, float] | tuple[Floats, Floats, Floats]:
-        """The three numbers of the mover's axis: the scene's, or the query's where the scene leaves it free."""
+        """Return the three numbers of the mover's axis: the scene's, or the query's where the scene leaves it free."""
         fixed = self.model.mover.axis
         if fixed != FREE:
             if axis is not None:
@@ -387,7 +389,10 @@ class Scene(PreparedScene):
     def _replies(
         self, query: Indices, body: Indices, centres: Floats, heading: Floats, movers: Floats | None
     ) -> Positions:
-        """The position of each centre beside its hyperboloid; `movers` are the mover's axes if something is tilted."""
+        """Return the position of each centre beside its hyperboloid.
+
+        `movers` are the mover's axes if something is tilted.
+        """
         bodies, mover = self._bodies, self.model.mover
         axes = None if movers is None else movers[query]
         result = positions(bodies, body, (mover.b, mover.d), centres[query], axes, self._limits)
@@ -398,7 +403,7 @@ class Scene(PreparedScene):
         return result
 
     def _of_parts(self, index: int, centre: Sequence[float], heading: float, mover: Sequence[float]) -> int:
-        """The position that all parts of a mover with this axis have in common beside a hyperboloid, else contact."""
+        """Return the position that all parts of a mover with this axis share beside a hyperboloid, else contact."""
         common = CONTACT
         for number, place in enumerate(places_of_parts(self.model.mover.parts, centre, heading, mover)):
             part = self.model.mover.parts[number]
@@ -410,7 +415,7 @@ class Scene(PreparedScene):
 
 
 def _combined(replies: Positions, query: Indices, count: int) -> Positions:
-    """The answer at each centre by the near hyperboloids: contact, else interior, else exterior."""
+    """Return the answer at each centre by the near hyperboloids: contact, else interior, else exterior."""
     rank = np.select([replies == position for position in _RANK], list(_RANK.values()), 0).astype(np.int8)
     highest = np.zeros(count, np.int8)
     np.maximum.at(highest, query, rank)

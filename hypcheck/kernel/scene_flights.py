@@ -66,7 +66,7 @@ class Swept:
 
 
 def paths_of(path: ArrayLike | Sequence[ArrayLike]) -> Paths:
-    """One polyline, points (T, 3), or many: (k, T, 3), or a list of points. Raises InputError.
+    """Return one polyline, points (T, 3), or many: (k, T, 3), or a list of points. Raises InputError.
 
     A path of one point has one segment, which stays there.
     """
@@ -178,7 +178,7 @@ class FirstContact:
 
 
 def _centers(paths: Paths, segment: Indices, time: Floats) -> Floats:
-    """The mover's centre at these times of these segments of the paths, (k, 3); NaN where there is none."""
+    """Return the mover's centre at these times of these segments of the paths, (k, 3); NaN where there is none."""
     place = paths.first[:-1] + np.maximum(segment, 0)
     here, there = paths.starts[place], paths.ends[place]
     centers = np.where((time == 1)[:, None], there, here + time[:, None] * (there - here))
@@ -186,7 +186,7 @@ def _centers(paths: Paths, segment: Indices, time: Floats) -> Floats:
 
 
 def first_segments(paths: Paths, hits: Indices) -> tuple[Mask, Indices]:
-    """A mask of the paths with contact, (k,), and for each of these the number of its first segment with contact.
+    """Return a mask of the paths with contact, (k,), and the first segment with contact of each path that has one.
 
     `hits` are the numbers of all segments that have contact, ascending.
     """
@@ -198,7 +198,7 @@ def first_segments(paths: Paths, hits: Indices) -> tuple[Mask, Indices]:
 
 
 def measured(measure: Callable[[int], First], segments: Indices) -> Passages:
-    """The passages on these segments, all of which have contact."""
+    """Return the passages on these segments, all of which have contact."""
     return Passages(np.ones(len(segments), np.bool_), lambda place: measure(int(segments[place])))
 
 
@@ -234,7 +234,7 @@ def shown_flight(
     axis: ArrayLike | None = None,
     count_of_pieces: int = PIECES,
 ) -> ShownFlight:
-    """The data of a picture of one flight, with the least distance on each of `pieces` pieces.
+    """Return the data of a picture of one flight, with the least distance on each of `pieces` pieces.
 
     Raises InputError as first_contact, and for more flights than one.
     """
@@ -276,7 +276,7 @@ def shown_flight(
 def _least_on(
     scene: Asked, pieces: Sequence[Floats], segments: Sequence[Indices], headings: Floats, axes: Floats | None
 ) -> tuple[Floats, Floats, Indices, Mask]:
-    """Both bounds of the least distance on each piece, the hyperboloid that it is from, and whether there is contact.
+    """Return both bounds of the least distance on each piece, its hyperboloid, and whether there is contact.
 
     Where the mover meets contact, the distance is 0, and the hyperboloid is not determined.
     """
@@ -299,7 +299,7 @@ def _least_on(
 
 
 def _pieces(points: Floats, count: int) -> tuple[list[Floats], list[Indices], Floats]:
-    """The points and segments of each of `count` equally long pieces, and the length flown up to each point."""
+    """Return the points and segments of each of `count` equally long pieces, and the length flown up to each point."""
     steps = np.sqrt((np.diff(points, axis=0) ** 2).sum(axis=1))
     flown = np.append(0.0, np.cumsum(steps))
     if flown[-1] == 0 or not np.isfinite(flown[-1]):

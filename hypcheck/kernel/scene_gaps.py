@@ -58,12 +58,12 @@ class _Pairs:
     upright: Mask
 
     def some(self, index: Indices) -> _Pairs:
-        """The pairs with these indices."""
+        """Return the pairs with these indices."""
         return _Pairs(*(column[index] for column in vars(self).values()))
 
 
 def gaps(sizes: Rows, centres: Rows, axes: Rows | None, spans: Rows, solid: Mask, farthest: Floats) -> Gaps:
-    """The distances of spheroids from walls between two heights, spans (n, 2), and from end discs where they are solid.
+    """Return the distances of spheroids from walls between two heights, spans (n, 2), with end discs if solid.
 
     `sizes` are α, γ, b, d (n, 4); `axes` (n, 3), None where all are upright; `farthest` (n,) are upper bounds.
     """
@@ -84,7 +84,7 @@ def gaps(sizes: Rows, centres: Rows, axes: Rows | None, spans: Rows, solid: Mask
 
 
 def gaps_at(sizes: Rows, centres: Rows, axes: Rows, points: Rows) -> tuple[Floats, Rows]:
-    """The distances (n,) of spheroids from the points (n, 3) of walls at the height of some points, with roundings.
+    """Return the distances (n,) of spheroids from the points (n, 3) of walls at the height of some points.
 
     And those points: they are upper bounds of the distance from the wall.
     """
@@ -97,18 +97,18 @@ def gaps_at(sizes: Rows, centres: Rows, axes: Rows, points: Rows) -> tuple[Float
 
 
 def at_height(rows: Rows, point: Rows, height: Floats) -> Rows:
-    """The points of the hyperboloids at these heights, in the half planes of some points."""
+    """Return the points of the hyperboloids at these heights, in the half planes of some points."""
     share = rows[:, 0] * np.hypot(1, height / rows[:, 1]) / np.hypot(point[:, 0], point[:, 1])
     return np.stack([point[:, 0] * share, point[:, 1] * share, height], axis=1)
 
 
 def _unit_of(sizes: Rows, centres: Rows) -> Indices:
-    """Exponents by which lengths become about 1 at most, as squares overflow."""
+    """Return exponents by which lengths become about 1 at most, as squares overflow."""
     return np.asarray(-np.frexp(np.maximum(np.abs(centres).max(axis=1), sizes[:, 2:].max(axis=1)))[1])
 
 
 def _in_unit(length: Floats, unit_of: Indices, towards: float) -> Floats:
-    """The lengths times 2^−unit_of, rounded towards a side where they are subnormal."""
+    """Return the lengths times 2^−unit_of, rounded towards a side where they are subnormal."""
     result = np.ldexp(length, -unit_of)
     back = np.ldexp(result, unit_of)
     return np.where((back > length) if towards == 0 else (back < length), np.nextafter(result, towards), result)
@@ -142,7 +142,10 @@ def _to_walls(pairs: _Pairs, spans: Rows, farthest: Floats) -> Gaps:
 
 
 def _first_cells(pairs: _Pairs, spans: Rows, farthest: Floats) -> tuple[Indices, Floats]:
-    """The owner of each cell, and its ranges of w and φ, (m, 4); the cells cover every possible nearest point."""
+    """Return the owner of each cell, and its ranges of w and φ, (m, 4).
+
+    The cells cover every possible nearest point.
+    """
     level, far = pairs.centre[:, 2], (farthest + np.maximum(pairs.b, pairs.d)) * (1 + _LOOSE)
     nearest = np.clip(level, *spans.T)
     low, high = np.maximum(spans[:, 0], level - far), np.minimum(spans[:, 1], level + far)
@@ -161,7 +164,7 @@ def _first_cells(pairs: _Pairs, spans: Rows, farthest: Floats) -> tuple[Indices,
 
 
 def _halved(of: _Pairs, owner: Indices, cells: Floats) -> tuple[Indices, Floats]:
-    """Two cells for each, cut across its longer side."""
+    """Return two cells for each, cut across its longer side."""
     tall = (cells[:, 1] - cells[:, 0]) * np.hypot(1, of.alpha / of.gamma)
     wide = (cells[:, 3] - cells[:, 2]) * of.alpha * np.hypot(1, np.abs(cells[:, :2]).max(axis=1) / of.gamma)
     side = np.where(tall >= wide, 0, 2)
@@ -173,7 +176,7 @@ def _halved(of: _Pairs, owner: Indices, cells: Floats) -> tuple[Indices, Floats]
 
 
 def _on_wall(of: _Pairs, w: Floats, turn: Floats) -> Floats:
-    """The points (…, m, 3) at these heights: in the meridian half plane of the centre, or on the ruling at an angle."""
+    """Return the points (…, m, 3) at these heights: in the centre's meridian half plane, or on a ruling."""
     share = w / of.gamma
     if not of.upright.all():
         across, along = np.cos(turn) - share * np.sin(turn), np.sin(turn) + share * np.cos(turn)
@@ -206,7 +209,10 @@ def _try(result: Gaps, of: _Pairs, owner: Indices, place: Floats) -> Floats:
 
 
 def from_spheroids(b: Floats, d: Floats, axes: Rows, offset: Rows) -> tuple[Floats, Rows]:
-    """Distances of points, `offset` (n, 3) from the centres, from spheroids with unit axes (n, 3); and unit normals."""
+    """Return distances of points, `offset` (n, 3) from the centres, from spheroids with unit axes (n, 3).
+
+    Also return unit normals.
+    """
     along = (axes * offset).sum(axis=1)
     across = offset - along[:, None] * axes
     off = np.sqrt((across * across).sum(axis=1))
@@ -229,7 +235,7 @@ def from_spheroids(b: Floats, d: Floats, axes: Rows, offset: Rows) -> tuple[Floa
 
 
 def _least(of: _Pairs, cells: Floats, normal: Floats) -> tuple[Floats, Floats]:
-    """A lower bound of the distance in each cell (m,), and the point (m, 3) that has it along the normal."""
+    """Return a lower bound of the distance in each cell (m,), and the point (m, 3) that has it along the normal."""
     heights = _heights(of, cells, normal)
     points = _on_wall(of, heights[:, None], _turns(of, cells, normal, heights))
     values = (normal * (points - of.centre)).sum(axis=-1).reshape(-1, len(cells))
@@ -243,13 +249,13 @@ def _least(of: _Pairs, cells: Floats, normal: Floats) -> tuple[Floats, Floats]:
 
 
 def _size(of: _Pairs, height: Floats) -> Floats:
-    """The lengths in a bound: of the pair, and of points of the wall up to a height."""
+    """Return the lengths in a bound: of the pair, and of points of the wall up to a height."""
     wall = height + of.alpha * np.hypot(1, height / of.gamma)
     return np.asarray(np.abs(of.centre).sum(axis=1) + of.b + of.d + wall)
 
 
 def _heights(of: _Pairs, cells: Floats, normal: Floats) -> Floats:
-    """Heights (3, m) at one of which the normal's component is least in the cells."""
+    """Return heights (3, m) at one of which the normal's component is least in the cells."""
     x, y, (n_x, n_y, n_z) = of.centre[:, 0], of.centre[:, 1], normal.T
     length = np.hypot(x, y)
     outward = np.where(length > 0, (n_x * x + n_y * y) / length, n_x)
@@ -260,7 +266,7 @@ def _heights(of: _Pairs, cells: Floats, normal: Floats) -> Floats:
 
 
 def _turns(of: _Pairs, cells: Floats, normal: Floats, heights: Floats) -> Floats:
-    """Angles (3, 3, m), three at each height; beside an upright spheroid only one, which has no effect."""
+    """Return angles (3, 3, m), three at each height; beside an upright spheroid only one, which has no effect."""
     if of.upright.all():
         return cells[None, None, :, 2]
     (n_x, n_y, _), share = normal.T, heights / of.gamma

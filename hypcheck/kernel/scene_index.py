@@ -62,7 +62,7 @@ class Bodies:
         return np.asarray((self.axes[:, :2] != 0).any(axis=1))
 
     def one(self, index: int) -> BodyNumbers:
-        """The numbers of one hyperboloid."""
+        """Return the numbers of one hyperboloid."""
         columns = (self.shapes, self.origins, self.axes, self.spans)
         shape, origin, axis, span = (tuple(column[index].tolist()) for column in columns)
         return BodyNumbers(shape, origin, axis, span, bool(self.solid[index]))
@@ -79,7 +79,7 @@ class BodyNumbers(NamedTuple):
 
 
 def bodies_of(hyperboloids: Sequence[Hyperboloid]) -> Bodies:
-    """The columns of these hyperboloids."""
+    """Return the columns of these hyperboloids."""
     table = np.fromiter((number for body in hyperboloids for number in _numbers(body)), np.float64).reshape(-1, 11)
     origins, relative, axes, solid = table[:, 2:5], table[:, 5:7], table[:, 7:10], table[:, 10] != 0
     vertical = (axes[:, :2] == 0).all(axis=1)
@@ -103,7 +103,7 @@ TURNING = 128 * 2.0**-53
 
 
 def frames_of(axes: Floats) -> Floats:
-    """Frames (n, 3, 3): the rows are two unit vectors across an axis and one along it; I where that is vertical.
+    """Return frames (n, 3, 3): the rows are two unit vectors across an axis and one along it; I where that is vertical.
 
     The numbers of the first two rows are within 6 u of those of an exact frame, so that those of their cross product
     are within 20 u. With three products and two sums in floats, each number of a turned vector is off by 24 u of the
@@ -122,13 +122,16 @@ def frames_of(axes: Floats) -> Floats:
 
 
 def turned(frames: Floats, vectors: Floats) -> Floats:
-    """Vectors (n, 3) in frames (n, 3, 3)."""
+    """Return vectors (n, 3) in frames (n, 3, 3)."""
     result: Floats = np.einsum("nij,nj->ni", frames, vectors)
     return result
 
 
 def turned_axes(frames: Floats, axes: Floats | None) -> Floats:
-    """The axes (n, 3) of a mover, None: it is upright, in frames. They are made about 1 long: none is rounded to 0."""
+    """Return the axes (n, 3) of a mover in frames; None means that it is upright.
+
+    They are made about 1 long, so that none is rounded to 0.
+    """
     if axes is None:
         return turned(frames, np.broadcast_to(UPRIGHT, (len(frames), 3)))
     return turned(frames, axes / np.abs(axes).max(axis=1, keepdims=True))
@@ -139,7 +142,10 @@ LEAST = 2.0**-1000
 
 
 def reaches(bodies: Bodies, mover: Mover, height: Span | None) -> Floats:
-    """The reach of each hyperboloid for centres in this span of the scene's z, (m,); inf where they have no end."""
+    """Return the reach of each hyperboloid for centres in this span of the scene's z, (m,).
+
+    It is inf where they have no end.
+    """
     level = bodies.origins[:, 2]
     longest = max(mover.b, mover.d)
     b, d = (longest, longest) if is_tilted(mover.axis) else (mover.b, mover.d)
@@ -155,13 +161,13 @@ def reaches(bodies: Bodies, mover: Mover, height: Span | None) -> Floats:
 
 
 def _farthest(bodies: Bodies, height: Floats, b: float, d: float) -> Floats:
-    """The greatest distance from each axis at which a spheroid at this height can be in contact."""
+    """Return the greatest distance from each axis at which a spheroid at this height can be in contact."""
     share = (height + d) / bodies.shapes[:, 1]
     return np.asarray(bodies.shapes[:, 0] * np.sqrt(1 + share * share) + b)
 
 
 def in_reach(bodies: Bodies, mover: Mover, centre: tuple[float, float, float]) -> NDArray[np.int64]:
-    """The hyperboloids that a mover at this very place can touch."""
+    """Return the hyperboloids that a mover at this very place can touch."""
     x, y, z = centre
     far = reaches(bodies, mover, Span(z, z))
     with np.errstate(all="ignore"):
@@ -195,7 +201,7 @@ class PlaneGrid:
     everywhere: list[int]
 
     def near(self, x: float, y: float) -> Sequence[int]:
-        """The hyperboloids that a mover with its centre at (x, y) can touch, and perhaps others."""
+        """Return the hyperboloids that a mover with its centre at (x, y) can touch, and perhaps others."""
         across, along = x / self.side, y / self.side
         if not (-WIDEST < across < WIDEST and -WIDEST < along < WIDEST):
             return self.everywhere
@@ -217,7 +223,10 @@ class PlaneGrid:
         )
 
     def near_sweep(self, x: float, y: float, x_end: float, y_end: float) -> set[int] | None:
-        """The hyperboloids that may be near a sweep; None if it is too long or too far out for a quick look-up."""
+        """Return the hyperboloids that may be near a sweep.
+
+        Return None if it is too long or too far out for a quick look-up.
+        """
         pad_x, pad_y = PAD * (abs(x) + abs(x_end)), PAD * (abs(y) + abs(y_end))
         across, along = x_end - x, y_end - y
         count = max(abs(across), abs(along)) / self.side
@@ -239,7 +248,7 @@ class PlaneGrid:
         return near
 
     def near_boxes(self, low: Floats, high: Floats) -> tuple[Indices, Indices]:
-        """The hyperboloids of all cells that boxes overlap, but those everywhere: pairs of a box' number and theirs.
+        """Return the hyperboloids in all cells that boxes overlap, without those in every cell: pairs of numbers.
 
         `low` and `high` are the boxes' corners, (n, 2); a pair may come several times.
         """
@@ -249,7 +258,7 @@ class PlaneGrid:
         return box[cell], member
 
     def _members_of(self, column: Indices, row: Indices) -> tuple[Indices, Indices]:
-        """The content of cells: pairs of a cell's number among these (n,) and a hyperboloid's, cell by cell."""
+        """Return the content of cells: pairs of a cell's number among these (n,) and a hyperboloid's, cell by cell."""
         place = hashed(column, row, len(self.starts) - 1)
         starts, members = np.frombuffer(self.starts, np.intc), np.frombuffer(self.members, np.intc)
         first = starts[place].astype(np.int64)
@@ -259,12 +268,12 @@ class PlaneGrid:
 
 
 def _counted(counts: Indices) -> Indices:
-    """0, 1, 2, … for each of the counts, one after the other."""
+    """Return 0, 1, 2, … for each of the counts, one after the other."""
     return np.asarray(np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts))
 
 
 def grid_of(x: Floats, y: Floats, reaches: Floats) -> PlaneGrid:
-    """The grid of hyperboloids at (x, y) with these reaches, (m,) each; its cells are as wide as most reach."""
+    """Return the grid of hyperboloids at (x, y) with these reaches, (m,) each; its cells are as wide as most reach."""
     finite = reaches[np.isfinite(reaches)]
     with np.errstate(over="ignore"):  # one cell that holds everything
         side = float(2 * np.median(finite)) if len(finite) else 1.0
@@ -280,7 +289,7 @@ def grid_of(x: Floats, y: Floats, reaches: Floats) -> PlaneGrid:
 
 
 def cells_of(x: Floats, y: Floats, reaches: Floats, side: float) -> tuple[Indices, Indices, list[int]]:
-    """Columns and rows of the cells that hyperboloids at (x, y) occupy, and a mask of those that occupy too many."""
+    """Return columns and rows of the cells that hyperboloids at (x, y) occupy, and a mask of those with too many."""
     columns, rows, _, everywhere = _cells_of(x, y, reaches, side)
     return columns, rows, everywhere
 
@@ -298,7 +307,7 @@ def _cells_of(x: Floats, y: Floats, reaches: Floats, side: float) -> tuple[Indic
 def _entries(
     low_x: Floats, high_x: Floats, low_y: Floats, high_y: Floats, chosen: Indices
 ) -> tuple[Indices, Indices, Indices]:
-    """Column, row and hyperboloid for each cell that a chosen hyperboloid occupies."""
+    """Return column, row and hyperboloid for each cell that a chosen hyperboloid occupies."""
     across = (high_x[chosen] - low_x[chosen]).astype(np.int64) + 1
     along = (high_y[chosen] - low_y[chosen]).astype(np.int64) + 1
     counts = across * along
@@ -310,12 +319,12 @@ def _entries(
 
 
 def hashed(column: Indices, row: Indices, size: int) -> Indices:
-    """The places of cells in a table of that size."""
+    """Return the places of cells in a table of that size."""
     return np.asarray((column * ACROSS ^ row * ALONG) & (size - 1))
 
 
 def packed(numbers: NDArray[np.integer[Any]]) -> array[int]:
-    """The numbers as an array that Python indexes without making numpy's scalars of them."""
+    """Return the numbers as an array that Python indexes without making numpy's scalars of them."""
     return array("i", numbers.astype(np.intc).tobytes())
 
 
@@ -336,7 +345,7 @@ AT_A_TIME = 1 << 15
 def near_sweeps(
     bodies: Bodies, mover: Mover, region: Span | None, grid: PlaneGrid, reach: Floats, starts: Rows, ends: Rows
 ) -> tuple[Indices, Indices]:
-    """The hyperboloids that must be tested for sweeps (n, 3): sorted pairs of a sweep's number and a hyperboloid's.
+    """Return the hyperboloids to test for sweeps (n, 3): sorted pairs of a sweep's and a hyperboloid's number.
 
     `grid` and `reach` are those of the bodies for centres in this span of z.
     """
@@ -367,7 +376,7 @@ def near_sweeps(
 
 
 def _pieces_of(grid: PlaneGrid, starts: Rows, ends: Rows) -> Indices:
-    """The number of pieces of each sweep, (n, 3); 0 for a sweep that is looked up alone.
+    """Return the number of pieces of each sweep, (n, 3); 0 for a sweep that is looked up alone.
 
     That is also one so far out that the padding of a piece, for its rounding, is wider than a cell.
     """
@@ -378,19 +387,19 @@ def _pieces_of(grid: PlaneGrid, starts: Rows, ends: Rows) -> Indices:
 
 
 def _padding(here: Floats, there: Floats) -> Floats:
-    """An upper bound of the rounding errors of the ends of a piece, in each coordinate."""
+    """Return an upper bound of the rounding errors of the ends of a piece, in each coordinate."""
     return PAD * (np.abs(here) + np.abs(there))
 
 
 def in_batches(grid: PlaneGrid, pieces: Indices) -> list[slice]:
-    """Consecutive sweeps, of these numbers of pieces, that are few enough to be looked up together."""
+    """Return consecutive sweeps, of these numbers of pieces, that are few enough to be looked up together."""
     batch = np.cumsum(pieces + len(grid.everywhere)) // AT_A_TIME
     bounds = [0, *(np.flatnonzero(np.diff(batch)) + 1).tolist(), len(pieces)]
     return [slice(first, last) for first, last in pairwise(bounds)]
 
 
 def _beside_pieces(grid: PlaneGrid, starts: Rows, ends: Rows, pieces: Indices) -> tuple[Indices, Indices]:
-    """The hyperboloids that may be near sweeps (n, 3) with pieces: pairs of a sweep's number and a hyperboloid's."""
+    """Return the hyperboloids that may be near sweeps (n, 3): pairs of a sweep's and a hyperboloid's number."""
     cut = np.flatnonzero(pieces)
     sweep = np.repeat(cut, pieces[cut])
     here, there = starts[sweep, :2], ends[sweep, :2]

@@ -42,13 +42,13 @@ _ROUNDS, _MOST_PIECES = 200, 1 << 18
 """If more pieces than this would have to be tested, the bounds are not narrowed further."""
 
 _FEW = 8
-"""Sweeps that are decided exactly where bounds do not decide; each takes some milliseconds."""
+"""At most so many sweeps that bounds leave open are decided exactly; each takes some milliseconds."""
 
 _LOOKED_AT = 1 << 12
-"""Segments of a flight from which a first upper bound is taken."""
+"""From about so many segments of a flight a first upper bound is taken."""
 
 _AT_A_TIME = 1 << 20
-"""Pairs that are looked up together."""
+"""So many pairs are looked up together."""
 
 
 @dataclass(frozen=True)
@@ -112,9 +112,11 @@ class _Places:
 
 @dataclass(frozen=True)
 class _Search:
-    """The query: flights in a scene; `length` (n + 1,) is the length before each segment, with an error of `loose`.
+    """The query: flights in a scene, with `grid` and `reach` of the scene.
 
-    `width` (k,): how far apart the bounds of the distance are at the place where each flight's least is reached so far.
+    The reach of a hyperboloid is the distance from its axis beyond which the mover is exterior. `length` (n + 1,) is
+    how long all flights are before each segment, with an error of at most `loose`. `width` (k,) is, for each flight,
+    how far apart the bounds of the distance are at the place of the least upper bound so far.
     """
 
     bodies: Bodies
@@ -133,7 +135,7 @@ class _Search:
         return None if self.flights.axes is None else self.flights.axes[segment]
 
     def places(self, pieces: _Pieces) -> _Places:
-        """The middle of each piece, or a corner of the flight near it."""
+        """Return the middle of each piece, or a corner of the flight near it."""
         alone = pieces.first == pieces.last
         segment = (pieces.first + pieces.last + 1) // 2
         time = np.where(alone, (pieces.begin + pieces.end) / 2, 0.0)
@@ -151,10 +153,11 @@ class _Search:
 def least_distances(
     bodies: Bodies, mover: Mover, grid: PlaneGrid, reach: Floats, flights: Flights, count: int
 ) -> LeastDistance:
-    """The least distances of `count` flights, of which those that have segments here are clear of all hyperboloids.
+    """Compute the least distances of `count` flights. All segments in `flights` must be clear of all hyperboloids.
 
-    Of others, and where numbers overflow, nothing is known: the bounds are 0 and inf. `grid` and `reach` are those of
-    the scene. Segments are counted over all flights, −1 for none, and `center` is not known yet.
+    A flight without segments here gets the bounds 0 and inf, and so does one whose numbers overflow. `grid` and `reach`
+    are those of the scene. In the result `segment` is the number in `flights`, −1 for none, and `center` is not filled
+    in yet.
     """
     nowhere = np.full(count, -1)
     least = LeastDistance(
@@ -177,7 +180,10 @@ def least_distances(
 
 
 def _reach_some(search: _Search, least: LeastDistance) -> None:
-    """An upper bound for each flight: from a place near a hyperboloid, looked for farther and farther away."""
+    """Set an upper bound for each flight, at a place near a hyperboloid.
+
+    Hyperboloids are looked for within a distance that doubles until each flight has one.
+    """
     flights, within = search.flights.flight, 0.0
     left, begin, counts = np.unique(flights, return_index=True, return_counts=True)
     number = np.arange(len(flights)) - np.repeat(begin, counts)
@@ -197,7 +203,7 @@ def _reach_some(search: _Search, least: LeastDistance) -> None:
 
 
 def _narrow(search: _Search, least: LeastDistance, wanted: Indices) -> None:
-    """Both bounds of these flights, whose upper bounds are alike."""
+    """Narrow both bounds of these flights, whose upper bounds have the same exponent."""
     segments = np.flatnonzero(np.isin(search.flights.flight, wanted))
     pieces = _near_pieces(search, segments, float(least.distance_upper[wanted].max()), least.distance_upper)
     floor, size = least.distance_upper.copy(), max(search.mover.b, search.mover.d)
@@ -243,7 +249,10 @@ def _ask(search: _Search, least: LeastDistance, pieces: _Pieces) -> tuple[_Place
 
 
 def _half_widths(mover: Mover, axes: Rows | None, offset: Rows) -> Floats:
-    """Half of how wide the mover is along its gaps to points, `offset` (n, 3) from its centre; b where unknown."""
+    """Return half of how wide the mover is along its gaps to points, `offset` (n, 3) from its centre.
+
+    It is b where it is not known.
+    """
     with np.errstate(all="ignore"):
         unit = np.tile(UPRIGHT, (len(offset), 1)) if axes is None else unit_vectors(axes)
         b, d = np.full(len(offset), mover.b), np.full(len(offset), mover.d)
@@ -276,7 +285,7 @@ def _proved(search: _Search, pieces: _Pieces, target: Floats, half: Floats) -> M
 
 
 def _halved(pieces: _Pieces) -> _Pieces:
-    """Two halves of each piece; for a whole segment also its two ends, as pieces of length 0."""
+    """Return two halves of each piece; for a whole segment also its two ends, as pieces of length 0."""
     alone = pieces.first == pieces.last
     whole = pieces.some(alone & (pieces.begin == 0) & (pieces.end == 1))
     segment, middle = (pieces.first + pieces.last + 1) // 2, (pieces.begin + pieces.end) / 2
@@ -295,7 +304,7 @@ def _joined(several: Sequence[_Pieces]) -> _Pieces:
 
 
 def _near_pieces(search: _Search, segments: Indices, within: float, most: Floats) -> _Pieces:
-    """Pieces, one or several of these segments, each with all hyperboloids that may be `within` that distance.
+    """Return pieces, one or several of these segments, each with all hyperboloids that may be `within` that distance.
 
     Those whose cylinder is farther from a piece than its flight's `most` (k,) are left out.
     """
@@ -326,7 +335,7 @@ def _near_pieces(search: _Search, segments: Indices, within: float, most: Floats
 
 
 def _looked_up(search: _Search, low: Floats, high: Floats, by_cells: Mask) -> tuple[Indices, Indices]:
-    """Pairs of the numbers of a box and of a hyperboloid: those in the cells of the box, or all."""
+    """Return pairs of the numbers of a box and of a hyperboloid: those in the cells of the box, or all."""
     bodies, grid = search.bodies, search.grid
     some, others = np.flatnonzero(by_cells), np.flatnonzero(~by_cells)
     box, body = grid.near_boxes(low[some], high[some])
@@ -348,7 +357,7 @@ def _worth_asking(search: _Search, first: Indices, last: Indices, body: Indices,
 
 
 def _longer_reach(search: _Search, within: float, height: Span) -> float:
-    """The length by which the grid's reach must grow to find all hyperboloids `within` a distance of the mover."""
+    """Return by how much the grid's reach must grow to find all hyperboloids `within` a distance of the mover."""
     mover = search.mover
     larger = Mover((mover.b + within) * OUTWARD, (mover.d + within) * OUTWARD, axis=mover.axis)
     far = reaches(search.bodies, larger, height)
@@ -358,5 +367,5 @@ def _longer_reach(search: _Search, within: float, height: Span) -> float:
 
 
 def _cylinder_bounds(search: _Search, body: Indices, place: _Places, most: Floats) -> Floats:
-    """A lower bound of the distance of each place (n,), or of `most` (n,) and twice the piece's radius."""
+    """Return a lower bound of the distance of each place (n,), or of `most` (n,) and twice the piece's radius."""
     return cylinder_bounds(search.bodies, body, search.mover, place.centre.T, most + 2 * place.radius)

@@ -37,7 +37,7 @@ Line = tuple[float, float]
 
 
 def thresholds(lines: dict[str, Line | None], reach: float) -> dict[str, float] | None:
-    """The inputs of the program PARALLEL_LINES but R and T, and `reach` as its T must not exceed it.
+    """Return the inputs of the program PARALLEL_LINES but R and T, and `reach` as its T must not exceed it.
 
     `lines` has beyond, under, within and above, None for a line that proves nothing; they hold for T in [0, `reach`].
     None where single precision has no room for the scene.
@@ -61,7 +61,7 @@ def _slope(line: Line | None) -> float:
 
 
 def _threshold(line: Line | None, M: float, reach: float, side: int) -> float:
-    """The threshold of R − M T: above it (side 1) or below it (side −1) the exact place is on that side of the line."""
+    """Return the threshold of R − M T above which (side 1) or below which (−1) the exact place is beyond the line."""
     if line is None:
         return side * inf
     at_ends = line[0], line[0] + (line[1] - M) * reach
@@ -102,7 +102,10 @@ class SceneLines:
 
 
 def lines_of(sizes: Sizes, z: Floats) -> SceneLines | None:
-    """Lines for valid sizes and heights like those of `z`; None where the sizes are beyond what the margins allow."""
+    """Return lines for valid sizes and heights like those of `z`.
+
+    Return None where the sizes are beyond what the margins allow.
+    """
     if not all(LEAST_SIZE < size < GREATEST_SIZE for size in sizes):
         return None
     heights = _heights(z)
@@ -130,7 +133,9 @@ def lines_of(sizes: Sizes, z: Floats) -> SceneLines | None:
 
 
 def _heights(z: Floats) -> tuple[float, float, float]:
-    """0, a height below most of the sample or about the middle, one above nearly all of it; their squares are exact.
+    """Return 0, a height below most of the sample or about the middle, one above nearly all of it.
+
+    Their squares are exact.
 
     The last is not 0: T ≤ reach must not hold for heights whose squares have underflowed.
     """
@@ -142,14 +147,14 @@ def _heights(z: Floats) -> tuple[float, float, float]:
 
 
 def shortened(value: float, *, up: bool) -> float:
-    """The value cut, or raised, to 25 significant bits: its square is a float64."""
+    """Return the value cut, or raised, to 25 significant bits: its square is a float64."""
     mantissa, exponent = math.frexp(value)
     whole = mantissa * 2**25
     return math.ldexp(math.ceil(whole) if up else math.floor(whole), exponent - 25)
 
 
 def multiplier(sizes: Sizes, T: float, side: int) -> float:
-    """About where (A+λ)(1+1/λ) + Q(A+λ)/(B−λ) is least (side 1), or with −μ for λ greatest (side −1)."""
+    """Return about the λ where (A+λ)(1+1/λ) + Q(A+λ)/(B−λ) is least (side 1), or with −μ for λ greatest (side −1)."""
     A, B, Q = _ratios(sizes, T)
     low, high = 0.0, min(math.sqrt(A), B) if side > 0 else math.sqrt(A)
     for _ in range(20):
@@ -162,7 +167,7 @@ def multiplier(sizes: Sizes, T: float, side: int) -> float:
 
 
 def parallel_multiplier(sizes: Sizes, chord: Line | None, height: float, side: int) -> float:
-    """λ (side 1) or μ (side −1) of the tangent parallel to the chord; without a chord, of that at the height."""
+    """Return λ (side 1) or μ (side −1) of the tangent parallel to the chord; without a chord, of that at the height."""
     if chord is not None:
         A, B, Q_slope = _ratios(sizes, 1.0)
         slope = chord[1] / (Q_slope * sizes[2] ** 2)  # (A+λ)/(B−λ), or (A−μ)/(B+μ)
@@ -178,7 +183,7 @@ def _ratios(sizes: Sizes, T: float) -> tuple[float, float, float]:
 
 
 def _known_point(sizes: Sizes, height: float, side: int) -> KnownPlace | None:
-    """A point close to the edge at that height whose position is not exterior (side 1), or not interior (side −1)."""
+    """Return a point near the edge at that height whose position is not exterior (side 1), or not interior (−1)."""
     A, B, Q = _ratios(sizes, height**2)
     at = side * multiplier(sizes, height**2, side)
     edge = (A + at) * (1 + 1 / at) + Q * (A + at) / (B - at)
@@ -204,7 +209,7 @@ def _within(sizes: Sizes, mu: float) -> Line | None:
 
 
 def _chord(side: str, first: KnownPlace | None, last: KnownPlace | None) -> Line | None:
-    """A line below (under) or above the chord of the points, found roughly and then checked at both."""
+    """Return a line below (under) or above the chord of the points, found roughly and then checked at both."""
     if first is None or last is None:
         return None
     slope = (last.R - first.R) / (last.T - first.T) if last.T > first.T else 0.0

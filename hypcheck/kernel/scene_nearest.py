@@ -74,13 +74,13 @@ class Nearest:
 
 
 def first_of(result: Nearest) -> Nearest:
-    """The result for the first centre, with numbers instead of arrays (n,)."""
+    """Return the result for the first centre, with numbers instead of arrays (n,)."""
     first = [getattr(result, part.name)[0] for part in fields(Nearest)]
     return Nearest(*(value if np.ndim(value) else value.item() for value in first))
 
 
 def nearest(bodies: Bodies, mover: Mover, centres: Floats, axes: Floats | None) -> Nearest:
-    """The nearest of all hyperboloids to a mover at centres (n, 3), with axes (n, 3); None: it is upright."""
+    """Return the nearest of all hyperboloids to a mover at centres (n, 3), with axes (n, 3); None: it is upright."""
     count, some = len(centres), max(1, PAIRS_AT_A_TIME // len(bodies.tall))
     result = Nearest(
         np.zeros(count, np.intp), np.zeros(count, np.bool_), np.full(count, np.inf), np.full(count, np.inf),
@@ -93,7 +93,7 @@ def nearest(bodies: Bodies, mover: Mover, centres: Floats, axes: Floats | None) 
 
 
 def _normals(result: Nearest, mover: Mover, centres: Floats, axes: Floats | None) -> Floats:
-    """The unit vectors from the points to movers at these centres: in the scene, where only the mover matters."""
+    """Return the unit vectors from the points to movers at these centres, in the scene's coordinates."""
     rows = np.zeros((len(centres), len(TILTED_COLUMNS)))
     rows[:, 2:4], rows[:, 7:] = (mover.b, mover.d), UPRIGHT if axes is None else axes
     with np.errstate(over="ignore", invalid="ignore"):
@@ -144,7 +144,7 @@ def _ask(result: Nearest, bodies: Bodies, mover: Mover, movers: Movers, query: I
 def distances(
     bodies: Bodies, mover: Mover, centres: Floats, axes: Floats | None, pairs: tuple[Indices, Indices], most: Floats
 ) -> tuple[Floats, Floats, Floats]:
-    """Bounds of the distances of movers from hyperboloids, and points of these, in the scene, for the upper bounds.
+    """Return bounds of the distances of movers from hyperboloids, and points of these for the upper bounds.
 
     `pairs` are numbers of groups, each of which wants its least distance alone, and of hyperboloids, (n,) for centres
     (n, 3); `most` are upper bounds of what the groups want. Bounds above that may be loose. Contact is not decided.
@@ -156,6 +156,7 @@ def distances(
 
 
 def _distances(pairs: _Pairs, group: Indices, most: Floats) -> tuple[Floats, Floats, Floats]:
+    """Return the same of prepared pairs, with the points in the hyperboloids' frames."""
     low, high, point, unsure = _to_wholes(pairs)
     most = most.copy()
     np.minimum.at(most, group, high)
@@ -166,7 +167,7 @@ def _distances(pairs: _Pairs, group: Indices, most: Floats) -> tuple[Floats, Flo
 def cylinder_bounds(
     bodies: Bodies, body: Indices | slice, mover: Mover, centre: Floats | Sequence[Floats], most: Floats | None = None
 ) -> Floats:
-    """A lower bound of each distance, by a cylinder around the hyperboloid between its ends.
+    """Return a lower bound of each distance, by a cylinder around the hyperboloid between its ends.
 
     `centre` are the mover's x, y, z in the scene: columns for the hyperboloids `body` (m,) of these, or (n, 1) for all
     pairs (n, m) of a place and one of them. With `most`, lengths for the pairs, the cylinder is no wider than the
@@ -224,7 +225,7 @@ class _Pairs:
         return self.rows[:, len(COLUMNS) :] if PAIRS.has_axis(self.rows) else None
 
     def in_scene(self, point: Floats) -> Floats:
-        """Points of the frames (n, 3) in the scene; NaN for those beyond."""
+        """Return points of the frames (n, 3) in the scene; NaN for those beyond."""
         turned_back = point if self.frames is None else turned(self.frames.transpose(0, 2, 1), point)
         return np.where(self.beyond[:, None], np.nan, turned_back + self.bodies.origins[self.body])
 
@@ -249,7 +250,7 @@ def _pairs_of(bodies: Bodies, mover: Mover, centres: Floats, axes: Floats | None
 
 
 def _to_wholes(pairs: _Pairs) -> tuple[Floats, Floats, Floats, Mask]:
-    """Bounds of the distances by those to whole hyperboloids, points for the upper ones, and where more is needed."""
+    """Return bounds of the distances by those to whole hyperboloids, points for the upper ones, a mask of the rest."""
     rows, rounded, (bottom, top) = pairs.rows, pairs.rounded, pairs.spans.T
     wholes = clearances_without_ends(rows)
     with np.errstate(all="ignore"):
@@ -299,7 +300,7 @@ def _decide_contact(pairs: _Pairs, low: Floats, high: Floats) -> None:
 
 
 def _reached(mover: Mover, axes: Floats | None, offset: Rows) -> Floats:
-    """Upper bounds of the distances of movers with axes (n, 3) from points, `offset` (n, 3) from their centres."""
+    """Return upper bounds of distances of movers with axes (n, 3) from points `offset` (n, 3) from their centres."""
     length = _length(offset)
     if axes is None:
         across, along = np.hypot(offset[:, 0], offset[:, 1]), offset[:, 2]
@@ -312,6 +313,6 @@ def _reached(mover: Mover, axes: Floats | None, offset: Rows) -> Floats:
 
 
 def _length(vectors: Rows) -> Floats:
-    """The lengths of vectors (n, 3), whose squares may overflow."""
+    """Return the lengths of vectors (n, 3), whose squares may overflow."""
     length: Floats = np.hypot(np.hypot(vectors[:, 0], vectors[:, 1]), vectors[:, 2])
     return length

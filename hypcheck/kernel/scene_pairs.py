@@ -68,7 +68,7 @@ LEAST, GREATEST = 2.0**-200, 2.0**200
 
 
 def positions_beside(sizes: Rows, centres: Rows, origins: Rows, movers: Rows | None = None) -> Positions:
-    """The exact position of each mover beside an upright hyperboloid, int8 (n,).
+    """Return the exact position of each mover beside an upright hyperboloid, int8 (n,).
 
     `sizes` are (n, 4), both centres (n, 3) in the scene's coordinates, the movers' axes (n, 3); None: all are upright.
     """
@@ -88,7 +88,7 @@ def positions_beside(sizes: Rows, centres: Rows, origins: Rows, movers: Rows | N
 
 
 def _between(sizes: Rows, place: Rows, lost: Floats) -> tuple[Positions, Mask]:
-    """The positions about rounded differences that lost so much, and a mask of those that it leaves open."""
+    """Return the positions about rounded differences that lost so much, and a mask of those that it leaves open."""
     larger, smaller, fits = larger_and_smaller(sizes[:, 2:], lost)
     outer, inner = (
         classify(np.concatenate([sizes[fits, :2], semi_axes[fits], place[fits]], axis=1))
@@ -100,7 +100,7 @@ def _between(sizes: Rows, place: Rows, lost: Floats) -> tuple[Positions, Mask]:
 
 
 def larger_and_smaller(semi_axes: Rows, lost: Floats) -> tuple[Floats, Floats, Mask]:
-    """The semi-axes (n, 2), longer and shorter by what differences of centres lost, and where both are as they must be.
+    """Return the semi-axes (n, 2), longer and shorter by what differences of centres lost, and a mask of usable ones.
 
     That is nowhere where a difference has overflowed: then nobody knows what it lost, which is NaN.
     """
@@ -120,7 +120,7 @@ def position_beside(
     z: float,
     axis: Sequence[float] | None = None,
 ) -> int:
-    """The exact position of a spheroid at (x, y, z): as positions_beside has it, of one pair."""
+    """Return the exact position of a spheroid at (x, y, z): as positions_beside has it, of one pair."""
     (alpha, gamma), (there_x, there_y, there_z) = shape, origin
     across, along, up = x - there_x, y - there_y, z - there_z
     # TwoSum: what the differences have lost together; 0 where they are exact, NaN where that is not known.
@@ -150,14 +150,14 @@ Parts: TypeAlias = Any
 
 
 def _where(condition: Any, value: Any, otherwise: Any) -> Any:  # noqa: ANN401 - a number, or a column
-    """One value where the condition holds, else the other one."""
+    """Return one value where the condition holds, else the other one."""
     if isinstance(condition, np.ndarray):
         return np.where(condition, value, otherwise)
     return value if condition else otherwise
 
 
 def along_and_across(centre: Parts, origin: Parts, axis: Parts) -> tuple[Any, Any, Any]:
-    """A centre's height along an axis and its distance from it, and a bound of the error of both; nan: not known."""
+    """Return a centre's height along an axis, its distance from it, and a bound of both errors, nan if not known."""
     (u, v, w), (x, y, z), (here_x, here_y, here_z) = axis, centre, origin
     size = abs(x) + abs(y) + abs(z) + abs(here_x) + abs(here_y) + abs(here_z)
     largest = abs(u) + abs(v) + abs(w)
@@ -183,7 +183,7 @@ def _by_ball(sizes: Parts, centre: Parts, origin: Parts, axis: Parts) -> tuple[A
 
 
 def tilted_positions(sizes: Rows, centres: Rows, origins: Rows, movers: Rows, axes: Rows) -> Positions:
-    """The exact position of each mover, int8 (n,): sizes (n, 4), both centres and both axes (n, 3)."""
+    """Return the exact position of each mover, int8 (n,): sizes (n, 4), both centres and both axes (n, 3)."""
     tilted = (axes[:, :2] != 0).any(axis=1)
     result = np.empty(len(sizes), np.int8)
     result[~tilted] = positions_beside(*(column[~tilted] for column in (sizes, centres, origins, movers)))
@@ -240,7 +240,7 @@ def positions(
     movers: Rows | None,
     limits: Floats | None = None,
 ) -> Positions:
-    """The exact positions of a mover at centres (n, 3) beside hyperboloids, `body` (n,) of these; int8 (n,).
+    """Return the exact positions of a mover at centres (n, 3) beside hyperboloids, `body` (n,) of these; int8 (n,).
 
     `movers` (n, 3) are its axes there; None: it and all of these hyperboloids are upright. `limits` are those of
     limits_of for the mover: they spare pairs.
@@ -276,7 +276,7 @@ def position_of(
 def position_with_ends(
     whole: int, body: BodyNumbers, semi_axes: tuple[float, float], centre: Sequence[float], mover: Sequence[float]
 ) -> int:
-    """The position of a mover, with this axis, from that beside the whole hyperboloid."""
+    """Return the position of a mover, with this axis, from that beside the whole hyperboloid."""
     pair = (*body.shape, *semi_axes), centre, body.origin, mover, body.axis
     place, exterior, known, _, _ = _by_bounds(whole, pair, body.span, body.solid)
     if exterior:
@@ -291,7 +291,7 @@ Pair = tuple[Parts, Parts, Parts, Parts, Parts]
 
 
 def _by_bounds(whole: Any, pair: Pair, span: Parts, solid: Any) -> tuple[_Place, Any, Any, Any, Any]:  # noqa: ANN401
-    """The mover's place; whether it is surely exterior, and else surely as beside the whole hyperboloid.
+    """Return the mover's place; whether it is surely exterior, and else surely as beside the whole hyperboloid.
 
     The second is without contact, which crosses() of the place may prove. Then whether the mover's centre surely lies
     between the ends, and beyond one. All four are truth values, or masks (n,).
@@ -346,7 +346,7 @@ def _ended_exactly(whole: int, pair: Pair, span: Sequence[float], solid: float) 
 
 
 def _by_kernel(rows: Rows, centres: Rows, origins: Rows, inner: Mask, outer: Mask) -> Positions:
-    """Positions beside vertical hyperboloids by the kernel, 2 if it does not decide; rows lack the centres' columns.
+    """Return positions beside vertical hyperboloids by the kernel, 2 if undecided; rows lack the centres' columns.
 
     It is asked about a spheroid that contains the exact one, and about one within it. What is clear of the wall lies on
     the side of its centre, which counts where it is surely between the ends (`inner`), or beyond one (`outer`).
@@ -374,7 +374,7 @@ Numbers = tuple[BodyNumbers, Limits]
 
 
 def limits_of(bodies: Bodies, mover: Mover) -> Floats:
-    """Four heights of a mover's centre in the scene for each hyperboloid, (m, 4).
+    """Return four heights of a mover's centre in the scene for each hyperboloid, (m, 4).
 
     Below the first and above the second the mover lies beyond an end; from the third to the fourth it lies between the
     ends. Of a tilted hyperboloid with ends nothing is known so.

@@ -60,13 +60,13 @@ class PreparedScene:
     @classmethod
     @in_default_environment
     def from_toml(cls, path: str | os.PathLike[str]) -> Self:
-        """The scene in a file, or a shipped scene by its name. Raises InputError naming key and line."""
+        """Return the scene in a file, or a shipped scene by its name. Raises InputError naming key and line."""
         return cls(read_scene(os.fspath(path)))
 
     @classmethod
     @in_default_environment
     def from_text(cls, text: str) -> Self:
-        """The scene that a TOML text describes. Raises InputError naming key and line."""
+        """Return the scene that a TOML text describes. Raises InputError naming key and line."""
         if not isinstance(text, str):
             raise InputError(f"the scene is of type {type(text).__name__}; it must be a text")
         return cls(parse_scene(text))
@@ -89,7 +89,7 @@ class PreparedScene:
         region: Region = Region(),  # noqa: B008 - it is frozen
         name: str = "scene",
     ) -> Self:
-        """The scene of hyperboloids in arrays: numbers and columns (n,) are broadcast.
+        """Return the scene of hyperboloids in arrays: numbers and columns (n,) are broadcast.
 
         `alpha` and `gamma` are the semi-axes, `center` (n, 3) their centres in the scene, `axis` (n, 3) or (3,)
         their axes, upright without. `mover` is a Mover, or its two semi-axes b, d. Hyperboloids end at the heights
@@ -106,7 +106,9 @@ class PreparedScene:
         return cls(SceneModel(name, question, bodies, arrays.mover_of(mover), region))
 
     def with_hyperboloid(self, hyperboloid: Hyperboloid) -> Self:
-        """The scene with one more hyperboloid, the last; of 10⁵ hyperboloids, a hundredth of the cost of a new scene.
+        """Return the scene with one more hyperboloid, the last.
+
+        With 10⁵ hyperboloids this costs a hundredth of a new scene.
 
         Raises InputError where a number of it is not valid, or its name is taken.
 
@@ -120,7 +122,7 @@ class PreparedScene:
         return self._changed((*model.hyperboloids, body), len(model.hyperboloids), bodies_of([body]), added=True)
 
     def moved(self, which: int | str, center: ArrayLike, axis: ArrayLike | None = None) -> Self:
-        """The scene with one hyperboloid, by its number or name, at another centre, and with another axis if given."""
+        """Return the scene with one hyperboloid, by number or name, at another centre, perhaps with another axis."""
         place, model = self._place(which), self.model
         new = replace(model.hyperboloids[place], center=arrays.point_of("center", center))
         new = new if axis is None else replace(new, axis=arrays.point_of("axis", axis))
@@ -129,7 +131,10 @@ class PreparedScene:
         return self._changed(others, place, bodies_of([body]), added=False)
 
     def without(self, which: int | str) -> Self:
-        """The scene without one hyperboloid, by number or name; the numbers of all later ones are lower by one."""
+        """Return the scene without one hyperboloid, by number or name.
+
+        The numbers of all later ones are lower by one.
+        """
         place, model = self._place(which), self.model
         if len(model.hyperboloids) == 1:
             raise InputError(arrays.NO_HYPERBOLOID)
@@ -158,7 +163,7 @@ class PreparedScene:
         return self._with(replace(self.model, hyperboloids=others), bodies, patched)
 
     def _with(self, model: SceneModel, bodies: Bodies, grid: PlaneGrid | None) -> Self:
-        """The scene of a model, with data that are already prepared, and without a check.
+        """Return the scene of a model, with data that are already prepared, and without a check.
 
         The parts of a mover that is larger by a margin may reach beyond it.
         """
@@ -169,7 +174,10 @@ class PreparedScene:
         return scene
 
     def _enlarged(self, margin: float) -> Self | None:
-        """The scene with a mover that contains all points within the margin of this one; None if it overflows."""
+        """Return the scene with a mover that contains all points within the margin of this one.
+
+        None if it overflows.
+        """
         if margin not in self._of_margins:
             mover = self.model.mover
             b, d = enlarged(mover.b, mover.d, margin)
@@ -192,7 +200,7 @@ class PreparedScene:
         return self._grid.near(x, y)
 
     def _pairs(self, centres: Floats) -> tuple[Indices, Indices]:
-        """The pairs of hyperboloids and centres that must be decided."""
+        """Return the pairs of hyperboloids and centres that must be decided."""
         height = self.model.region.z
         if height is None or ((centres[:, 2] >= height.low) & (centres[:, 2] <= height.high)).all():
             return self._grid.near_each(centres[:, 0], centres[:, 1])
@@ -201,7 +209,7 @@ class PreparedScene:
         return np.repeat(np.arange(len(centres)), counts), np.array(list(chain.from_iterable(near)), np.int64)
 
     def _numbers(self, index: int) -> Numbers:
-        """A hyperboloid's numbers and limits, without arrays; they are kept after their first use."""
+        """Return a hyperboloid's numbers and limits, without arrays; they are kept after their first use."""
         kept = self._numbers_kept.get(index)
         if kept is None:
             low, high, inner_low, inner_high = self._limits[index].tolist()
@@ -250,7 +258,7 @@ class PreparedScene:
 
 
 def bodies_with(bodies: Bodies, other: Bodies, place: int | None = None) -> Bodies:
-    """The columns with one hyperboloid replaced at a place; None: with one more at the end."""
+    """Return the columns with one hyperboloid replaced at a place; None: with one more at the end."""
     columns = {}
     for part in fields(Bodies):
         column, one = getattr(bodies, part.name), getattr(other, part.name)
@@ -263,12 +271,15 @@ def bodies_with(bodies: Bodies, other: Bodies, place: int | None = None) -> Bodi
 
 
 def bodies_without(bodies: Bodies, place: int) -> Bodies:
-    """The columns without those of one hyperboloid."""
+    """Return the columns without those of one hyperboloid."""
     return Bodies(**{part.name: np.delete(getattr(bodies, part.name), place, axis=0) for part in fields(Bodies)})
 
 
 def grid_with(grid: PlaneGrid, place: int, x: float, y: float, reach: float) -> PlaneGrid | None:
-    """The grid with a hyperboloid of this number at (x, y); None where its table has become too small to be quick."""
+    """Return the grid with a hyperboloid of this number at (x, y).
+
+    Return None where its table has become too small to be quick.
+    """
     columns, rows, everywhere = cells_of(np.array([x]), np.array([y]), np.array([reach]), grid.side)
     if everywhere:
         return replace(grid, everywhere=sorted([*grid.everywhere, place]))
@@ -287,7 +298,7 @@ def grid_with(grid: PlaneGrid, place: int, x: float, y: float, reach: float) -> 
 
 
 def grid_without(grid: PlaneGrid, place: int, *, renumbered: bool) -> PlaneGrid:
-    """The grid without a hyperboloid; with `renumbered`, the numbers of later ones decrease by one."""
+    """Return the grid without a hyperboloid; with `renumbered`, the numbers of later ones decrease by one."""
     members, starts = np.frombuffer(grid.members, np.intc), np.frombuffer(grid.starts, np.intc)
     gone = np.flatnonzero(members == place)
     fewer = np.searchsorted(gone, starts).astype(np.intc)  # how many are gone before each start

@@ -60,7 +60,7 @@ from hypcheck.truth.ended_sweeps import EndedSweep
 def hits_beside(
     bodies: Bodies, body: Indices, semi_axes: Rows, starts: Rows, ends: Rows, axes: Rows | None = None
 ) -> Mask:
-    """A mask of the sweeps of spheroids with contact with their hyperboloid, (n,).
+    """Return a mask of the sweeps of spheroids with contact with their hyperboloid, (n,).
 
     `semi_axes` are b and d (n, 2); `starts` and `ends`, (n, 3), are in the scene's coordinates, and `axes`, (n, 3),
     those of the spheroids; None: they are upright.
@@ -77,7 +77,7 @@ def hits_beside(
 def bounded_hits(
     bodies: Bodies, body: Indices, semi_axes: Rows, starts: Rows, ends: Rows, axes: Rows | None = None
 ) -> tuple[Mask, Mask]:
-    """Hits by bounds only, and which sweeps these do not decide, (n,) each."""
+    """Return hits by bounds only, and which sweeps these do not decide, (n,) each."""
     origins, shapes, spans = bodies.origins[body], bodies.shapes[body], bodies.spans[body]
     with np.errstate(all="ignore"):
         (start, lost_start), (end, lost_end) = two_sum(starts, -origins), two_sum(ends, -origins)
@@ -120,7 +120,7 @@ def _meet_on_the_sweep(least: Floats, shapes: Rows, spans: Rows, start: Floats, 
 def _in_frames(
     upward: Rows, longest: Floats, start: Floats, end: Floats, axes: Rows | None
 ) -> tuple[Floats, Floats, Floats, Floats]:
-    """Both ends and the mover's axis in the frames of hyperboloids with these axes, and how far they are off at most.
+    """Return both ends and the mover's axis in the frames of hyperboloids with these axes, and bounds of their errors.
 
     An axis that is off by an angle δ moves no point of the spheroid farther than δ times its longer semi-axis.
     """
@@ -176,7 +176,7 @@ _Numbers = Sequence[float | Fraction]
 def _between(
     body: BodyNumbers, b: float, d: float, sweep: Sweep
 ) -> tuple[_Numbers, _Numbers, _Numbers, _Numbers, _Numbers]:
-    """The sizes, the exact start and end from the hyperboloid's centre, and the axes of both."""
+    """Return the sizes, the exact start and end from the hyperboloid's centre, and the axes of both."""
     start, end = (
         [Fraction(part) - Fraction(centre) for part, centre in zip(point, body.origin, strict=True)]
         for point in (sweep.start, sweep.end)
@@ -185,7 +185,7 @@ def _between(
 
 
 def enters(origins: Rows, reaches: Floats, start: Floats, end: Floats) -> list[float]:
-    """Times before which a mover, on its sweep in the scene, is farther from axes at (k, 3) than these reach, (k,).
+    """Return times before which a mover on its sweep is farther from axes at (k, 3) than these reach, (k,).
 
     PAD of all coordinates is more than the rounding of a place, of the least distance from an axis and of the chord
     (scene_index.py); where a number is not finite, or a reach is infinite, the time is 0.
@@ -209,7 +209,9 @@ _HALVINGS = 60
 
 
 def first_contact(body: BodyNumbers, mover: Spheroid, parts: Sequence[Spheroid] = ()) -> tuple[Fraction, Fraction]:
-    """An interval for the time of first contact of a mover that is not clear by is_clear; one number twice if exact.
+    """Return an interval for the time of first contact of a mover that is not clear by is_clear.
+
+    It is one number twice if the time is exact.
 
     Where parts decide, exact decisions about the sweep up to a time halve the interval.
     """
@@ -232,19 +234,19 @@ def first_contact(body: BodyNumbers, mover: Spheroid, parts: Sequence[Spheroid] 
 
 
 def _at(sweep: Sweep, time: Fraction) -> list[Fraction]:
-    """The centre's exact place at a time of the sweep."""
+    """Return the centre's exact place at a time of the sweep."""
     ends = zip(*([Fraction(part) for part in point] for point in (sweep.start, sweep.end)), strict=True)
     return [here + time * (there - here) for here, there in ends]
 
 
 def _cut(mover: Spheroid, parts: Sequence[Spheroid], time: Fraction) -> tuple[Spheroid, list[Spheroid]]:
-    """The mover and its parts with their sweeps cut off at a time."""
+    """Return the mover and its parts with their sweeps cut off at a time."""
     whole, *others = ((b, d, replace(sweep, end=_at(sweep, time))) for b, d, sweep in (mover, *parts))
     return whole, others
 
 
 def point_at_once(point: object) -> Point | None:
-    """Three finite numbers in a list, a tuple or an array, and None for everything else that may be a point."""
+    """Return three finite numbers in a list, a tuple or an array, and None for everything else that may be a point."""
     values = point.tolist() if type(point) is np.ndarray and point.shape == (3,) else point
     if not isinstance(values, (list, tuple)) or len(values) != 3:
         return None
@@ -289,7 +291,7 @@ def hit_at_once(
 
 
 def _hits(beside: Sequence[tuple[tuple[float, float], tuple[float, ...]]], mover: Mover, scale: float) -> list[int]:
-    """The kernel's answers for the mover, larger or smaller by a factor, beside each hyperboloid."""
+    """Return the kernel's answers for the mover, larger or smaller by a factor, beside each hyperboloid."""
     semi_axes = mover.b * scale, mover.d * scale
     rows = np.array([(*shape, *semi_axes, *ends) for shape, ends in beside])
     hits: list[int] = kernel().answer_sweeps(rows)[0].tolist()
@@ -297,7 +299,10 @@ def _hits(beside: Sequence[tuple[tuple[float, float], tuple[float, ...]]], mover
 
 
 def _differences(point: Point, centre: Point) -> tuple[Point, Point]:
-    """The differences of coordinates, rounded, and how much each has lost, by TwoSum; NaN where that is not known."""
+    """Return the differences of coordinates, rounded, and how much each has lost, by TwoSum.
+
+    What is lost is NaN where it is not known.
+    """
     (x, y, z), (u, v, w) = point, centre
     across, along, up = x - u, y - v, z - w
     back_x, back_y, back_z = across + u, along + v, up + w
@@ -311,7 +316,7 @@ def _differences(point: Point, centre: Point) -> tuple[Point, Point]:
 def _passed(
     candidates: set[int], reaches: Floats, numbers: Callable[[int], Numbers], start: Point, end: Point
 ) -> list[int]:
-    """The candidates whose reach the sweep enters: scene_index.passed, for one sweep."""
+    """Return the candidates whose reach the sweep enters: scene_index.passed, for one sweep."""
     (x, y, z), (x_end, y_end, z_end) = start, end
     lowest, highest = (z, z_end) if z < z_end else (z_end, z)
     across, along = x_end - x, y_end - y
