@@ -39,8 +39,10 @@ from hypcheck.kernel.in_use import positions_of_rows
 from hypcheck.kernel.scene_gaps import gaps, gaps_at
 
 _ROUNDED = 2.0**-47
+"""The rounding error of a point of a wall, in units of the lengths that it is computed from."""
+
 _LEAST = 2.0**-1074
-"""Where the product of that is 0, the points are rounded by so much."""
+"""The rounding error of a point where its product with _ROUNDED underflows to 0."""
 
 _FAR, _WIDE = 2.0**12, 2.0**-12
 """Of a wall so many times as large as a tilted spheroid, many places are nearly as near, and to tell them apart takes
@@ -180,6 +182,7 @@ def _measure_gaps(result: Clearance, clear: Indices) -> None:
 
 
 def _measure_some(result: Clearance, clear: Indices) -> None:
+    """Do so for rows that are measured together."""
     some = with_heights(result.rows[clear])
     measured = gaps(
         some[:, :4], some[:, 4:7], some[:, 7:10], some[:, 10:12], some[:, 12] != 0, result.distance_upper[clear]
@@ -240,7 +243,7 @@ def with_margin(rows: Rows, positions: Positions, margin: float, question: Quest
 
 
 def _by_growing(rows: Rows, positions: Positions, margin: float, threads: int | None) -> Mask:
-    """Whether the enlarged spheroid is clear on the same side."""
+    """Return a mask of the rows for which the enlarged spheroid is clear on the same side: that proves the margin."""
     grown = rows.copy()
     grown[:, 2], grown[:, 3] = enlarged(rows[:, 2], rows[:, 3], margin)
     answers, _ = positions_of_rows(grown, "position", threads)

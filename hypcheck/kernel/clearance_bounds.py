@@ -2,14 +2,15 @@
 
 Floats only guess (clearance_points.py). Exact decisions of the kernel about other rows prove the returned bounds:
 
-- A spheroid f times as large, rounded outward, that is clear proves clearance ≥ f − 1; rounded inward and in contact it
-proves clearance ≤ f − 1. - Let n be a unit vector and √(nᵀQn) = v the spheroid's half width along it, Q its matrix of
-squared semi-axes. For any v > 0 and δ > 0 the spheroid with the semi-axes √((v + δ)(b²/v + δ)) and √((v + δ)(d²/v + δ))
-contains all points within δ of the given one: its matrix is (1 + δ/v) Q + (1 + v/δ) δ² I, and (p + q)² ≤ (1 + t) p² +
-(1 + 1/t) q² for the support functions p and q and any t > 0. If it is clear, the distance is at least δ. In the
-direction n it is no larger than necessary. - A point of the hyperboloid and one of the spheroid are no nearer than
-their bodies, except for the rounding below. - Between the two measures: clearance · min(b, d) ≤ distance ≤ clearance ·
-max(b, d).
+- If a spheroid f times as large, rounded outward, is clear, then clearance ≥ f − 1. If it is rounded inward and in
+  contact, then clearance ≤ f − 1.
+- Let n be a unit vector and v = √(nᵀQn) the spheroid's half width along it, with Q its matrix of squared semi-axes. For
+  any v > 0 and δ > 0 the spheroid with the semi-axes √((v + δ)(b²/v + δ)) and √((v + δ)(d²/v + δ)) contains all points
+  within δ of the given one: its matrix is (1 + δ/v) Q + (1 + v/δ) δ² I, and (p + q)² ≤ (1 + t) p² + (1 + 1/t) q² for
+  the support functions p and q and any t > 0. If it is clear, the distance is at least δ. In the direction n it is no
+  larger than necessary.
+- A point of the hyperboloid and one of the spheroid are no nearer than their bodies, except for the rounding below.
+- The two measures are related: clearance · min(b, d) ≤ distance ≤ clearance · max(b, d).
 
 Where a guess cannot be proved, the same decisions halve the interval. Only these bounds of rounding errors are used:
 
@@ -38,10 +39,10 @@ from hypcheck.kernel.in_use import kernel
 
 CHUNK = 1 << 14
 GUESS = 2.0**-32
-"""How far from a guess, in units of 1 or of the guess where that is greater, a proof is tried first."""
+"""The distance from a guess at which a proof is tried first, in units of 1 or of the guess, if that is greater."""
 
 WIDTH = 2.0**-30
-"""How wide an interval of f, or of δ against δ + v, may be before it is halved."""
+"""An interval of f, or of δ in units of δ + v, is halved if it is wider than this."""
 
 _LARGEST = sys.float_info.max
 OUTWARD = 1 + 2.0**-48
@@ -62,7 +63,8 @@ CONSTANTS = {
     "less_than": 1 - 2.0**-40,
     **points.CONSTANTS,
 }
-"""Those of the same steps in C (core/parts/near.h). Products from least_grown to greatest_grown are rounded well."""
+"""The constants of the same steps in C (core/parts/near.h). Products from least_grown to greatest_grown are rounded
+well."""
 
 Question = Callable[[Indices, Floats], Mask]
 """A function from the numbers of rows and factors or lengths to a mask of the rows with the wanted property."""
@@ -160,10 +162,11 @@ def clearances_without_ends(queries: Rows, threads: int | None = None) -> Cleara
 
 
 _SHIFT = 2.0**-36
+"""How far a spheroid on the axis is shifted, in units of α."""
 
 
 def _fill_ties(result: Clearance, queries: Rows, threads: int | None) -> None:
-    """Nearest points where a tilted spheroid is on the axis, so that no direction is known: those of one beside it.
+    """Fill in nearest points where a tilted spheroid is on the axis and has no direction: those of one beside it.
 
     A distance changes by no more than the centre moves, so the bounds hold with twice the shift, which covers its
     rounding. Of the shifts along x and y the better counts.

@@ -58,20 +58,20 @@ POLISHED = 2
 _ROUNDED = 2.0**-46
 _MORE = 1 + 2.0**-30
 _LEAST_SHARE = 2.0**-70
-"""A σ of 0 would say nothing of the height, where two nearest points are about to fall together."""
+"""The least share of σ: a σ of 0 would not determine the height, where two nearest points nearly coincide."""
 
 _OFF = 2.0**-20
-"""How far from a mirror, in units of the greatest coordinate, a point has to be to be moved by it."""
+"""A mirror moves a point that is farther from it than this, in units of the greatest coordinate."""
 
 _POLE_HALVINGS = 100
 _LARGEST = 2.0**200
-"""Of the numbers next to a pole, whose squares do not overflow then."""
+"""The largest of the numbers next to a pole, so that their squares do not overflow."""
 
 _RANGE = (2.0**-100, 2.0**100)
 _RATIO = 20
 
 _LEAST = 2.0**-500
-"""In the place of 0, where Newton's method divides."""
+"""Takes the place of 0 where Newton's method divides."""
 
 CONSTANTS = {
     "rounded": _ROUNDED,
@@ -82,12 +82,12 @@ CONSTANTS = {
     "gap_settled": _SETTLED,
     "least_offset": 2.0**-1000,
 }
-"""Those that the steps in C share (core/parts/near_level.h)."""
+"""The constants that the same steps in C read (core/parts/near_level.h)."""
 
 
 @dataclass(frozen=True, slots=True)
 class Touches:
-    """Near the point where the grown spheroid first touches: the factor (n,), the point (n, 3).
+    """Approximately where the grown spheroid first touches: the factor of its size (n,), the point (n, 3).
 
     The exact point is not farther than `error` away, (n,); inf where that is not known.
     """
@@ -99,7 +99,10 @@ class Touches:
 
 @dataclass(frozen=True, slots=True)
 class PointGaps:
-    """Near the shortest gap: its length and the spheroid's half width across it (n,), its two ends (n, 3) each."""
+    """Approximately the shortest gap: its length, `support`, half the spheroid's width along it, (n,), and its ends.
+
+    `there` (n, 3) is on the hyperboloid, `here` (n, 3) on the spheroid.
+    """
 
     length: Floats
     support: Floats
@@ -124,7 +127,7 @@ def poles(A: Floats, B: Floats, p: Floats, q: Floats) -> tuple[Floats, Floats]:
 
 
 Poles = Callable[[Floats, Floats, Floats, Floats], tuple[Floats, Floats]]
-"""What finds τ and σ from A, B, a r and c h."""
+"""A function that finds τ and σ from A, B, a r and c h."""
 
 
 def upright_touches(rows: Rows, *, poles_of: Poles = poles, rounding: float = _ROUNDED) -> Touches:

@@ -105,6 +105,7 @@ def _is_of_points(path: object) -> bool:
 
 
 def _points(name: str, path: ArrayLike) -> Rows:
+    """Return a path as points (T, 3). Raises InputError."""
     points = as_numbers(f"{name} is", path, "it must be points (T, 3)")
     if points.ndim != 2 or points.shape[1] != len(CENTER) or not len(points):
         raise InputError(f"{name} is of shape {points.shape}; it must be points (T, 3), one at least")
@@ -171,6 +172,7 @@ class FirstContact:
         return LeastDistance(lower, upper, segment, time, index, center)
 
     def _of_hits(self, values: Any, otherwise: float) -> Any:  # noqa: ANN401 - an array, or its number
+        """Return values of the flights with contact as values of all flights."""
         hit_values = np.asarray(values)
         of_flights = np.full(len(self.paths.first) - 1, otherwise, hit_values.dtype)
         of_flights[np.atleast_1d(self.hit)] = hit_values
@@ -203,10 +205,10 @@ def measured(measure: Callable[[int], First], segments: Indices) -> Passages:
 
 
 PIECES = 240
-"""Pieces of a flight, each with a least distance."""
+"""A picture cuts a flight into so many pieces, each with a least distance."""
 
 _MOST_CONTACTS = 100
-"""Segments whose first contact is found; each takes a millisecond."""
+"""On at most so many segments the first contact is found; each takes a millisecond."""
 
 
 class Asked(Protocol):

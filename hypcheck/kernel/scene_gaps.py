@@ -30,10 +30,12 @@ _NARROW = 4 * _LOOSE
 """How far apart the bounds are at most where cells could be halved enough, in the same units."""
 
 _ROUNDS, _MOST_CELLS, _FIRST = 96, 4096, 16
-"""A pair with more cells than that keeps its bounds as they are."""
+"""The most rounds of halving; a pair with more than _MOST_CELLS cells keeps its bounds as they are; how many heights
+and angles the first cells divide."""
 
 _TURNS, _SETTLED = 24, 2.0**-24
-"""Of Newton's method, whose error counts twice: bounds hold for any normal, and are best for the right one."""
+"""The most steps of Newton's method, and the relative step at which it ends. Bounds hold for any normal; near the right
+one they change by the square of its error only."""
 
 
 @dataclass(frozen=True)
@@ -47,7 +49,10 @@ class Gaps:
 
 @dataclass(frozen=True)
 class _Pairs:
-    """α, γ, b, d (n,), centres and unit axes (n, 3); `upright` (n,): the axes of both are parallel, or it is a ball."""
+    """Spheroids beside hyperboloids: α, γ, b, d (n,), centres and unit axes (n, 3) of the spheroids.
+
+    `upright` (n,): the axes of both are parallel, or the spheroid is a ball.
+    """
 
     alpha: Floats
     gamma: Floats
@@ -86,7 +91,7 @@ def gaps(sizes: Rows, centres: Rows, axes: Rows | None, spans: Rows, solid: Mask
 def gaps_at(sizes: Rows, centres: Rows, axes: Rows, points: Rows) -> tuple[Floats, Rows]:
     """Return the distances (n,) of spheroids from the points (n, 3) of walls at the height of some points.
 
-    And those points: they are upper bounds of the distance from the wall.
+    Also return those points of walls. The distances are upper bounds of the distances from the walls.
     """
     with np.errstate(all="ignore"):
         unit_of = _unit_of(sizes, centres)
@@ -115,6 +120,7 @@ def _in_unit(length: Floats, unit_of: Indices, towards: float) -> Floats:
 
 
 def _to_walls(pairs: _Pairs, spans: Rows, farthest: Floats) -> Gaps:
+    """Return bounds of the distances from the walls, by branch and bound."""
     count = len(pairs.alpha)
     result = Gaps(np.zeros(count), np.full(count, np.inf), np.full((count, 3), np.nan))
     if not count:
@@ -193,6 +199,7 @@ def _on_wall(of: _Pairs, w: Floats, turn: Floats) -> Floats:
 
 
 def _middles(of: _Pairs, cells: Floats) -> Floats:
+    """Return the middle points of cells."""
     return _on_wall(of, (cells[:, 0] + cells[:, 1]) / 2, (cells[:, 2] + cells[:, 3]) / 2)
 
 

@@ -41,11 +41,12 @@ from hypcheck.scene.model import UPRIGHT, Hyperboloid, Mover, Point, Span, is_ti
 
 @dataclass(frozen=True)
 class Bodies:
-    """α and γ (m, 2), centres (m, 3), and how far each hyperboloid reaches from its centre, up or down, (m,).
+    """The m hyperboloids of a scene in columns: `shapes` are α and γ (m, 2), `origins` are their centres (m, 3).
 
-    `spans` (m, 2) are the heights along the axes (m, 3), from the centres, between which they stand, and `solid` (m,)
-    says that flat ends belong to them. `heights` (m, 2) enclose those of what stands in the scene's z, of upright ones
-    within a rounding; of those that are tilted, without end. An axis that is vertical points up.
+    `spans` (m, 2) are the heights along the `axes` (m, 3), relative to the centres, between which they exist; `tall`
+    (m,) is the farther one's distance from the centre. `solid` (m,) says that flat ends belong to them. `heights` (m,
+    2) enclose the z that a hyperboloid occupies in the scene: within a rounding if it is upright, −inf and inf if it is
+    tilted. A vertical axis points up.
     """
 
     shapes: Floats
@@ -94,12 +95,13 @@ def bodies_of(hyperboloids: Sequence[Hyperboloid]) -> Bodies:
 
 
 def _numbers(body: Hyperboloid) -> tuple[float, ...]:
+    """Return the eleven numbers of a hyperboloid; without ends its heights are −inf and inf."""
     low, high = (-inf, inf) if body.height is None else (body.height.low, body.height.high)
     return (body.alpha, body.gamma, *body.center, low, high, *body.axis, body.solid)
 
 
 TURNING = 128 * 2.0**-53
-"""Of what is turned into a hyperboloid's frame, in units of the sum of all coordinates: see frames_of."""
+"""The error of a vector that is turned into a hyperboloid's frame, in units of the sum of coordinates (frames_of)."""
 
 
 def frames_of(axes: Floats) -> Floats:
@@ -139,6 +141,7 @@ def turned_axes(frames: Floats, axes: Floats | None) -> Floats:
 
 OUTWARD = 1 + 2.0**-40
 LEAST = 2.0**-1000
+"""A reach is multiplied by OUTWARD, and LEAST is added, so that no rounding makes it too short (above)."""
 
 
 def reaches(bodies: Bodies, mover: Mover, height: Span | None) -> Floats:
@@ -182,7 +185,7 @@ WIDEST = 2**30
 """Cells are numbered from −WIDEST to WIDEST on either axis; hyperboloids farther out are always tested."""
 
 ROOM = 2
-"""Places of the table for each entry, at least."""
+"""The table has at least so many places for each entry."""
 
 ACROSS, ALONG = 73856093, 19349663
 """The primes of the hash; a cell's number times one of them is below 2^57."""
@@ -190,9 +193,10 @@ ACROSS, ALONG = 73856093, 19349663
 
 @dataclass(frozen=True)
 class PlaneGrid:
-    """Place p of the table holds the `members` from `starts[p]` up to `starts[p + 1]`; its size is a power of two.
+    """A grid of square cells over the plane, as wide as `side`, in a table whose size is a power of two.
 
-    `everywhere` are the hyperboloids that are tested for every centre.
+    Place p of the table holds the hyperboloids `members[starts[p]:starts[p + 1]]`. `everywhere` are the hyperboloids
+    that are tested for every centre.
     """
 
     side: float
@@ -289,12 +293,13 @@ def grid_of(x: Floats, y: Floats, reaches: Floats) -> PlaneGrid:
 
 
 def cells_of(x: Floats, y: Floats, reaches: Floats, side: float) -> tuple[Indices, Indices, list[int]]:
-    """Return columns and rows of the cells that hyperboloids at (x, y) occupy, and a mask of those with too many."""
+    """Return columns and rows of the cells that hyperboloids at (x, y) occupy, and which occupy too many cells."""
     columns, rows, _, everywhere = _cells_of(x, y, reaches, side)
     return columns, rows, everywhere
 
 
 def _cells_of(x: Floats, y: Floats, reaches: Floats, side: float) -> tuple[Indices, Indices, Indices, list[int]]:
+    """Return columns and rows of the occupied cells, the hyperboloid of each, and which occupy too many cells."""
     with np.errstate(all="ignore"):
         low_x, high_x, low_y, high_y = (
             np.floor((centre + sign * reaches) / side) for centre in (x, y) for sign in (-1.0, 1.0)
@@ -330,16 +335,17 @@ def packed(numbers: NDArray[np.integer[Any]]) -> array[int]:
 
 PAD = 2.0**-45
 LEAST_OF_SWEEPS, LONGEST_SQUARE = 2.0**-200, 2.0**200
-"""Squares of lengths from the one on do not underflow; sweeps whose square is above the other are near everything."""
+"""Squares of lengths above LEAST_OF_SWEEPS do not underflow. A sweep whose length squared is above LONGEST_SQUARE
+counts as near every hyperboloid."""
 
 MOST_AT_ONCE = 16
-"""Pieces of a sweep that are looked up without arrays."""
+"""A sweep of at most so many pieces is looked up without arrays."""
 
 MOST_PIECES = 256
 """A sweep of more pieces is looked up alone, among all hyperboloids."""
 
 AT_A_TIME = 1 << 15
-"""Pieces whose hyperboloids are looked up together, so that arrays stay in the cache."""
+"""So many pieces are looked up together, so that arrays stay in the cache."""
 
 
 def near_sweeps(

@@ -96,6 +96,7 @@ class _Pieces:
     body: Indices
 
     def some(self, index: Indices | Mask) -> _Pieces:
+        """Return the pieces with these indices."""
         return _Pieces(*(column[index] for column in vars(self).values()))
 
 
@@ -129,9 +130,11 @@ class _Search:
     width: Floats
 
     def flight_of(self, pieces: _Pieces) -> Indices:
+        """Return the number of each piece's flight."""
         return self.flights.flight[pieces.first]
 
     def axes_of(self, segment: Indices) -> Rows | None:
+        """Return the mover's axes on these segments; None if it is upright."""
         return None if self.flights.axes is None else self.flights.axes[segment]
 
     def places(self, pieces: _Pieces) -> _Places:
@@ -228,7 +231,10 @@ def _narrow(search: _Search, least: LeastDistance, wanted: Indices) -> None:
 
 
 def _ask(search: _Search, least: LeastDistance, pieces: _Pieces) -> tuple[_Places, Floats, Floats]:
-    """Take the places of pieces into account; these, lower bounds of their distances, and half widths along those."""
+    """Measure at a place of each piece, and lower the upper bounds of flights that are nearer there.
+
+    Return the places, lower bounds of their distances, and half the mover's width along each gap.
+    """
     place, flight = search.places(pieces), search.flight_of(pieces)
     bound = _cylinder_bounds(search, pieces.body, place, least.distance_upper[flight])
     half = np.full(len(bound), search.mover.b)
@@ -299,6 +305,7 @@ def _halved(pieces: _Pieces) -> _Pieces:
 
 
 def _joined(several: Sequence[_Pieces]) -> _Pieces:
+    """Return the pieces of several as one."""
     columns = zip(*(vars(some).values() for some in several), strict=True)
     return _Pieces(*(np.concatenate(column) for column in columns))
 
@@ -350,6 +357,7 @@ def _looked_up(search: _Search, low: Floats, high: Floats, by_cells: Mask) -> tu
 
 
 def _worth_asking(search: _Search, first: Indices, last: Indices, body: Indices, most: Floats) -> _Pieces:
+    """Return these segments as pieces, without those whose cylinder is farther away than `most` of their flight."""
     pieces = _Pieces(first, last, np.zeros(len(first)), np.ones(len(first)), body)
     place, upper = search.places(pieces), most[search.flight_of(pieces)]
     bound = _cylinder_bounds(search, body, place, upper)

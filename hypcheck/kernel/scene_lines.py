@@ -33,14 +33,14 @@ from hypcheck.kernel.programs.lines import (
 )
 
 Line = tuple[float, float]
-"""K and M: of the line K + M T."""
+"""K and M of the line R = K + M T, with R = x² + y² and T = z² of the centre."""
 
 
 def thresholds(lines: dict[str, Line | None], reach: float) -> dict[str, float] | None:
-    """Return the inputs of the program PARALLEL_LINES but R and T, and `reach` as its T must not exceed it.
+    """Return the inputs of the program PARALLEL_LINES without R and T, and `reach`, which its T must not exceed.
 
     `lines` has beyond, under, within and above, None for a line that proves nothing; they hold for T in [0, `reach`].
-    None where single precision has no room for the scene.
+    Return None if the scene leaves the range of single precision.
     """
     outer, inner = _slope(lines["under"] or lines["beyond"]), _slope(lines["above"] or lines["within"])
     if not (LEAST_REACH < reach < GREATEST_REACH and max(outer, inner) <= FLOAT32_GREATEST_SLOPE):
@@ -57,6 +57,7 @@ def thresholds(lines: dict[str, Line | None], reach: float) -> dict[str, float] 
 
 
 def _slope(line: Line | None) -> float:
+    """Return the slope of a line in single precision; 0 without a line."""
     return 0.0 if line is None else _single(line[1])
 
 
@@ -70,6 +71,7 @@ def _threshold(line: Line | None, M: float, reach: float, side: int) -> float:
 
 
 def _single(value: float) -> float:
+    """Return the number in single precision."""
     with np.errstate(all="ignore"):
         return float(np.float32(value))
 
@@ -78,7 +80,7 @@ NEVER = 1.7976931348623157e308
 GREATEST_HEIGHT, LEAST_HEIGHT = 2.0**150, 2.0**-150
 SAMPLE = 256
 STEPS = (2.0**-30, 2.0**-16, 2.0**-8)
-"""How far from the edge a known point is tried, relatively."""
+"""The relative distances from the edge at which a point with a known position is tried."""
 
 NUDGE = 2.0**-30
 
@@ -95,7 +97,7 @@ class KnownPlace:
 
 @dataclass(frozen=True, slots=True)
 class SceneLines:
-    """The inputs of the programs PARALLEL_LINES (None where single precision has no room) and TWO_LINES but centres."""
+    """The constants of a scene in the programs PARALLEL_LINES and TWO_LINES; None if single precision has no room."""
 
     parallel: dict[str, float] | None
     two: dict[str, float]

@@ -37,7 +37,10 @@ from hypcheck.kernel.scene_pairs import along_and_across, positions
 from hypcheck.scene.model import Mover
 
 PAIRS_AT_A_TIME = 1 << 18
+"""So many pairs are measured together."""
+
 _ROUNDED = 2.0**-44
+"""More than the error of a rounded offset, in units of the coordinates and sizes (above)."""
 _APART = 2.0**-27
 """How far bounds may be apart, in units of the distance and the mover's size, before the gap is measured."""
 
@@ -106,6 +109,7 @@ Movers = tuple[Floats, Floats | None]
 
 
 def _fill(result: Nearest, bodies: Bodies, mover: Mover, movers: Movers, places: Indices) -> None:
+    """Fill in the result for some centres: from the one that seems nearest, then from all that may be nearer."""
     least = cylinder_bounds(bodies, slice(None), mover, [column[:, None] for column in movers[0][places].T])
     first = np.argmin(least, axis=1)
     _ask(result, bodies, mover, movers, places, first)
@@ -115,7 +119,7 @@ def _fill(result: Nearest, bodies: Bodies, mover: Mover, movers: Movers, places:
 
 
 def _ask(result: Nearest, bodies: Bodies, mover: Mover, movers: Movers, query: Indices, body: Indices) -> None:
-    """Take these pairs into account: each centre's with the least upper bound, and whether others may be as near."""
+    """Measure these pairs, and update the result: the nearest of each centre, its bounds, whether others may tie."""
     centres, axes = movers
     pairs = _pairs_of(bodies, mover, centres[query], None if axes is None else axes[query], body)
     low, high, point = _distances(pairs, query, result.distance_upper)
@@ -146,8 +150,9 @@ def distances(
 ) -> tuple[Floats, Floats, Floats]:
     """Return bounds of the distances of movers from hyperboloids, and points of these for the upper bounds.
 
-    `pairs` are numbers of groups, each of which wants its least distance alone, and of hyperboloids, (n,) for centres
-    (n, 3); `most` are upper bounds of what the groups want. Bounds above that may be loose. Contact is not decided.
+    `pairs` are the numbers of a group and of a hyperboloid, (n,) each, for the centres (n, 3). Only the least distance
+    of each group is needed; `most` are upper bounds of it, by group, and bounds above that may be loose. Contact is not
+    decided.
     """
     group, body = pairs
     made = _pairs_of(bodies, mover, centres, axes, body)
@@ -231,6 +236,7 @@ class _Pairs:
 
 
 def _pairs_of(bodies: Bodies, mover: Mover, centres: Floats, axes: Floats | None, body: Indices) -> _Pairs:
+    """Return movers at these centres beside hyperboloids, one each, in the hyperboloids' frames."""
     origins = bodies.origins[body]
     with np.errstate(over="ignore"):
         offset = centres - origins

@@ -55,16 +55,16 @@ from hypcheck.scene.model import Mover, is_tilted
 from hypcheck.truth import exact
 
 ERROR = 64 * 2.0**-53
-"""Of h and ϱ, in units of the sum of all coordinates."""
+"""The error of h and ϱ, in units of the sum of all coordinates."""
 
 MARGIN = 2.0**-40
-"""Of ρ and of |e|/min(b, d), relative; far more than they need."""
+"""The relative error of ρ and of |e|/min(b, d); far more than they can have."""
 
 ROUNDED = 2.0**-50
 """More than the roundings of a semi-axis made longer or shorter, relative."""
 
 LEAST, GREATEST = 2.0**-200, 2.0**200
-"""Lengths, and coordinates that are not 0, whose squares and quotients neither overflow nor underflow."""
+"""Squares and quotients of lengths between these neither overflow nor underflow."""
 
 
 def positions_beside(sizes: Rows, centres: Rows, origins: Rows, movers: Rows | None = None) -> Positions:
@@ -102,7 +102,7 @@ def _between(sizes: Rows, place: Rows, lost: Floats) -> tuple[Positions, Mask]:
 def larger_and_smaller(semi_axes: Rows, lost: Floats) -> tuple[Floats, Floats, Mask]:
     """Return the semi-axes (n, 2), longer and shorter by what differences of centres lost, and a mask of usable ones.
 
-    That is nowhere where a difference has overflowed: then nobody knows what it lost, which is NaN.
+    Where a difference has overflowed, what it lost is NaN, and the mask is false.
     """
     with np.errstate(all="ignore"):
         stretch = np.where(lost == 0, 0.0, lost / semi_axes.min(axis=1) * (1 + MARGIN) + ROUNDED)
@@ -276,7 +276,7 @@ def position_of(
 def position_with_ends(
     whole: int, body: BodyNumbers, semi_axes: tuple[float, float], centre: Sequence[float], mover: Sequence[float]
 ) -> int:
-    """Return the position of a mover, with this axis, from that beside the whole hyperboloid."""
+    """Return the position of a mover beside a hyperboloid with ends; `whole` is that beside the hyperboloid without."""
     pair = (*body.shape, *semi_axes), centre, body.origin, mover, body.axis
     place, exterior, known, _, _ = _by_bounds(whole, pair, body.span, body.solid)
     if exterior:
@@ -291,10 +291,10 @@ Pair = tuple[Parts, Parts, Parts, Parts, Parts]
 
 
 def _by_bounds(whole: Any, pair: Pair, span: Parts, solid: Any) -> tuple[_Place, Any, Any, Any, Any]:  # noqa: ANN401
-    """Return the mover's place; whether it is surely exterior, and else surely as beside the whole hyperboloid.
+    """Return the mover's place and four truth values, or masks (n,), each true only if it is sure.
 
-    The second is without contact, which crosses() of the place may prove. Then whether the mover's centre surely lies
-    between the ends, and beyond one. All four are truth values, or masks (n,).
+    The mover is exterior; its position is `whole`, that beside the hyperboloid without ends (contact at a wall is not
+    included: crosses() of the place may prove it); its centre lies between the ends; its centre lies beyond an end.
     """
     (alpha, gamma, b, d), centre, origin, mover, axis = pair
     low, high = span
@@ -367,7 +367,7 @@ def _by_kernel(rows: Rows, centres: Rows, origins: Rows, inner: Mask, outer: Mas
 
 
 Limits = tuple[float, float, float, float]
-"""Of one hyperboloid, as limits_of has them."""
+"""The four heights of limits_of for one hyperboloid."""
 
 Numbers = tuple[BodyNumbers, Limits]
 """One hyperboloid, and the limits of a scene's mover beside it."""

@@ -77,7 +77,7 @@ def hits_beside(
 def bounded_hits(
     bodies: Bodies, body: Indices, semi_axes: Rows, starts: Rows, ends: Rows, axes: Rows | None = None
 ) -> tuple[Mask, Mask]:
-    """Return hits by bounds only, and which sweeps these do not decide, (n,) each."""
+    """Return masks (n,) of the sweeps with contact by bounds, and of those that bounds do not decide."""
     origins, shapes, spans = bodies.origins[body], bodies.shapes[body], bodies.spans[body]
     with np.errstate(all="ignore"):
         (start, lost_start), (end, lost_end) = two_sum(starts, -origins), two_sum(ends, -origins)
