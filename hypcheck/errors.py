@@ -62,7 +62,7 @@ PRECEDENCE = (
 
 
 def first_that_applies(reasons: Iterable[int]) -> Exit:
-    """The exit code of a run with these reasons; HELD without any."""
+    """Return the exit code of a run with these reasons; HELD without any."""
     return min(map(Exit, reasons), key=PRECEDENCE.index, default=Exit.HELD)
 
 
@@ -119,7 +119,7 @@ SCARCE = (errno.EMFILE, errno.ENFILE, errno.EAGAIN, errno.ENOMEM)
 
 
 def limit_reached(error: BaseException) -> SystemLimitError | None:
-    """The error to raise if a limit of the system caused `error`; None for any other."""
+    """Return the error to raise if a limit of the system caused `error`; None for any other."""
     if isinstance(error, OSError) and error.errno in SCARCE:
         return SystemLimitError(f"a limit of the system is reached: {system_reason(error)}; see `ulimit -a`")
     return None
@@ -130,5 +130,5 @@ class Terminated(BaseException):
 
 
 def system_reason(error: OSError) -> str:
-    """The reason that the system gives, as the end of a sentence."""
+    """Return the reason that the system gives, as the end of a sentence."""
     return (error.strerror or str(error)).lower()

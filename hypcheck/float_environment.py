@@ -20,23 +20,26 @@ P = ParamSpec("P")
 R = TypeVar("R")
 
 _ONE, _TINY = 1.0, 2.0**-55
-"""Their sum and their difference are both 1 to nearest; upward the sum is more, in the other directions the difference
-less."""
+"""If results are rounded to nearest, the sum and the difference of these numbers are both 1. If they are rounded
+upward, the sum is more than 1; in the other directions the difference is less."""
 
 _LEAST_NORMAL, _HALF = sys.float_info.min, 0.5
-"""Their product is subnormal: 0 where results are flushed, and equal to 0 where operands are."""
+"""The product of these numbers is subnormal. It is 0 if results are flushed to zero, and equal to 0 if operands are."""
 
 _ROOM = 1024
-"""Bytes that hold the fenv_t of any platform."""
+"""A number of bytes that is enough for the fenv_t of any platform."""
 
 
 def is_default() -> bool:
-    """Whether this thread rounds to nearest and keeps subnormal numbers."""
+    """Return whether this thread rounds to nearest and keeps subnormal numbers."""
     return _ONE + _TINY == _ONE - _TINY and _LEAST_NORMAL * _HALF != 0
 
 
 def in_default_environment(function: Callable[P, R]) -> Callable[P, R]:
-    """The function, run in the default environment whatever the caller's is. A caller in the default pays 0.1 µs."""
+    """Return a function that calls this one in the default environment, whatever the caller's is.
+
+    A caller in the default pays 0.1 µs.
+    """
 
     @wraps(function)
     def guarded(*arguments: P.args, **options: P.kwargs) -> R:
@@ -50,7 +53,7 @@ def in_default_environment(function: Callable[P, R]) -> Callable[P, R]:
 
 @contextmanager
 def default_environment() -> Iterator[None]:
-    """Set the default environment, and the caller's again at the end, its flags of exceptions included."""
+    """Set the default environment for a block, and restore the caller's afterwards, with its flags of exceptions."""
     room, get, put, default = _functions()
     before = room()
     get(before)
@@ -70,7 +73,10 @@ def default_environment() -> Iterator[None]:
 
 @cache
 def _functions() -> tuple[Any, Any, Any, Any]:
-    """The type of a fenv_t, fegetenv, fesetenv and FE_DFL_ENV. They keep the interpreter: no thread runs between."""
+    """Return the type of a fenv_t, the C functions fegetenv and fesetenv, and FE_DFL_ENV.
+
+    The functions are called without releasing the interpreter's lock, so no other Python thread runs in between.
+    """
     import ctypes  # noqa: PLC0415 - only where the environment is another
 
     library = ctypes.PyDLL(None)

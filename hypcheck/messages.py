@@ -8,7 +8,7 @@ from json import JSONDecodeError
 
 
 def escaped(text: object, width: int | None = None) -> str:
-    r"""The text on one line, at most `width` characters long, with escapes for characters that cannot be seen.
+    r"""Return the text on one line, at most `width` characters long, with escapes for characters that cannot be seen.
 
     Each run of blanks, ends of lines included, becomes one space. Escaped (\x1b, \u202e, \ud800) are characters that a
     terminal, a parser or an encoding may not pass on: control and direction marks, lone surrogates and unassigned
@@ -19,17 +19,17 @@ def escaped(text: object, width: int | None = None) -> str:
 
 
 def printable(line: object) -> str:
-    """The text of one line with its blanks as they are; other characters are escaped as by escaped()."""
+    """Return the text of one line with its blanks as they are; other characters are escaped as by escaped()."""
     text = str(line)
     return text if text.isprintable() else "".join(map(_escaped_character, text))
 
 
 LONGEST = 1000
-"""Characters of a sentence, at most, so that a bad file does not fill the screen."""
+"""The most characters of a sentence, so that a bad file does not fill the screen."""
 
 
 def sentence(text: object) -> str:
-    """The text as one printable line of at most LONGEST characters; a longer one loses its middle.
+    """Return the text as one printable line of at most LONGEST characters; a longer one loses its middle.
 
     The beginning says what is wrong and where, the end what would be right.
     """
@@ -37,25 +37,27 @@ def sentence(text: object) -> str:
 
 
 def _without_middle(text: str) -> str:
+    """Replace the middle of a text that is longer than LONGEST by an ellipsis."""
     return text if len(text) <= LONGEST else f"{text[: LONGEST - 400]} … {text[3 - 400 :]}"
 
 
 def shortened(text: str, width: int) -> str:
-    """The text, cut to `width` characters with an ellipsis if it is longer."""
+    """Return the text, cut to `width` characters with an ellipsis if it is longer."""
     return text if len(text) <= width else text[: width - 1].rstrip() + "…"
 
 
 def counted(number: int, noun: str, many: str | None = None) -> str:
-    """A number with its noun: "1 case", "5,600 cases"; `many` is the plural that is not the noun with an s."""
+    """Return a number with its noun: "1 case", "5,600 cases"; `many` is the plural that is not the noun with an s."""
     return f"{number:,} {noun if number == 1 else many or f'{noun}s'}"
 
 
 def _escaped_character(character: str) -> str:
+    """Return a character, or its escape if it is not printable."""
     return character if character.isprintable() else character.encode("unicode_escape").decode("ascii")
 
 
 def json_trouble(error: JSONDecodeError) -> str:
-    """The error of Python's JSON reader, as the end of a sentence.
+    """Return the error of Python's JSON reader, as the end of a sentence.
 
     Some of its sentences end with "at" or "starting at", because the place follows.
     """
@@ -63,11 +65,11 @@ def json_trouble(error: JSONDecodeError) -> str:
 
 
 _LONGEST_COMPARED = 100
-"""Characters of a name that are compared: the time grows with the square of their number."""
+"""The most characters of a name that are compared: the time grows with the square of their number."""
 
 
 def suggestion(name: str, known: Iterable[str], *, most: int = 3, otherwise: str = "there are") -> str:
-    """The end of a sentence about a name that is not `known`: up to `most` similar names, else all known ones.
+    """Return the end of a sentence about a name that is not `known`: up to `most` similar names, else all known ones.
 
     `otherwise` is the text before the list of all names.
     """
@@ -80,4 +82,5 @@ def suggestion(name: str, known: Iterable[str], *, most: int = 3, otherwise: str
 
 
 def _plain(name: str) -> str:
+    """Return a name in lower case without - and _, for a comparison."""
     return name.casefold().replace("_", "").replace("-", "")

@@ -22,7 +22,7 @@ Task = TypeVar("Task")
 Result = TypeVar("Result")
 
 Advance = Callable[[int], object]
-"""Takes note of so many finished steps."""
+"""A function that is called with a number of steps that were finished."""
 
 
 @dataclass(frozen=True)
@@ -39,16 +39,17 @@ UNWINDING = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHU
 
 
 def usable_processors() -> int:
-    """The number of processors that this process may use."""
+    """Return the number of processors that this process may use."""
     affinity = getattr(os, "sched_getaffinity", None)
     return len(affinity(0)) if affinity else os.cpu_count() or 1
 
 
 @contextmanager
 def processes(workers: int) -> Iterator[ProcessPoolExecutor | None]:
-    """A pool of `workers` fresh processes (forking would copy locks and threads); None for one worker.
+    """Enter a block with a pool of `workers` fresh processes; None for one worker.
 
-    If an exception leaves the block, the processes are ended, and the rest of their work is not done.
+    Processes are not forked, because that would copy locks and threads. If an exception leaves the block, the processes
+    are ended, and the rest of their work is not done.
     """
     if workers <= 1:
         yield None
@@ -59,7 +60,7 @@ def processes(workers: int) -> Iterator[ProcessPoolExecutor | None]:
 
 @contextmanager
 def fresh(workers: int) -> Iterator[ProcessPoolExecutor]:
-    """The same, but a single worker is a process as well."""
+    """Enter a block with a pool of `workers` fresh processes, as `processes` does; one worker is a process too."""
     require_semaphores()
     executor = ProcessPoolExecutor(workers, mp_context=get_context("spawn"), initializer=end_with_parent)
     try:
@@ -90,7 +91,7 @@ def require_semaphores() -> None:
 def perform(
     function: Callable[[Task], Result], tasks: Iterable[Task], executor: Executor | None
 ) -> Iterator[tuple[Task, Result]]:
-    """Each task with its result, in the order in which they finish; without an executor, here and in order."""
+    """Yield each task with its result, in the order in which they finish; without an executor, here and in order."""
     if executor is None:
         for task in tasks:
             yield task, function(task)
@@ -104,11 +105,11 @@ def perform(
 def in_order(
     function: Callable[[Task], Result], tasks: Iterable[Task], workers: int, alone: int, ahead: int = 2
 ) -> Generator[Result, None, None]:
-    """The result of each task, in order. This process does the first `alone` tasks, `workers` processes the others.
+    """Yield the result of each task, in order.
 
-    Tasks are taken in advance, `ahead` for each worker, which has something to do while another's task takes long. An
-    error is raised after the results before it. If a worker is killed, its task is done here. The caller closes the
-    generator if it does not exhaust it.
+    This process does the first `alone` tasks, `workers` processes the others. Tasks are taken in advance, `ahead` for
+    each worker, which has something to do while another's task takes long. An error is raised after the results before
+    it. If a worker is killed, its task is done here. The caller closes the generator if it does not exhaust it.
     """
     coming = iter(tasks)
     yield from map(function, islice(coming, alone))
@@ -134,6 +135,7 @@ class _TaskError:
 
 
 def _tasks_then_error(tasks: Iterable[Task]) -> Iterator[Task | _TaskError]:
+    """Yield the tasks; if their iterator raises an error, yield that last, as a _TaskError."""
     try:
         yield from tasks
     except Exception as error:  # noqa: BLE001 - every error is raised after the results before it
@@ -143,6 +145,7 @@ def _tasks_then_error(tasks: Iterable[Task]) -> Iterator[Task | _TaskError]:
 def _submitted(
     function: Callable[[Task], Result], task: Task | _TaskError, executor: Executor
 ) -> Future[Result] | None:
+    """Submit a task, and return its future; None for a _TaskError, and if the pool is broken."""
     if isinstance(task, _TaskError):
         return None
     try:
@@ -153,6 +156,7 @@ def _submitted(
 
 
 def _finished(function: Callable[[Task], Result], task: Task | _TaskError, future: Future[Result] | None) -> Result:
+    """Wait for the result of a task; do the task here if its process is gone. Raises the error of a _TaskError."""
     if isinstance(task, _TaskError):
         raise task.error
     with suppress(BrokenExecutor):
@@ -162,7 +166,7 @@ def _finished(function: Callable[[Task], Result], task: Task | _TaskError, futur
 
 
 def one_each(function: Callable[[Task], Result], tasks: Iterable[Task], workers: int) -> Iterator[tuple[Task, Result]]:
-    """Each task with its result, in order, each done by a fresh process of its own; `workers` at a time."""
+    """Yield each task with its result, in order, each done by a fresh process of its own; `workers` at a time."""
     todo = list(tasks)
     require_semaphores()
     with interrupts_held():  # for the thread that starts further processes, too
@@ -254,7 +258,7 @@ def _begin_resource_tracker() -> None:
 
 @contextmanager
 def interrupts_deferred() -> Iterator[None]:
-    """Ctrl-C and the like wait until the block is done, and then take effect.
+    """Let Ctrl-C and the like wait until the block is done, and then take effect.
 
     Blocking the signals is not enough: Python runs handlers in the main thread, whichever thread got the signal.
     """

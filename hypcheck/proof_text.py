@@ -1,6 +1,9 @@
 """A certificate about a pair, or a sweep, as JSON and as lines of text, with the numbers that check it by hand.
 
-docs/mathematics.md, "A certificate for every answer", explains the numbers.
+docs/mathematics.md, "A certificate for every answer", explains the numbers. S and H are the matrices of the spheroid
+and of the hyperboloid. A = (α/b)², B = (γ/d)², P = (x² + y²)/b² and Q = (z/d)² determine the position of an upright
+pair, and g is its cubic (equation (12) of the paper). λ is a multiplier and m a double root, as in
+truth/certificate.py.
 """
 
 from __future__ import annotations
@@ -18,7 +21,7 @@ from hypcheck.truth.pencil import quartic
 
 
 def is_rule(certificate: Certificate) -> bool:
-    """Whether only the exact rule proves a contact with a hyperboloid that ends, without a witness."""
+    """Return whether only the exact rule proves a contact with a hyperboloid that ends, without a witness."""
     return certificate.position is Position.CONTACT and not certificate.points and certificate.double_root is None
 
 
@@ -33,29 +36,32 @@ class PairSquares:
 
     @classmethod
     def of(cls, pair: Pair) -> PairSquares:
-        """The four numbers of a pair, exact."""
+        """Compute the four numbers of a pair exactly."""
         alpha, gamma, b, d, x, y, z = map(Fraction, pair.row[:7])
         return cls((alpha / b) ** 2, (gamma / d) ** 2, (x * x + y * y) / (b * b), (z / d) ** 2)
 
     def g(self, at: Fraction) -> Fraction:
-        """The cubic of equation (12) of the paper, as repaired."""
+        """Evaluate the cubic of equation (12) of the paper, as repaired."""
         A, B, P, Q = self.A, self.B, self.P, self.Q
         return (A + at) * (B - at) * (P + Q - 1 - at) - A * P * (B - at) - B * Q * (A + at)
 
     def third_root(self, double: Fraction) -> Fraction:
-        """The third root of g, if `double` is a double root: the sum of all three is −c2."""
+        """Return the third root of g, if `double` is a double root.
+
+        The sum of all three roots is −c2, where c2 is the coefficient of λ² in g.
+        """
         return self.B + self.P + self.Q - self.A - 1 - 2 * double
 
 
 def height_of_point(pair: Pair, point: Point) -> Fraction:
-    """h = (x²+y²)/α² − z²/γ² − 1 of a point: above 0 outside the hyperboloid, below 0 inside, 0 on it."""
+    """Compute h = (x²+y²)/α² − z²/γ² − 1 of a point: above 0 outside the hyperboloid, below 0 inside, 0 on it."""
     u, v, w = point
     alpha, gamma = Fraction(pair.alpha), Fraction(pair.gamma)
     return (u * u + v * v) / (alpha * alpha) - (w / gamma) ** 2 - 1
 
 
 def reach_of_point(pair: Pair, point: Point) -> Fraction:
-    """s, the squared distance of a point from the spheroid's centre in spheroid radii: at most 1 in the spheroid."""
+    """Compute s, the squared distance of a point from the spheroid's centre in spheroid radii: at most 1 inside."""
     offset = [coordinate - Fraction(center) for coordinate, center in zip(point, (pair.x, pair.y, pair.z), strict=True)]
     axis = [Fraction(number) for number in pair.axis]
     square = sum((number * number for number in offset), Fraction(0))
@@ -66,7 +72,12 @@ def reach_of_point(pair: Pair, point: Point) -> Fraction:
 
 
 def proof_as_json(pair: Pair, certificate: Certificate) -> dict[str, Any]:
-    """A certificate about a pair, and the numbers that check it, as values for JSON."""
+    """Return a certificate about a pair, and the numbers that check it, as values for JSON.
+
+    The key "by" names the kind of proof. "rule in the height" has no numbers: it is a contact with a hyperboloid that
+    ends, at which no rational point can be named. The exact rule in the height decided it in integers, and there is
+    nothing to check by hand.
+    """
     if certificate.points:
         return {"by": "points", "points": [_point_as_json(pair, point) for point in certificate.points]}
     if certificate.pieces:
@@ -81,7 +92,11 @@ def proof_as_json(pair: Pair, certificate: Certificate) -> dict[str, Any]:
 
 
 def _numbers_of_multiplier(pair: Pair, position: Position, at: Fraction) -> dict[str, Any]:
-    """The interval of an upright λ and g there, the pivots of a tilted S + λH; nothing if the hyperboloid ends."""
+    """Return the numbers that check a multiplier λ = `at`, for JSON.
+
+    For an upright pair they are the interval in which λ must lie, A, B, P, Q and g(λ); for a tilted one the pivots of
+    S + λH. There are none if the hyperboloid ends.
+    """
     if pair.has_ends:
         return {}
     if not pair.is_upright:
@@ -92,7 +107,11 @@ def _numbers_of_multiplier(pair: Pair, position: Position, at: Fraction) -> dict
 
 
 def _numbers_of_double_root(pair: Pair, m: Fraction) -> dict[str, Any]:
-    """The third root of an upright g, the quartic f of a tilted pair and the pivots of M + mD."""
+    """Return the numbers that check a double root m, for JSON.
+
+    For an upright pair they are the third root of g, and A, B, P, Q; for a tilted one the coefficients of the quartic
+    f(λ) = det(S + λH) and the pivots of M + mD, M and D being the upper 3×3 parts of S and H.
+    """
     if not pair.is_upright:
         return {
             "f": list(map(exact_text, _quartic(pair))),
@@ -113,20 +132,21 @@ def _piece_as_json(piece: Piece) -> dict[str, str]:
 
 
 def _pivots(pair: Pair, at: Fraction, size: int) -> list[Fraction]:
-    """The pivots of the first rows and columns of S + λH."""
+    """Eliminate in S + λH, λ = `at`, and return the pivots of the first `size` rows and columns."""
     S, H = surfaces(pair)
     both = [[a + at * b for a, b in zip(*rows, strict=True)][:size] for rows in zip(S, H, strict=True)][:size]
     return pivots(both)
 
 
 def _quartic(pair: Pair) -> list[Fraction]:
-    """f(λ) = det(S + λH) over det S, the lowest power first: the whole numbers of truth/pencil.py, so scaled."""
+    """Return the coefficients of f(λ) = det(S + λH) divided by det S, the lowest power first."""
     F = quartic(pair.lengths)
     lowest_first = [coefficient * F.side**power for power, coefficient in enumerate(reversed(F.coefficients))]
     return [Fraction(number, -F.f0) for number in lowest_first]
 
 
 def _point_as_json(pair: Pair, point: Point) -> dict[str, str]:
+    """Return a point with its h (height_of_point) and s (reach_of_point), for JSON."""
     named = dict(zip(("x", "y", "z"), map(exact_text, point), strict=True))
     return named | {"h": exact_text(height_of_point(pair, point)), "s": exact_text(reach_of_point(pair, point))}
 
@@ -136,7 +156,7 @@ def _squares_as_json(squares: PairSquares) -> dict[str, str]:
 
 
 def proof_lines(pair: Pair, certificate: Certificate) -> list[str]:
-    """A certificate about a pair as lines of text, and how to check it by hand."""
+    """Return a certificate about a pair as lines of text, and how to check it by hand."""
     if pair.has_ends:
         return _with_note(_ended_proof_lines(pair, certificate))
     if not pair.is_upright:
@@ -157,11 +177,13 @@ _MATRIX = "M = I/b² + (1/d² − 1/b²)·v·vᵀ/(v·v), v the axis"
 
 
 def _with_note(lines: list[str]) -> list[str]:
+    """Add a line that explains ≈ if a line has it."""
     rounded = any("≈" in line for line in lines)
     return [*lines, *(["≈ marks a rounded number; --json gives all of them exactly."] if rounded else [])]
 
 
 def _ended_proof_lines(pair: Pair, certificate: Certificate) -> list[str]:
+    """Return the lines of a certificate about a pair whose hyperboloid ends."""
     if certificate.points:
         head = "one in the solid body, one not in its inner part" if pair.solid else "h > 0 and h < 0, between the ends"
         first = f"two points of the spheroid (s ≤ 1), {head}, so that they meet:"
@@ -193,6 +215,7 @@ def _piece_line(piece: Piece) -> str:
 
 
 def _tilted_proof_lines(pair: Pair, certificate: Certificate) -> list[str]:
+    """Return the lines of a certificate about a tilted pair without ends."""
     if certificate.multiplier is not None:
         at, side = certificate.multiplier, "above" if certificate.multiplier > 0 else "below"
         return _with_note(
@@ -222,6 +245,7 @@ def _tilted_proof_lines(pair: Pair, certificate: Certificate) -> list[str]:
 
 
 def _polynomial(coefficients: list[Fraction]) -> str:
+    """Return the text of a polynomial in t; the coefficients begin with the lowest power."""
     powers = ("", "·t", "·t²", "·t³", "·t⁴")
     return " + ".join(
         f"({readable_text(coefficient)}){power}" for coefficient, power in zip(coefficients, powers, strict=True)
@@ -229,6 +253,7 @@ def _polynomial(coefficients: list[Fraction]) -> str:
 
 
 def _by_multiplier(pair: Pair, position: Position, at: Fraction) -> list[str]:
+    """Return the lines that prove a clear position of an upright pair by a multiplier λ = `at`."""
     squares = PairSquares.of(pair)
     interval = "(0, B)" if position is Position.EXTERIOR else "(−A, 0)"
     return [
@@ -239,6 +264,7 @@ def _by_multiplier(pair: Pair, position: Position, at: Fraction) -> list[str]:
 
 
 def _by_double_root(pair: Pair, m: Fraction) -> list[str]:
+    """Return the lines that prove a tangency of an upright pair by a double root m."""
     squares = PairSquares.of(pair)
     interval = "(0, B]" if m > 0 else "[−A, 0)"
     end = f", and the third root, {readable_text(squares.third_root(m))}, is not below B" if m == squares.B else ""
@@ -250,6 +276,7 @@ def _by_double_root(pair: Pair, m: Fraction) -> list[str]:
 
 
 def _definitions(squares: PairSquares) -> list[str]:
+    """Return the lines with g, A, B, P and Q."""
     return [
         "g(t) = (A+t)(B−t)(P+Q−1−t) − A·P·(B−t) − B·Q·(A+t), where",
         f"A = (α/b)² {equals_text(squares.A)}, B = (γ/d)² {equals_text(squares.B)},",
@@ -258,6 +285,7 @@ def _definitions(squares: PairSquares) -> list[str]:
 
 
 def _by_points(pair: Pair, points: tuple[Point, ...]) -> list[str]:
+    """Return the lines that prove a contact by one point on the hyperboloid, or by two points on both sides of it."""
     on_hyperboloid = [point for point in points if height_of_point(pair, point) == 0][:1]
     if on_hyperboloid:
         lines = ["a point of the spheroid (s ≤ 1) lies on the hyperboloid (h = 0):"]
@@ -278,7 +306,7 @@ def _point_lines(pair: Pair, points: Sequence[Point]) -> list[str]:
 
 
 def passage_proof_as_json(certificate: PassageCertificate) -> dict[str, Any]:
-    """A certificate about a sweep as values for JSON."""
+    """Return a certificate about a sweep as values for JSON."""
     time, root = certificate.time, certificate.double_root
     return {
         "pieces": [list(map(exact_text, piece)) for piece in certificate.pieces],
@@ -289,11 +317,11 @@ def passage_proof_as_json(certificate: PassageCertificate) -> dict[str, Any]:
 
 
 _MOST_PIECES = 4
-"""The text shows so many pieces of a proof."""
+"""The most pieces of a proof that the text shows."""
 
 
 def passage_proof_lines(certificate: PassageCertificate | None, *, ended: bool = False) -> Iterator[str]:
-    """A certificate about a sweep as lines of text; there is none if the hyperboloid ends."""
+    """Yield a certificate about a sweep as lines of text; there is none if the hyperboloid ends."""
     if ended:
         yield "none is written if the hyperboloid ends: the times are decided in integers (docs/motion.md)."
         return

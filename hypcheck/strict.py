@@ -24,7 +24,7 @@ from hypcheck.toml import Path
 Value = TypeVar("Value")
 Other = TypeVar("Other")
 Check = Callable[[object], Value]
-"""From what a table holds to what is made of it; raises ValueError, whose text ends "it must be …".
+"""A function that checks a value of a table and converts it. It raises ValueError, whose text ends "it must be …".
 
 It may also raise InputError, whose text is then the whole sentence.
 """
@@ -39,7 +39,7 @@ class PartError(ValueError):
 
 
 def _at_fault(error: ValueError, value: object) -> tuple[Path, object]:
-    """The path and the value that a check refuses, which took this value."""
+    """Return the path and the value at fault if a check refused `value` with this error: a part of it, or all of it."""
     return (error.path, error.value) if isinstance(error, PartError) else ((), value)
 
 
@@ -51,7 +51,7 @@ class Origin(ABC):
     """The noun for a table."""
 
     def where(self, path: Path) -> str:  # noqa: ARG002 - most origins have places for paths
-        """The place of a value, before the sentence about it; empty if there is none to name."""
+        """Return the place of a value (a file, a line), which begins a sentence about it; "" if it cannot be named."""
         return ""
 
     def refuse(self, path: Path, sentence: str) -> NoReturn:
@@ -60,19 +60,19 @@ class Origin(ABC):
         raise InputError(f"{where}: {sentence}" if where else sentence)
 
     def named(self, path: Path) -> str:
-        """The table or the value at a path, as a sentence names it."""
+        """Return the table or the value at a path, as a sentence names it."""
         return dotted(path) or self.title
 
     def named_value(self, path: Path) -> str:
-        """The value at a path, as the beginning of a sentence about it."""
+        """Return the value at a path, as the beginning of a sentence about it."""
         return self.named(path)
 
     @abstractmethod
     def shown(self, value: object) -> str:
-        """A value on one line, short."""
+        """Return a value on one line, short."""
 
     def checked(self, path: Path, value: object, check: Check[Value]) -> Value:
-        """The result of the check of the value at the path. Raises InputError."""
+        """Check the value at the path, and return what the check makes of it. Raises InputError."""
         try:
             return check(value)
         except ValueError as error:
@@ -84,12 +84,12 @@ class Origin(ABC):
 
 
 def dotted(path: Path) -> str:
-    """The path as programs write it: domain.settings[0].sizes."""
+    """Return the path as programs write it: domain.settings[0].sizes."""
     return "".join(f"[{key}]" if isinstance(key, int) else f".{key}" for key in path).removeprefix(".")
 
 
 _LONGEST = 60
-"""Characters of a value that a message shows."""
+"""The most characters of a value that a message shows."""
 
 
 @dataclass(frozen=True)
@@ -108,12 +108,12 @@ class TomlSource(Origin):
         return toml.lines_of(self.text)
 
     def where(self, path: Path) -> str:
-        """The file and the line."""
+        """Return the file and the line."""
         line = toml.nearest_line(self.lines, path)
         return self.name if line is None else f"{self.name}, line {line}"
 
     def named(self, path: Path) -> str:
-        """The table at a path: [mover], [flight].start, hyperboloid 3, [mover] part 1."""
+        """Return the table at a path: [mover], [flight].start, hyperboloid 3, [mover] part 1."""
         if not path:
             return self.title
         *outer, last = path
@@ -123,12 +123,12 @@ class TomlSource(Origin):
         return f"{self.named((*outer,))}.{last}" if outer else f"[{last}]"
 
     def named_value(self, path: Path) -> str:
-        """The value at a path: its key, after the name of its table unless that is the whole file."""
+        """Return the value at a path: its key, after the name of its table unless that is the whole file."""
         *outer, key = path
         return f"{self.named((*outer,))}: {key}" if outer else f"{key}"
 
     def shown(self, value: object) -> str:
-        """A value, short, and written as in the file if possible."""
+        """Return a value, short, and written as in the file if possible."""
         shown = json.dumps(value, ensure_ascii=False, default=str).replace("NaN", "nan").replace("Infinity", "inf")
         return shown if len(shown) <= _LONGEST else shown[:_LONGEST] + "…"
 
@@ -153,7 +153,7 @@ class StrictTable:
         return self.origin.named(self._path)
 
     def named(self, key: str) -> str:
-        """The value of a key, as messages name it."""
+        """Return the value of a key, as messages name it."""
         return self.origin.named_value((*self._path, key))
 
     def refuse(self, sentence: str, *keys: str | int) -> NoReturn:
@@ -167,25 +167,25 @@ class StrictTable:
         return iter(self._content)
 
     def check(self, name: str, value: object, check: Check[Value]) -> Value:
-        """The result of the check of a part of the table; messages use the given name. Raises InputError."""
+        """Check a part of the table, and return what the check makes of it; messages use `name`. Raises InputError."""
         return self.origin.checked((*self._path, name), value, check)
 
     def required(self, key: str, check: Check[Value]) -> Value:
-        """The checked value of a key that must be there."""
+        """Check the value of a key that must be there, and return it. Raises InputError."""
         if key not in self._content:
             self.refuse(f"{self.title} has no {key}; it must be {_wanted(check)}")
         return self.check(key, self._content[key], check)
 
     def optional(self, key: str, check: Check[Value], default: Other) -> Value | Other:
-        """The checked value of a key, or the default if it is absent."""
+        """Return the checked value of a key, or the default if it is absent."""
         return self.check(key, self._content[key], check) if key in self._content else default
 
     def present(self, checks: Mapping[str, Check[Any]]) -> dict[str, Any]:
-        """The checked value of each key that is there and has a check, in the order of the table."""
+        """Return the checked value of each key that is there and has a check, in the order of the table."""
         return {key: self.check(key, value, checks[key]) for key, value in self._content.items() if key in checks}
 
     def table(self, key: str, keys: Sequence[str]) -> StrictTable | None:
-        """The table of that key; None if it is absent."""
+        """Return the table of that key; None if it is absent."""
         if key not in self._content:
             return None
         return StrictTable(self.origin, (*self._path, key), self._content[key], keys)
@@ -193,7 +193,7 @@ class StrictTable:
     def tables(
         self, key: str, keys: Sequence[str], wanted: str, *, least: int = 0, most: int | None = None
     ) -> list[StrictTable]:
-        """The array of tables of that key, from `least` to `most` of them; empty if the key is absent.
+        """Return the array of tables of that key, from `least` to `most` of them; empty if the key is absent.
 
         `wanted` says what the value must be.
         """
@@ -207,7 +207,7 @@ class StrictTable:
         return [StrictTable(self.origin, (*path, place), content, keys) for place, content in enumerate(array)]
 
     def required_table(self, key: str, keys: Sequence[str]) -> StrictTable:
-        """The table of a key that must be there."""
+        """Return the table of a key that must be there."""
         table = self.table(key, keys)
         if table is None:
             self.refuse(f"{self.title} has no {key}; it must be {self.origin.table_kind} with {', '.join(keys)}")
@@ -215,7 +215,7 @@ class StrictTable:
 
 
 def _wanted(check: Check[Any]) -> str:
-    """The requirement of a check: the sentence with which it refuses an impossible value."""
+    """Return what a check requires: the text with which it refuses an impossible value."""
     try:
         check(object())
     except ValueError as error:
@@ -224,26 +224,26 @@ def _wanted(check: Check[Any]) -> str:
 
 
 def table_of(text: str, name: str, title: str, keys: Sequence[str]) -> StrictTable:
-    """The outermost table of a TOML text, which may have these keys; messages name the file `name`, the table `title`.
+    """Read the outermost table of a TOML text, which may have these keys.
 
-    Raises InputError.
+    Messages name the file `name` and the table `title`. Raises InputError.
     """
     return StrictTable(TomlSource(title, name, text), (), toml.parsed(text, name), keys)
 
 
 LONGEST_TEXT = 1000
-"""Characters of a text."""
+"""The most characters of a text."""
 
 
 def text(value: object) -> str:
-    """A text with something in it."""
+    """Check that a value is a text that is not blank or too long, and return it. Raises ValueError."""
     if not isinstance(value, str) or not value.strip() or len(value) > LONGEST_TEXT:
         raise ValueError(f"a text that is not empty, of at most {LONGEST_TEXT:,} characters")
     return value
 
 
 def one_of(*choices: str) -> Check[str]:
-    """One of some words."""
+    """Return a check for one of these words."""
     wanted = choices[0] if len(choices) == 1 else f"one of {', '.join(choices)}"
 
     def check(value: object) -> str:
@@ -255,14 +255,14 @@ def one_of(*choices: str) -> Check[str]:
 
 
 def truth(value: object) -> bool:
-    """The value of a key that must be true or false."""
+    """Check that a value is true or false, and return it. Raises ValueError."""
     if not isinstance(value, bool):
         raise ValueError("true or false")  # noqa: TRY004 - turned into a sentence about the value
     return value
 
 
 def list_with(wanted: str, least: int = 0, most: int | None = None) -> Check[list[Any]]:
-    """A check for a list of `least` to `most` values; `wanted` ends the sentence of a refusal."""
+    """Return a check for a list of `least` to `most` values; `wanted` ends the sentence of a refusal."""
 
     def check(value: object) -> list[Any]:
         if not isinstance(value, list) or len(value) < least or (most is not None and len(value) > most):
@@ -273,12 +273,13 @@ def list_with(wanted: str, least: int = 0, most: int | None = None) -> Check[lis
 
 
 def parts(values: Sequence[object], checks: Iterable[Check[Any]]) -> tuple[Any, ...]:
-    """What the checks make of the values, each of its own. Raises PartError, which names the value by its place."""
+    """Check each value by its own check; return what the checks make of them. Raises PartError with the place."""
     checked = enumerate(zip(values, checks, strict=False))
     return tuple(_part(place, value, check) for place, (value, check) in checked)
 
 
 def _part(place: int, value: object, check: Check[Value]) -> Value:
+    """Check one value of several. Raises PartError with its place."""
     try:
         return check(value)
     except ValueError as error:
@@ -287,13 +288,13 @@ def _part(place: int, value: object, check: Check[Value]) -> Value:
 
 
 def list_of(check: Check[Value], wanted: str, least: int = 0, most: int | None = None) -> Check[tuple[Value, ...]]:
-    """A check for a list of `least` to `most` values that the check takes; `wanted` says what the list must be."""
+    """Return a check for a list of `least` to `most` values, each checked by `check`; `wanted` says what it must be."""
     listed = list_with(wanted, least, most)
     return lambda value: parts(listed(value), repeat(check))
 
 
 def texts(wanted: str, *, least: int = 1) -> Check[tuple[str, ...]]:
-    """A check for a list of at least so many texts that are not empty; `wanted` ends the sentence of a refusal."""
+    """Return a check for a list of `least` texts or more, none empty; `wanted` ends the sentence of a refusal."""
     listed = list_with(wanted, least)
 
     def check(value: object) -> tuple[str, ...]:
@@ -306,14 +307,14 @@ def texts(wanted: str, *, least: int = 1) -> Check[tuple[str, ...]]:
 
 
 def integer(value: object) -> int:
-    """The value, checked to be a whole number from 0 to 2³¹ − 1. Raises ValueError."""
+    """Return the value, checked to be a whole number from 0 to 2³¹ − 1. Raises ValueError."""
     if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value < 2**31:
         raise ValueError("a whole number, 0 or more and below 2^31")
     return value
 
 
 def number_of(value: object, wanted: str, *, infinite: bool = False) -> float:
-    """The number, as float64. Raises ValueError with the text `wanted` if it is not a number or not finite."""
+    """Return the number, as float64. Raises ValueError with the text `wanted` if it is not a number or not finite."""
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise ValueError(wanted)  # noqa: TRY004 - turned into a sentence about the value
     try:
@@ -328,7 +329,7 @@ def number_of(value: object, wanted: str, *, infinite: bool = False) -> float:
 def number_with(
     wanted: str, low: float = -math.inf, high: float = math.inf, *, above: bool = False, infinite: bool = False
 ) -> Check[float]:
-    """A check for a number from `low` to `high`, or `above` low; `wanted` ends the sentence of a refusal."""
+    """Return a check for a number from `low` to `high`, not `low` itself if `above`; `wanted` ends a refusal."""
 
     def check(value: object) -> float:
         result = number_of(value, wanted, infinite=infinite)
@@ -341,25 +342,25 @@ def number_with(
 
 number = number_with("a finite number")
 positive = number_with("a finite number above 0", 0, above=True)
-"""A length of a body."""
+"""A check for the length of a body."""
 
 not_negative = number_with("a finite number, 0 or more", 0)
-"""A distance."""
+"""A check for a distance."""
 
 
 def numbers_of(value: object, count: int, wanted: str, *, infinite: bool = False) -> tuple[float, ...]:
-    """A list of so many numbers, as float64. Raises ValueError with the text `wanted` if it is not."""
+    """Check that a value is a list of `count` numbers, and return them as float64. Raises ValueError with `wanted`."""
     return tuple(number_of(part, wanted, infinite=infinite) for part in list_with(wanted, count, count)(value))
 
 
 def point(value: object, wanted: str = "three finite numbers, [x, y, z]") -> tuple[float, float, float]:
-    """Three coordinates."""
+    """Check that a value is three finite numbers, and return them. Raises ValueError."""
     x, y, z = numbers_of(value, 3, wanted)
     return x, y, z
 
 
 def direction(value: object) -> tuple[float, float, float]:
-    """A vector of any length but 0."""
+    """Check that a value is a vector that is not 0, and return it. Raises ValueError."""
     wanted = "three finite numbers, [x, y, z], not all 0"
     vector = point(value, wanted)
     if not any(vector):
@@ -368,7 +369,7 @@ def direction(value: object) -> tuple[float, float, float]:
 
 
 def or_word(word: Other, check: Check[Value]) -> Check[Value | Other]:
-    """A check that accepts one word, or any value that the other check accepts."""
+    """Return a check that accepts one word, or any value that the other check accepts."""
 
     def with_word(value: object) -> Value | Other:
         if value == word:

@@ -22,12 +22,12 @@ else:
     import tomli as tomllib
 
 LARGEST = 1 << 20
-"""Bytes of a file, at most: enough for ten thousand trees of a scene. A larger file that is slow to read would take
+"""The most bytes of a file: enough for ten thousand trees of a scene. A larger file that is slow to read would take
 minutes and gigabytes."""
 
 
 def text_of(path: str) -> str:
-    """The text of a regular file, without a byte order mark. Raises FileNotFoundError, else InputError."""
+    """Return the text of a regular file, without a byte order mark. Raises FileNotFoundError, else InputError."""
     try:
         # Non-blocking: opening a pipe would wait until another process writes to it.
         with open(os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0)), "rb") as file:
@@ -55,14 +55,14 @@ _LONG_INTEGER = re.compile(r"0[xob][0-9A-Fa-f_]{400}")
 _TOO_LONG = "has an integer with too many digits; a number must fit into float64"
 
 MOST_DOTS = 100
-"""Dots of a line, decimal points and runs of dots apart, at most: the parser's time and memory grow with the square of
-the number of parts of a key such as a.b.c, which is on one line."""
+"""The most dots of a line, without decimal points and runs of dots: the parser's time and memory grow with the square
+of the number of parts of a key such as a.b.c, which is on one line."""
 
 _NO_KEY = re.compile(r"(?<![\w.])\d+\.\d+(?:[eE][+-]?\d+)?(?!\s*[\w.])|\.{2,}")
 
 
 def parsed(text: str, name: str) -> dict[str, Any]:
-    """The content of a TOML text; `name` is that of its file. Raises InputError."""
+    """Return the content of a TOML text; `name` is that of its file. Raises InputError."""
     if _LONG_INTEGER.search(text):  # Python would read it, and could not print it in a message
         raise InputError(f"{name}: {_TOO_LONG}")
     for number, line in enumerate(text.split("\n"), start=1):
@@ -80,14 +80,14 @@ def parsed(text: str, name: str) -> dict[str, Any]:
 
 @cache
 def shipped(package: str, name: str) -> dict[str, Any]:
-    """The content of a TOML file that is installed beside the modules of one of our packages; do not change it."""
+    """Read a TOML file that is installed beside the modules of one of our packages. The caller must not change it."""
     from importlib import resources  # noqa: PLC0415 - slow to load, and no command needs it to read its options
 
     return parsed(resources.files(package).joinpath(name).read_text(encoding="utf-8"), name)
 
 
 Path = tuple[str | int, ...]
-"""How to get to a value: keys of tables, and places in arrays counted from 0."""
+"""The path to a value: keys of tables, and places in arrays counted from 0."""
 
 _BLANK = re.compile(r"[ \t\r\n]*")
 _COMMENT = re.compile(r"#[^\n]*")
@@ -99,9 +99,10 @@ _WITHIN = {'"': re.compile(r'[^"\\]+'), "'": re.compile(r"[^']+")}
 
 
 def lines_of(text: str) -> dict[Path, int]:
-    """The line, counted from 1, of every table, array and value in a valid TOML text, by its path.
+    """Return the line, counted from 1, of every table, array and value in a valid TOML text, by its path.
 
-    No lines if the text is nested so deeply that only tomllib, which had more of the stack left, could read it.
+    The result is empty if the text is nested so deeply that only tomllib, which had more of the stack left, could read
+    it.
     """
     try:
         return _TomlScanner(text).scan()
@@ -110,23 +111,26 @@ def lines_of(text: str) -> dict[Path, int]:
 
 
 def nearest_line(lines: Mapping[Path, int], path: Path) -> int | None:
-    """The line of the value at the path, else of the innermost table or array around it that is known."""
+    """Return the line of the value at the path, else of the innermost table or array around it that is known."""
     while path and path not in lines:
         path = path[:-1]
     return lines.get(path)
 
 
 class _TomlScanner:
+    """Finds the line of each value in a valid TOML text, from its beginning to its end."""
+
     def __init__(self, text: str) -> None:
         self._text = text
         self._at = 0
         self._lines: dict[Path, int] = {}
         self._counts: dict[Path, int] = {}
-        """How many tables each array of tables has so far."""
+        """The number of tables that each array of tables has so far."""
         self._counted, self._line_there = 0, 1
-        """Up to where lines were counted, and the line there."""
+        """The place up to which lines were counted, and the line there."""
 
     def scan(self) -> dict[Path, int]:
+        """Read the whole text, and return the line of each value by its path."""
         table: Path = ()
         self._blank()
         while self._at < len(self._text):
@@ -138,7 +142,7 @@ class _TomlScanner:
         return self._lines
 
     def _header(self) -> Path:
-        """The table that [a.b] or [[a.b]] begins."""
+        """Read a header, [a.b] or [[a.b]], and return the path of the table that it begins."""
         line, several = self._line(), self._text.startswith("[[", self._at)
         self._at += 2 if several else 1
         keys = self._keys()
@@ -155,12 +159,12 @@ class _TomlScanner:
         return table
 
     def _inner(self, table: Path, key: str) -> Path:
-        """The path of the table with that key; if it is an array of tables, of the last one."""
+        """Return the path of the table with that key; if it is an array of tables, of the last one."""
         path: Path = (*table, key)
         return (*path, self._counts[path] - 1) if path in self._counts else path
 
     def _pair(self, table: Path) -> None:
-        """A key and its value; each table within a dotted key begins where it is first named."""
+        """Read a key and its value. Each table within a dotted key begins where it is first named."""
         line = self._line()
         path = table
         for key in self._keys():
@@ -171,6 +175,7 @@ class _TomlScanner:
         self._value(path)
 
     def _value(self, path: Path) -> None:
+        """Read a value, and keep its line."""
         self._lines[path] = self._line()
         opening = self._text[self._at]
         if opening == "[":
@@ -181,7 +186,7 @@ class _TomlScanner:
             self._quoted() if opening in _WITHIN else self._skip(_BARE_VALUE)
 
     def _sequence(self, closing: str, path: Path) -> None:
-        """The values between brackets, separated by commas."""
+        """Read the values between brackets, separated by commas."""
         place = 0
         self._at += 1
         self._blank()
@@ -198,7 +203,7 @@ class _TomlScanner:
         self._at += 1
 
     def _keys(self) -> tuple[str, ...]:
-        """The parts of a dotted key; afterwards the scanner is behind the key."""
+        """Read a dotted key, and return its parts."""
         keys = []
         while True:
             self._skip(_SPACE)
@@ -209,7 +214,7 @@ class _TomlScanner:
             self._at += 1
 
     def _key(self) -> str:
-        """A key without its quotation marks and escapes."""
+        """Read one part of a key, and return it without its quotation marks and escapes."""
         begin = self._at
         if self._text[begin] not in _WITHIN:
             return self._take(_BARE_KEY)
@@ -217,7 +222,7 @@ class _TomlScanner:
         return str(parsed(f"key = {self._text[begin : self._at]}", "a key")["key"])
 
     def _quoted(self) -> None:
-        """A text in one quotation mark, or in three and with one or two of its own before the last three."""
+        """Read a text in one quotation mark or three. One or two marks before the last three belong to the text."""
         quote = self._text[self._at]
         mark = 3 * quote if self._text.startswith(3 * quote, self._at) else quote
         self._at += len(mark)
@@ -233,18 +238,20 @@ class _TomlScanner:
             self._at += self._text.startswith(quote, self._at)
 
     def _blank(self) -> None:
-        """Blanks, ends of lines and comments."""
+        """Skip blanks, ends of lines and comments."""
         self._skip(_BLANK)
         while self._text.startswith("#", self._at):
             self._skip(_COMMENT)
             self._skip(_BLANK)
 
     def _line(self) -> int:
+        """Return the number of the current line."""
         self._line_there += self._text.count("\n", self._counted, self._at)
         self._counted = self._at
         return self._line_there
 
     def _take(self, pattern: re.Pattern[str]) -> str:
+        """Read what the pattern matches here, and return it."""
         match = pattern.match(self._text, self._at)
         if match is None:
             raise AssertionError("a text that is not valid TOML was to be scanned")
@@ -252,4 +259,5 @@ class _TomlScanner:
         return match.group()
 
     def _skip(self, pattern: re.Pattern[str]) -> None:
+        """Read what the pattern matches here."""
         self._take(pattern)

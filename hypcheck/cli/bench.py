@@ -119,7 +119,7 @@ def bench(context: click.Context, /, specs: tuple[str, ...], **values: Any) -> N
 
 
 def _plan_of(specs: tuple[str, ...], values: Mapping[str, Any]) -> BenchPlan:
-    """The plan of a benchmark. Raises InputError about a wrong option."""
+    """Return the plan of a benchmark. Raises InputError about a wrong option."""
     from hypcheck.bench.plan import FULL, MAX_SLOWDOWN, QUICK, BenchPlan
     from hypcheck.processes import usable_processors
 

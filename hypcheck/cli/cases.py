@@ -115,6 +115,7 @@ def freeze(names: tuple[str, ...], into: Path) -> None:
 
 
 def _format_of(target: str) -> str:
+    """Return the format that the ending of a file name means. Raises InputError if it means none."""
     end = os.path.splitext(target)[1].lower().removeprefix(".")
     if target == "-":
         return _FORMATS[0]

@@ -112,13 +112,14 @@ def classify(
 
 
 def _answered(pair: Pair, margin: float | None, *, as_json: bool) -> str:
+    """Return the text of the answer about a pair."""
     from hypcheck.answer import answer, answer_as_json, answer_as_text
 
     return (answer_as_json if as_json else answer_as_text)(answer(pair, margin))
 
 
 def _margin(text: str, end: tuple[str, str, str] | None) -> float:
-    """The margin in the text. Raises InputError if it is not a length, or if the question is a sweep."""
+    """Return the margin in the text. Raises InputError if it is not a length, or if the question is a sweep."""
     if end is not None:
         raise InputError("--margin is for a position; with --end the question is a sweep, so leave one of them out")
     margin = _number("--", "margin", text)
@@ -128,6 +129,7 @@ def _margin(text: str, end: tuple[str, str, str] | None) -> float:
 
 
 def _swept(pair: Pair, end: tuple[str, str, str], *, as_json: bool) -> str:
+    """Return the text of the answer about the sweep of a pair to `end`. Raises InputError about an invalid number."""
     from hypcheck.answer import sweep_answer, sweep_as_json, sweep_as_text
 
     numbers = [_number("--end: ", *named) for named in zip(END, end, strict=True)]
@@ -140,6 +142,7 @@ def _swept(pair: Pair, end: tuple[str, str, str], *, as_json: bool) -> str:
 
 
 def _refuse(options: dict[str, bool], reason: str) -> None:
+    """Raise InputError if one of these options is given."""
     used = [option for option, is_given in options.items() if is_given]
     if used:
         raise InputError(f"{used[0]} {reason}")
@@ -148,6 +151,7 @@ def _refuse(options: dict[str, bool], reason: str) -> None:
 def _answer_table(
     source: str, target: str | None, format_name: str | None, margin: float | None, *, mark: bool
 ) -> None:
+    """Write the answers about a table. Raises InputError if no output is named."""
     if target is None:
         raise InputError("--output is missing; name a file for the answers, or - for standard output")
     streams = route(source, target, format_name)
@@ -158,6 +162,7 @@ def _answer_table(
 
 @contextmanager
 def _watch(size: int | None) -> Iterator[Callable[[int, int], object]]:
+    """Show a progress bar for `size` rows; None if their number is unknown."""
     with watched(size, "classify", "rows") as pace:
         yield pace.advance
 
@@ -165,7 +170,7 @@ def _watch(size: int | None) -> Iterator[Callable[[int, int], object]]:
 def _pair_of(
     sizes: dict[str, str | None], center: tuple[str, str, str] | None, axis: tuple[str, str, str] | None
 ) -> Pair:
-    """The pair with these numbers, given as texts. Raises InputError naming a missing or invalid number."""
+    """Return the pair with these numbers, given as texts. Raises InputError naming a missing or invalid number."""
     missing = [f"--{name}" for name, text in sizes.items() if text is None] + ["--center"] * (center is None)
     if len(missing) == len(sizes) + 1 and axis is None:
         raise InputError("nothing to classify; give --alpha --gamma --b --d --center X Y Z, or --input and --output")
@@ -183,7 +188,7 @@ def _pair_of(
 
 
 def _with_heights(pair: Pair, z_min: str | None, z_max: str | None, solid: bool) -> Pair:
-    """The pair with these ends. Raises InputError naming an invalid height."""
+    """Return the pair with these ends. Raises InputError naming an invalid height."""
     if solid and z_min is None and z_max is None:
         raise InputError("--solid says that flat ends belong to the hyperboloid; give --z-min, --z-max or both")
     low = -math.inf if z_min is None else _number("--", "z-min", z_min)
@@ -192,6 +197,7 @@ def _with_heights(pair: Pair, z_min: str | None, z_max: str | None, solid: bool)
 
 
 def _number(begin: str, name: str, text: str) -> float:
+    """Return the number in a text. Raises InputError, whose text starts with `begin`."""
     try:
         return number_of_text(name, text)
     except ValueError as error:

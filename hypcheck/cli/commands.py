@@ -35,7 +35,7 @@ class Ending:
 
 
 def ending_of(error: BaseException) -> Ending:
-    """The end of the program after `error`: the first row of the table that fits."""
+    """Return the end of the program after `error`: the first row of the table that fits."""
     for kind, ending in _ENDINGS:
         if isinstance(error, kind):
             return ending(error)
@@ -43,11 +43,13 @@ def ending_of(error: BaseException) -> Ending:
 
 
 def _expected(error: BaseException) -> Ending:
+    """Return the end of the program after an error of hypcheck: its exit code and its sentence."""
     code = error.exit_code if isinstance(error, HypcheckError) else Exit.INTERNAL
     return Ending(code, (f"hypcheck: error: {sentence(error)}",))
 
 
 def _usage(error: BaseException) -> Ending:
+    """Return the end of the program after wrong usage: the message, and the command for help."""
     message = sentence(_message_of(error)).rstrip(".")
     context = error.ctx if isinstance(error, click.UsageError) else None
     command = context.command_path if context else "hypcheck"
@@ -61,6 +63,7 @@ def _usage(error: BaseException) -> Ending:
 
 
 def _message_of(error: BaseException) -> str:
+    """Return the message of click's error, with a suggestion if a name is not known."""
     if isinstance(error, click.NoSuchOption):
         meant = suggestion(error.option_name, error.possibilities or (), most=1)
         return f"there is no option {error.option_name!r}" + f"; {meant}" * meant.startswith("did you mean")
@@ -149,7 +152,7 @@ GROUPS = {
 COMMANDS = {name: place for group in GROUPS.values() for name, place in group.items()}
 
 OF_POSIX = ("verify", "replay", "hunt", "minimise", "bench", "engines", "simulate")
-"""The commands that start programs or workers and watch them, as Windows cannot; the others run there, too."""
+"""The commands that start programs or workers and watch them. They do not run on Windows; the others do."""
 
 _WORDS = f"{__name__}.words"
 """The key of the words after the command in a context's meta: --help among them works with bad settings too."""
@@ -159,7 +162,7 @@ class LazyGroup(CommandGroup):
     """A group whose commands are those of COMMANDS."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002 - click's signature
-        """The names, group by group."""
+        """Return the names, group by group."""
         return list(COMMANDS)
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
@@ -177,7 +180,7 @@ class LazyGroup(CommandGroup):
                 formatter.write_dl(rows)
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002
-        """The command of that name, or None."""
+        """Return the command of that name, or None."""
         if cmd_name not in COMMANDS:
             return None
         module, _, attribute = COMMANDS[cmd_name].partition(":")
@@ -187,7 +190,7 @@ class LazyGroup(CommandGroup):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """As every group; keeps the words after the command."""
+        """Find the command as every group does; keep the words after it."""
         ctx.meta[_WORDS] = args[1:]
         return super().resolve_command(ctx, args)
 
@@ -220,7 +223,7 @@ def hypcheck(context: click.Context, /, no_settings: bool) -> None:
 
 
 def context_of(words: Iterable[str]) -> click.Context:
-    """A context of the command that these words name, for the message about a wrong option."""
+    """Return a context of the command that these words name, for the message about a wrong option."""
     context = click.Context(hypcheck, info_name="hypcheck")
     for word in words:
         group = context.command
@@ -266,6 +269,7 @@ def answer_shell(instruction: str) -> None:
 
 
 def _completing(shell: str) -> ShellComplete:
+    """Return click's completion for a shell. Raises InputError if it has none."""
     kind = get_completion_class(shell)
     if kind is None:
         raise InputError(f"the installed version of click has no completion for {shell}")
@@ -273,12 +277,12 @@ def _completing(shell: str) -> ShellComplete:
 
 
 def _script(shell: str) -> str:
-    """The shell's script. That of click cuts fish's values off at their first comma."""
+    """Return the shell's script. That of click cuts fish's values off at their first comma."""
     return _completing(shell).source().replace('string split ","', 'string split --max 1 ","')
 
 
 def _completions(completing: ShellComplete) -> str:
-    """Completions of the unfinished word; if there are none, the shell offers files."""
+    """Return the completions of the unfinished word in the form of the shell. Without any, the shell offers files."""
     words, part = completing.get_completion_args()
     *words, unfinished = _unsplit([*words, part]) if completing.name == "bash" else [*words, part]
     completions = completing.get_completions(words, unfinished)
@@ -295,7 +299,7 @@ _SEPARATORS = re.compile("[:=]+")
 
 
 def _unsplit(words: Sequence[str]) -> list[str]:
-    """The words of a command line, which bash splits at : and = too: builtin:fast comes as three."""
+    """Join words that bash has split at : and = (builtin:fast comes as three); return those of the command line."""
     whole: list[str] = []
     open_ = False
     for word in words:

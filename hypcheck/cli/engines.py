@@ -41,7 +41,10 @@ def engines() -> None:
 
 
 def _installed(names: tuple[str, ...], cache: Path) -> list[Engine]:
-    """The engines of these names, or all installed ones. Raises InputError if one of them, or each, is missing."""
+    """Return the engines of these names, or all installed ones.
+
+    Raises InputError if one of them, or each, is missing.
+    """
     from hypcheck.engines.engine import engines_of, is_installed
 
     chosen = [engine for engine in engines_of(names) if names or is_installed(engine, cache)]
@@ -53,7 +56,7 @@ def _installed(names: tuple[str, ...], cache: Path) -> list[Engine]:
 
 
 def _from_here(word: str) -> str:
-    """The word, as a relative path if it is a path below the working directory."""
+    """Return the word, as a relative path if it is a path below the working directory."""
     here = Path.cwd()
     return os.path.relpath(word, here) if Path(word).is_relative_to(here) else word
 

@@ -37,14 +37,17 @@ about_one_implementation = options.with_options(
     options.TOLERANCE,
     options.with_limits,
 )
-"""A decorator of commands that hunt in a single implementation: how it is opened and judged, for `_target`."""
+"""A decorator that gives a command the options about how one implementation is opened and judged, for `_target`."""
 
 
 @contextmanager
 def _opened(
     spec: str, question: str | None, precision: str | None, domain: str | None, limits: dict[str, Any]
 ) -> Iterator[Implementation]:
-    """The running implementation of `spec`, described as the options say. Raises InputError, StartError."""
+    """Enter a block with the running implementation of `spec`, described as the options say.
+
+    Raises InputError, StartError.
+    """
     from hypcheck.implementations.description import parse_domain
     from hypcheck.implementations.implementation import open_implementation
 
@@ -67,7 +70,10 @@ def _target(
     tolerance: float,
     **limits: Any,  # noqa: ANN401 - those of with_limits
 ) -> Iterator[HuntTarget]:
-    """The running implementation of `spec`, judged as the options say. Raises InputError, StartError."""
+    """Enter a block with the running implementation of `spec`, and how the options say that it is judged.
+
+    Raises InputError, StartError.
+    """
     from hypcheck.runs.hunt import target_of
     from hypcheck.runs.judge import DEFAULT_TOLERANCE
 
@@ -153,11 +159,11 @@ def hunt(
 
 
 _STEPS = 1000
-"""Steps of the progress bar of a hunt."""
+"""The number of steps of the progress bar of a hunt."""
 
 
 def _hunt_with_bar(run: Hunt) -> None:
-    """Hunt, under a progress bar on a terminal."""
+    """Hunt; on a terminal show a progress bar."""
     from hypcheck.runs.hunt_search import run_hunt
 
     if not is_terminal(sys.stderr):
@@ -178,6 +184,7 @@ def _hunt_with_bar(run: Hunt) -> None:
 
 
 def _print_findings(run: Hunt, show: int, out: Path | None) -> None:
+    """Print the findings of a hunt, and add the worst row of each kind to the vector file `out`."""
     from hypcheck.runs.hunt import hunt_lines
 
     for line in hunt_lines(run, show):
@@ -200,7 +207,12 @@ def _print_findings(run: Hunt, show: int, out: Path | None) -> None:
 
 
 def _exit_code(run: Hunt) -> Exit:
-    """The exit code. Raises NothingJudgedError if no row was answered, and the implementation is not at fault."""
+    """Return the exit code of a hunt.
+
+    It is NOT_STARTED if no reply followed the protocol, WRONG if an answer is wrong beyond the tolerance or a row ended
+    without a valid answer, else HELD. Raises NothingJudgedError if no answer was judged, though no row failed: the
+    domain has no row to test, or every answer was an abstention ("cannot say").
+    """
     from hypcheck.runs.judge import Status
 
     broken = not run.answered and set(run.unanswered) - {Status.NOT_RUN} == {Status.PROTOCOL}
@@ -211,6 +223,7 @@ def _exit_code(run: Hunt) -> Exit:
 
 
 def _regimes(text: str | None) -> tuple[str, ...] | None:
+    """Return the regimes that --regimes names; none for "any"; None if the option is not given."""
     if text is None:
         return None
     return () if text == "any" else tuple(name.strip() for name in text.split(","))
@@ -319,7 +332,7 @@ def replay(
 
 
 def _in_ledger(number: str) -> tuple[str, str, str]:
-    """The verdict on a claim of the paper, the claim in words, and its correction; loads sympy."""
+    """Return the verdict on a claim of the paper, the claim in words, and its correction; loads sympy."""
     from hypcheck.paper.ledger.book import statement
 
     entry = statement(number)

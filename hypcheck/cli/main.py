@@ -50,6 +50,7 @@ def _fill_closed_descriptors() -> int:
 
 
 def _is_closed(stream: int) -> bool:
+    """Return whether the descriptor `stream` is closed."""
     try:
         os.fstat(stream)
     except OSError:
@@ -78,7 +79,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 @contextmanager
 def _command_line(words: list[str]) -> Iterator[click.Context]:
-    """The context of the words, to invoke. click's own main() would handle errors and closed pipes itself."""
+    """Enter a block with the context of the words, to invoke.
+
+    click's own main() is not used, because it would handle errors and closed pipes itself.
+    """
     import click
 
     from hypcheck.cli.commands import context_of, hypcheck
@@ -100,6 +104,7 @@ def _command_line(words: list[str]) -> Iterator[click.Context]:
 
 
 def _end(error: BaseException, *, debug: bool) -> int:
+    """Print the message about an error, and return the exit code."""
     from hypcheck.cli.commands import ending_of
     from hypcheck.errors import Exit
 
@@ -126,7 +131,7 @@ def _silence_stdout() -> None:
 
 @contextmanager
 def _terminable() -> Iterator[None]:
-    """Within the block SIGTERM unwinds the stack as Ctrl-C does, so that half-written files are removed.
+    """Enter a block in which SIGTERM unwinds the stack as Ctrl-C does, so that half-written files are removed.
 
     So does SIGHUP, which a closed terminal sends, unless it is ignored (nohup).
     """
@@ -151,6 +156,7 @@ _ENDING = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(si
 
 
 def _terminate(_signal: int, _frame: object) -> NoReturn:
+    """Handle a signal: raise Terminated."""
     raise Terminated  # imported at the top: at this moment any other module may be half imported
 
 

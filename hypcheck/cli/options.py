@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from hypcheck.record.lines import IsolationPart
 
 Known = Callable[[click.Context, str], Iterable[str]]
+"""A function from the context of a command, and the beginning of a word, to the names that may complete the word."""
 
 NOTHING = "nothing"
 """The type of an item that completes nothing, not even files: the shells' scripts ignore unknown types."""
@@ -47,7 +48,7 @@ class Names(click.ParamType[str]):
         self.files = files
 
     def convert(self, value: str, param: click.Parameter | None, ctx: click.Context | None) -> str:
-        """The text; a list without a name is refused, because it would mean the same as no list."""
+        """Return the text; a list without a name is refused, because it would mean the same as no list."""
         if self.many and not names_in(value):
             self.fail(f"{shown(value)} must be names, separated by commas.", param, ctx)
         return value
@@ -58,7 +59,7 @@ class Names(click.ParamType[str]):
         param: click.Parameter,  # noqa: ARG002 - click's signature
         incomplete: str,
     ) -> list[CompletionItem]:
-        """The names that complete the last word, each after the names before the last comma, without duplicates."""
+        """Return the names that complete the last word, once each, after the names before the last comma."""
         before, comma, last = incomplete.rpartition(",") if self.many else ("", "", incomplete)
         names = [name for name in dict.fromkeys(self.known(ctx, last)) if name.startswith(last)]
         items = [CompletionItem(f"{before}{comma}{name}") for name in names if name not in before.split(",")]
@@ -66,21 +67,21 @@ class Names(click.ParamType[str]):
 
 
 def families(ctx: click.Context, begun: str) -> Iterable[str]:  # noqa: ARG001 - a Known
-    """Families of all questions, and the pattern for the extreme ones."""
+    """Return the families of all questions, and the pattern for the extreme ones."""
     from hypcheck.vectors.families import ALL, EXTREME
 
     return (*ALL, EXTREME)
 
 
 def frozen_families(ctx: click.Context, begun: str) -> Iterable[str]:  # noqa: ARG001 - a Known
-    """Families of frozen vectors, and the files of invalid rows."""
+    """Return the families of frozen vectors, and the files of invalid rows."""
     from hypcheck.vectors.frozen import ALL_NAMES
 
     return ALL_NAMES
 
 
 def cases(ctx: click.Context, begun: str) -> Iterable[str]:  # noqa: ARG001 - a Known
-    """Completions of a case id: families first, then the frozen cases of the family in the word."""
+    """Yield completions of a case id: families first, then the frozen cases of the family in the word."""
     from hypcheck.vectors.frozen import ALL_NAMES, load
 
     several = [name for name in ALL_NAMES if name.startswith(begun)]
@@ -92,17 +93,17 @@ def cases(ctx: click.Context, begun: str) -> Iterable[str]:  # noqa: ARG001 - a 
 
 
 def families_and_cases(ctx: click.Context, begun: str) -> Iterable[str]:
-    """Families of frozen vectors, and their cases."""
+    """Yield the families of frozen vectors, and their cases."""
     yield from frozen_families(ctx, begun)
     yield from cases(ctx, begun)
 
 
 SPECS = ("python:", "library:", "command:")
-"""What is before the name of a file in a SPEC."""
+"""The beginnings of SPECs with a file; the name of the file follows."""
 
 
 def specs(ctx: click.Context, begun: str) -> Iterable[str]:  # noqa: ARG001 - a Known
-    """The built-in methods, and how other SPECs begin."""
+    """Yield the built-in methods, and the beginnings of other SPECs."""
     if not begun.startswith(SPECS):
         from hypcheck.implementations.builtin import names
 
@@ -111,20 +112,21 @@ def specs(ctx: click.Context, begun: str) -> Iterable[str]:  # noqa: ARG001 - a 
 
 
 def bench_methods(ctx: click.Context, begun: str) -> Iterable[str]:  # noqa: ARG001 - a Known
-    """The methods that the command compares with the options given so far."""
+    """Return the methods that the command compares with the options given so far."""
     from hypcheck.bench.contenders import contenders
 
     return contenders(_bench_plan(ctx))
 
 
 def workloads(ctx: click.Context, begun: str) -> Iterable[str]:  # noqa: ARG001 - a Known
-    """The workloads of the command with the options given so far."""
+    """Return the workloads of the command with the options given so far."""
     from hypcheck.bench.workloads import workloads_of
 
     return workloads_of(_bench_plan(ctx))
 
 
 def _bench_plan(ctx: click.Context) -> BenchPlan:
+    """Return a plan of `hypcheck bench` with the question and the kind of spheroids given so far."""
     from hypcheck.bench.plan import PASSAGE, BenchPlan
 
     if ctx.params.get("question") == PASSAGE:
@@ -133,28 +135,28 @@ def _bench_plan(ctx: click.Context) -> BenchPlan:
 
 
 def pair_methods(ctx: click.Context, begun: str) -> Iterable[str]:  # noqa: ARG001 - a Known
-    """The methods of code for one pair."""
+    """Return the methods of code for one pair."""
     from hypcheck.kernel.emission.pair import METHODS
 
     return METHODS
 
 
 def scenes(ctx: click.Context, begun: str) -> Iterable[str]:  # noqa: ARG001 - a Known
-    """The shipped scenes."""
+    """Return the shipped scenes."""
     from hypcheck.scene.reading import shipped_scenes
 
     return shipped_scenes()
 
 
 def causes(ctx: click.Context, begun: str) -> Iterable[str]:  # noqa: ARG001 - a Known
-    """Ids of causes of wrong answers."""
+    """Return the ids of causes of wrong answers."""
     from hypcheck.runs.explain import BY_ID
 
     return BY_ID
 
 
 def engines(ctx: click.Context, begun: str) -> Iterable[str]:  # noqa: ARG001 - a Known
-    """The collision engines."""
+    """Return the collision engines."""
     from hypcheck.engines.engine import ENGINES
 
     return ENGINES
@@ -172,13 +174,13 @@ Command = TypeVar("Command", bound=Callable[..., Any])
 LARGEST_SEED = 2**63 - 1
 
 LARGEST_COUNT = 10**15
-"""More rows than any run can finish."""
+"""The largest number of rows that an option takes: more than any run can finish."""
 
 MOST_PROCESSES = 1024
-"""More would only compete for processors and memory."""
+"""The largest number of processes that an option takes: more would only compete for processors and memory."""
 
 _INTEGER = re.compile(r"\d{1,20}(_\d{1,20}){0,9}(\.\d{1,20})?([eE]\+?\d{1,2})?", re.ASCII)
-"""Few digits and a small exponent: 1e99999999 would take all memory."""
+"""The form of a whole number. Digits are few and the exponent is small, because 1e99999999 would take all memory."""
 
 
 class IntegerOption(click.types.IntParamType):
@@ -189,7 +191,7 @@ class IntegerOption(click.types.IntParamType):
         self.greatest = greatest
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> int:  # noqa: ANN401 - click's
-        """The number. Raises click.BadParameter."""
+        """Read the number. Raises click.BadParameter."""
         number = integer_of(str(value))
         if number is None or not self.least <= number <= self.greatest:
             self.fail(f"{shown(str(value))} must be {integer_wanted(self.least, self.greatest)}.", param, ctx)
@@ -197,7 +199,7 @@ class IntegerOption(click.types.IntParamType):
 
 
 def integer_of(text: str) -> int | None:
-    """The whole number that a text writes, exactly; None if it writes none."""
+    """Return the whole number that a text writes, exactly; None if it writes none."""
     from fractions import Fraction
 
     if not _INTEGER.fullmatch(text):
@@ -207,7 +209,7 @@ def integer_of(text: str) -> int | None:
 
 
 def integer_wanted(least: int, greatest: int) -> str:
-    """The end of a sentence: the requirement for a number."""
+    """Return the requirement for a whole number, as the end of a sentence."""
     digits = str(greatest)
     power = len(digits) > 6 and not digits[1:].strip("0") and digits[0] == "1"
     return f"a whole number, at least {least} and at most {f'1e{len(digits) - 1}' if power else digits}"
@@ -220,7 +222,7 @@ class FreshOption(IntegerOption):
         super().__init__(0, LARGEST_SEED)
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:  # noqa: ANN401 - click's
-        """The text. Raises click.BadParameter."""
+        """Check the text, and return it. Raises click.BadParameter."""
         return value if value in ("auto", "off") else str(super().convert(value, param, ctx))
 
 
@@ -233,7 +235,7 @@ class NumberOption(click.types.FloatParamType):
         self.excluded = excluded
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:  # noqa: ANN401 - click's
-        """The number. Raises click.BadParameter."""
+        """Read the number. Raises click.BadParameter."""
         number = float(value) if is_number(str(value)) else math.nan
         above = self.least < number if self.excluded else self.least <= number
         if not (math.isfinite(number) and above and number <= self.greatest):
@@ -251,7 +253,7 @@ class OutputPath(click.Path):
         self.stream = stream
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Path:  # noqa: ANN401 - click's
-        """The path. Raises click.BadParameter."""
+        """Check the path, and return it. Raises click.BadParameter."""
         text = os.fspath(value)
         if not text or (text == STREAM and not self.stream):
             self.fail(f"{text!r} names neither a file nor a folder.", param, ctx)
@@ -303,12 +305,12 @@ TOLERANCE = click.option(
 
 
 def workers(wanted: str) -> Callable[[Command], Command]:
-    """The option --workers of a command; `wanted` is its help."""
+    """Return the option --workers of a command; `wanted` is its help."""
     return click.option("--workers", type=IntegerOption(1, MOST_PROCESSES), help=wanted)
 
 
 def with_options(*options: Callable[[Command], Command]) -> Callable[[Command], Command]:
-    """A decorator of commands that adds these options in their order."""
+    """Return a decorator of commands that adds these options in their order."""
 
     def add(command: Command) -> Command:
         for option in reversed(options):
@@ -343,7 +345,7 @@ with_limits = with_options(
     PASS_ENV,
     SEE,
 )
-"""A decorator of commands: the options that limit an implementation's processes, for `limits_of`."""
+"""A decorator that gives a command the options that limit an implementation's processes; `limits_of` reads them."""
 
 LIMITS = ("startup_timeout", "timeout", "restarts", "memory", "isolate", "pass_env", "see")
 """The parameters of limits_of that are options."""
@@ -360,14 +362,14 @@ def limits_of(
     see: Sequence[str] = (),
     out: Path | None = None,
 ) -> Limits:
-    """The limits that these options set; an isolated implementation does not see `out`. Raises InputError."""
+    """Return the limits that these options set; an isolated implementation does not see `out`. Raises InputError."""
     from hypcheck.implementations.session import Limits
 
     return isolated(Limits(startup_timeout, timeout, restarts, bytes_of(memory)), isolate, pass_env, see, out)
 
 
 def isolated(limits: Limits, isolate: str | None, pass_env: str | None, see: Sequence[str], out: Path | None) -> Limits:
-    """The limits, with the isolation that these options set. Raises InputError."""
+    """Return the limits, with the isolation that these options set. Raises InputError."""
     from dataclasses import replace
 
     from hypcheck.isolation.launch import Isolation, usual_mode
@@ -381,14 +383,14 @@ def isolated(limits: Limits, isolate: str | None, pass_env: str | None, see: Seq
 
 
 def seen_text(limits: Limits) -> str:
-    """The files that --see shows an isolated implementation, as the end of a sentence; empty without --see."""
+    """Return the files that --see shows an isolated implementation, as the end of a sentence; empty without --see."""
     return f"; --see shows it {', '.join(map(escaped, limits.isolation.seen))}" if limits.isolation.seen else ""
 
 
 def isolation_of(specs: Iterable[str], limits: Limits) -> IsolationPart | None:
-    """The isolation of these implementations in the form of the record; None if all are built in.
+    """Return the isolation of these implementations in the form of the record; None if all are built in.
 
-    Raises NotIsolatedError if it must, and the system cannot.
+    Raises NotIsolatedError if --isolate is on, and the system cannot isolate them.
     """
     from hypcheck.record.lines import IsolationPart
 
@@ -409,12 +411,12 @@ def print_isolation(spec: str, limits: Limits) -> None:
 
 
 def names_in(text: str | None) -> tuple[str, ...]:
-    """The names in a list separated by commas; none for None."""
+    """Return the names in a list separated by commas; none for None."""
     return tuple(name.strip() for name in (text or "").split(",") if name.strip())
 
 
 def bytes_of(text: str) -> int:
-    """A size such as 4G, 512M or 1000000 in bytes. Raises InputError."""
+    """Return a size such as 4G, 512M or 1000000 in bytes. Raises InputError."""
     known = text[-1:].upper() in _SUFFIXES
     number, exponent = (text[:-1], _SUFFIXES[text[-1].upper()]) if known else (text, 0)
     size = float(number) * 2**exponent if is_number(number) else math.inf

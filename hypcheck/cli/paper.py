@@ -67,7 +67,7 @@ def derive(context: click.Context, /, form: str, only: tuple[str, ...], claim: s
 
 
 def _write(lines: Iterable[str], output: str) -> None:
-    """Lines to standard output as they come, or to a file that appears when it is complete."""
+    """Write lines to standard output as they come, or to a file that appears when it is complete."""
     if output == "-":
         for line in lines:
             click.echo(line)
@@ -87,7 +87,7 @@ ENDS = click.option(
 SHOW = click.option("--show-scene", is_flag=True, help="Print the file of a shipped scene, for you to change, and end.")
 
 common = options.with_options(options.SEED, CONTINUOUS, ENDS, OUT, options.FORMAT, SHOW)
-"""A decorator of commands: the options that both simulations have."""
+"""A decorator that gives a command the options that both simulations have."""
 
 
 @click.group(
@@ -210,6 +210,7 @@ def _scene(name: str) -> SceneModel:
 
 
 def _show(name: str) -> None:
+    """Print the file of a shipped scene. Raises InputError if there is none of this name."""
     from hypcheck.scene.reading import shipped_scenes, shipped_text
 
     if name not in shipped_scenes():
@@ -218,7 +219,7 @@ def _show(name: str) -> None:
 
 
 def _ready_folder(kind: str, out: Path | None) -> AbstractContextManager[None]:
-    """Make the folder for the files, before anything is simulated."""
+    """Return a context that makes the folder `out` before anything is simulated; it does nothing if `out` is None."""
     if out is None:
         return nullcontext()
     from hypcheck.report.write import ready_for

@@ -54,7 +54,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 
 def _refused(specs: Iterable[object], options: Mapping[str, Any]) -> str | None:
-    """Why a marker gates nothing, as the end of a sentence; None if it gates."""
+    """Return why a marker gates nothing, as the end of a sentence; None if it gates."""
     for spec in specs:
         if not isinstance(spec, str | os.PathLike):
             return f"has {spec!r} as SPEC; it must be a text such as 'python:mine.py:position'"
@@ -74,7 +74,7 @@ def pytest_runtest_call(item: pytest.Item) -> None:
 
 
 def gate(specs: Iterable[object], options: Mapping[str, Any], root: Path) -> str | None:
-    """Why `hypcheck verify` fails in the folder `root`, with the worst case and its replay; None if it does not."""
+    """Run `hypcheck verify` in the folder `root`; return why it fails, with the worst case and its replay, or None."""
     with TemporaryDirectory(prefix="hypcheck-") as temporary:
         out = root / options.get("out", temporary)
         fresh = () if "CI" in os.environ or "fresh" in options else ("--fresh=off",)
@@ -91,7 +91,10 @@ def gate(specs: Iterable[object], options: Mapping[str, Any], root: Path) -> str
 
 
 def _words(options: Mapping[str, Any]) -> Iterator[str]:
-    """The options as on a command line: True is a flag, a list is joined by commas, None and False are left out."""
+    """Yield the options as words of a command line.
+
+    True becomes a flag, and a list is joined by commas; None and False are left out.
+    """
     for name, value in options.items():
         if value is None or value is False:
             continue
@@ -100,7 +103,7 @@ def _words(options: Mapping[str, Any]) -> Iterator[str]:
 
 
 def _told(out: Path) -> str | None:
-    """The failures in the record of the run; None if there is no record, because the run was refused."""
+    """Return the text about the failures in the record of a run; None without a record, because the run was refused."""
     from hypcheck.messages import counted, sentence
     from hypcheck.record import read
     from hypcheck.record.reader import FILE
@@ -123,7 +126,7 @@ def _told(out: Path) -> str | None:
 
 
 def _worst(record: Record, failed: list[Failure]) -> Failure:
-    """The failure with the greatest backward error; the first one where no answer was wrong."""
+    """Return the failure with the greatest backward error; the first one where no answer was wrong."""
     from hypcheck.record.lines import GroupLine
     from hypcheck.report.model import worst_u
 

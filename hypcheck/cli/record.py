@@ -73,7 +73,7 @@ def _require_comparing(wanted: Sequence[str], against: Path | None) -> None:
 
 
 def _file_format(out: Path, wanted: Sequence[str]) -> str | None:
-    """The format of the file that --out names; None if it names a folder."""
+    """Return the format of the file that --out names; None if it names a folder."""
     if out.is_dir() or not out.suffix or len(wanted) > 1:
         return None
     if wanted:
@@ -88,6 +88,7 @@ def _file_format(out: Path, wanted: Sequence[str]) -> str | None:
 
 
 def _read(path: Path, subject: Path) -> Record:
+    """Read a record; for the record that reports are made of, print notes about its run."""
     from hypcheck.record.reader import file_and_newer, notes, read
 
     _, newer = file_and_newer(path)
@@ -100,6 +101,7 @@ def _read(path: Path, subject: Path) -> Record:
 
 
 def _print(record: Record, name: str, against: Record | None) -> None:
+    """Write one report to standard output."""
     from hypcheck.report.drawings import ReportContext
     from hypcheck.report.terminal import summary_lines
     from hypcheck.report.write import render
@@ -114,6 +116,7 @@ def _print(record: Record, name: str, against: Record | None) -> None:
 
 
 def _into_file(record: Record, source: Path, out: Path, name: str, against: Record | None) -> None:
+    """Write one report to a file."""
     from hypcheck.report.drawings import ReportContext
     from hypcheck.report.write import render
 
@@ -124,7 +127,7 @@ def _into_file(record: Record, source: Path, out: Path, name: str, against: Reco
 
 
 def _beside(source: Path, out: Path) -> list[str]:
-    """The pictures of the same run: those in the record's folder, if the report goes there too."""
+    """Return the pictures of the same run: those in the record's folder, if the report goes there too."""
     folder = source if source.is_dir() else source.parent
     if folder.resolve() != out.parent.resolve():
         return []
@@ -132,6 +135,7 @@ def _beside(source: Path, out: Path) -> list[str]:
 
 
 def _into_folder(record: Record, out: Path, wanted: Sequence[str], against: Record | None) -> None:
+    """Write reports to a folder, and print their paths."""
     from hypcheck.report.write import write_reports
 
     for written in write_reports(record, out, wanted, against):
@@ -194,10 +198,12 @@ def repair(record: Path, out: Path) -> None:
 
 
 def _kept(condition: FileCondition) -> str:
+    """Return the words about the good lines of a record."""
     return f"{counted(condition.lines, 'good line')}, {counted(condition.size, 'byte')}"
 
 
 def _ending(condition: FileCondition) -> str:
+    """Return the words about how a record ends: complete, cut off, or damaged."""
     if condition.complete and not condition.lost_bytes:
         return f"it is complete, of a run that ended with {escaped(condition.exit_code, 40)}"
     if not condition.lost_bytes:

@@ -44,7 +44,7 @@ class DetachableTerminal(io.TextIOBase):
         self._terminal = terminal
 
     def isatty(self) -> bool:
-        """Whether the stream is a terminal."""
+        """Return whether the stream is a terminal."""
         return self._terminal.isatty()
 
     def write(self, text: str) -> int:
@@ -71,21 +71,21 @@ class DetachableTerminal(io.TextIOBase):
 
 
 _UPDATE_SECONDS, _FIRST_RATE_SECONDS = 0.1, 1.0
-"""Seconds between two updates of a bar, and until it shows a rate."""
+"""Seconds between two updates of a bar, and seconds until it shows a rate."""
 
 
 def is_terminal(stream: TextIO | None) -> bool:
-    """Whether a stream is a terminal; a stream whose descriptor was closed is None."""
+    """Return whether a stream is a terminal; a stream whose descriptor was closed is None."""
     return stream is not None and stream.isatty()
 
 
 def in_colour() -> bool:
-    """Whether standard output is a terminal with colours that are not switched off (https://no-color.org)."""
+    """Return whether standard output is a terminal with colours that are not switched off (https://no-color.org)."""
     return is_terminal(sys.stdout) and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
 
 
 def summary_options() -> dict[str, Any]:
-    """Arguments of summary_lines: on a terminal the lines are cut to its width, and coloured; in a pipe neither."""
+    """Return arguments for summary_lines: on a terminal, lines are cut to its width and coloured; in a pipe neither."""
     from hypcheck.report.terminal import WIDTH
 
     return {"colour": in_colour(), "width": WIDTH if is_terminal(sys.stdout) else None}
@@ -93,7 +93,7 @@ def summary_options() -> dict[str, Any]:
 
 @contextmanager
 def watched(length: int | None, label: str, unit: str = "", done: int = 0) -> Iterator[ShownPace]:
-    """A bar of `length` steps (None if unknown), of which some were `done` before; `unit` names what a rate counts."""
+    """Show a bar of `length` steps (None if unknown), `done` of them done before; `unit` is what a rate counts."""
     if length == 0 or not is_terminal(sys.stderr):
         yield ShownPace(None, unit)
         return
@@ -156,10 +156,12 @@ class ShownPace:
 
 
 def _per_second(rate: float) -> str:
+    """Return a rate as text."""
     return f"{rate / 1e6:.1f} million" if rate >= 1e6 else f"{rate:,.0f}"
 
 
 def _clock(seconds: float) -> str:
+    """Return a time as hours:minutes:seconds."""
     minutes, rest = divmod(round(seconds), 60)
     return f"{minutes // 60}:{minutes % 60:02}:{rest:02}"
 
@@ -254,7 +256,7 @@ def run_stages(stages: Sequence[Stage]) -> None:
 
 
 def label(title: str) -> str:
-    """The title of a stage as the bar shows it, all equally wide."""
+    """Return the title of a stage as the bar shows it: all titles have the same width."""
     return f"{title:28}"
 
 
@@ -308,6 +310,7 @@ def report(record: Record, out: Path) -> None:
 
 
 def _summary(record: Record, written: Sequence[WrittenReport] = ()) -> Sequence[str]:
+    """Return the lines of the summary of a record."""
     from hypcheck.report.terminal import summary_lines
 
     return list(summary_lines(record, written, **summary_options()))
@@ -332,7 +335,7 @@ def _print_summary(record: Record, lines: Sequence[str]) -> None:
 def resumed(
     path: Path, out: Path, plan: ConformancePlan, options: Mapping[str, Any], files: Mapping[str, str], cases: int
 ) -> ResumedRun | int:
-    """The finished part of an interrupted run. For a finished run: write its reports and return its exit code.
+    """Return the finished part of an interrupted run; for a finished run, write its reports and return its exit code.
 
     `path` is a record, or the folder of a run. Raises InputError if the record cannot be read, is being written, or is
     of another run, naming what differs.
@@ -370,6 +373,6 @@ def _make_reports(record: Record, file: Path, out: Path) -> None:
 
 
 def _has_newer_reports(out: Path, names: Sequence[str], record: Path) -> bool:
-    """Whether all of these reports were written after the record."""
+    """Return whether all of these reports were written after the record."""
     written = record.stat().st_mtime_ns
     return all((out / name).is_file() and (out / name).stat().st_mtime_ns >= written for name in names)

@@ -61,7 +61,10 @@ def plan(scene: str, precision: str, question: str | None, measure: bool, as_jso
 
 
 def asked_scene(scene: str, question: str | None) -> SceneModel:
-    """The scene from a file or a shipped scene; `question`, if given, replaces its question. Raises InputError."""
+    """Return the scene from a file or a shipped scene; `question`, if given, replaces its question.
+
+    Raises InputError.
+    """
     from hypcheck.scene.model import QUESTIONS
     from hypcheck.scene.reading import read_scene
 
@@ -74,7 +77,7 @@ def asked_scene(scene: str, question: str | None) -> SceneModel:
 
 
 def _measured(plan: ScenePlan) -> Iterator[dict[str, Any]]:
-    """The saving of each setting. Raises UnavailableError if there is no C compiler."""
+    """Compile and time the kernel of each setting; yield its savings. Raises UnavailableError without a C compiler."""
     from tempfile import TemporaryDirectory
 
     from hypcheck.bench.scene import kernel_savings
@@ -199,7 +202,7 @@ def _require_routine(sweeps: bool, whole: bool, question: str | None, proof: str
 
 
 def _command(context: click.Context) -> list[str]:
-    """The command that writes the same code: all options that differ from the default, except for the output files."""
+    """Return the words of the command that writes the same code, without the options that name the output files."""
     command = ["hypcheck", "emit"]
     for option in context.command.params:
         value = context.params[str(option.name)]
@@ -211,7 +214,7 @@ def _command(context: click.Context) -> list[str]:
 def _kernel(
     model: SceneModel, language: str, precision: str, command: list[str], prefix: str, *, whole: bool
 ) -> tuple[ScenePlan, str]:
-    """The plan of a scene, or of the whole scene, and its kernel."""
+    """Plan a scene, or (`whole`) the scene with its places and heights; return the plan and the text of its kernel."""
     from hypcheck.kernel.emission.kernel import emitted, emitted_whole, whole_plan
     from hypcheck.kernel.specialise.plan import plan_of
 
@@ -255,7 +258,7 @@ def flight(scene: str, path: str, as_json: bool) -> None:
 
 
 def _answers(scene: Scene, table: FlightTable) -> list[dict[str, Any]]:
-    """The printed answer for each flight; its contact is None if there is none."""
+    """Decide the flights, and return the printed answer for each; its `contact` is None if there is none."""
     heading = 0.0 if table.headings is None else table.headings
     contacts = scene.first_contact(table.paths, heading, axis=table.axes)
     names = [body.name for body in scene.model.hyperboloids]
@@ -280,6 +283,7 @@ def _answers(scene: Scene, table: FlightTable) -> list[dict[str, Any]]:
 
 
 def _in_words(answer: dict[str, Any]) -> str:
+    """Return the answer about a flight as a sentence."""
     contact, least = answer["contact"], answer["least"]
     begin = "" if answer["flight"] is None else f"flight {answer['flight']}: "
     if not (contact or least):

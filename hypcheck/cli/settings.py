@@ -29,10 +29,10 @@ if TYPE_CHECKING:
 FILE = "hypcheck.toml"
 
 ABOUT_ONE = ("tolerance", "precision", "question", "domain", *LIMITS)
-"""How an implementation is opened and judged: keys for the commands that ask a single one, too."""
+"""The keys about how an implementation is opened and judged. All commands of COMMANDS read them."""
 
 COMMANDS = ("verify", "replay", "hunt", "minimise")
-"""Commands that read the settings: verify all of them, the others ABOUT_ONE."""
+"""The commands that read the settings: verify reads all keys, the others read ABOUT_ONE."""
 
 _BYTES = re.compile(r"[0-9]+[KMGT]?", re.ASCII | re.IGNORECASE)
 
@@ -67,13 +67,14 @@ _UNSET: Mapping[str, Any] = MappingProxyType(
         "max_slowdown": 1.1,  # hypcheck.bench.plan.MAX_SLOWDOWN; its module is not loaded here
     }
 )
-"""What applies if an option has no value."""
+"""The value that applies if an option is not given, as it is shown."""
 
 
 def in_effect(context: click.Context, unused: Collection[str] = ()) -> SettingsPart | None:
-    """The settings in a record's header: the file that was read, and each option that weakens the gate of this run.
+    """Return the settings for a record's header; None if there are none.
 
-    None if there is neither. `unused` are options that the run does not have.
+    They are the file that was read, and each option that weakens the gate of this run. `unused` are options that the
+    run does not have.
     """
     from hypcheck.isolation.launch import VARIABLE, usual_mode
 
@@ -115,7 +116,7 @@ def print_file_settings() -> None:
 
 
 def _leaves_out_families(value: str) -> bool:
-    """Whether the chosen families lack one that is tested by default. An empty choice is refused later."""
+    """Return whether the chosen families lack one that is tested by default. An empty choice is refused later."""
     from hypcheck.vectors.families import select
 
     try:
@@ -134,17 +135,18 @@ _WEAKENS: Mapping[str, Callable[[Any, Any], bool]] = MappingProxyType(
         "families": lambda value, _: _leaves_out_families(value),
     }
 )
-"""Whether an option with this value, instead of its default, weakens a gate."""
+"""For each option that can weaken a gate: a function that says whether a value does, from the value and the default."""
 
 
 def _as_text(value: object) -> str:
+    """Return a value of an option as text."""
     if isinstance(value, tuple):
         return ", ".join(map(str, value))
     return f"{value:.17g}" if isinstance(value, float) else str(value)
 
 
 def read_settings(path: Path) -> ProjectSettings | None:
-    """The settings in a file, None if there is no such file. Raises InputError naming file, line and key."""
+    """Read the settings in a file; None if there is no such file. Raises InputError naming file, line and key."""
     try:
         text = toml.text_of(str(path))
     except FileNotFoundError:
@@ -154,7 +156,7 @@ def read_settings(path: Path) -> ProjectSettings | None:
 
 
 def _names(wanted: str) -> Check[str]:
-    """Lists of names, or one text of them, in the form of the option: separated by commas."""
+    """Return a check for a list of names or a text of them; it makes the form of the option, separated by commas."""
     listed = strict.texts(wanted)
 
     def check(value: object) -> str:
@@ -167,12 +169,15 @@ def _names(wanted: str) -> Check[str]:
 
 
 def _path(value: object) -> str:
+    """Check that a value is the text of a path, and return it."""
     if not isinstance(value, str) or not value or "\0" in value:
         raise ValueError("the text of a path")
     return value
 
 
 def _integer(least: int, greatest: int = LARGEST_COUNT) -> Check[int]:
+    """Return a check for a whole number from `least` to `greatest`."""
+
     def check(value: object) -> int:
         if isinstance(value, float) and value.is_integer():  # 1e9 is a float in TOML
             value = int(value)
@@ -184,6 +189,7 @@ def _integer(least: int, greatest: int = LARGEST_COUNT) -> Check[int]:
 
 
 def _bytes(value: object) -> str:
+    """Check that a value is a size in bytes, and return it as text."""
     if isinstance(value, int) and not isinstance(value, bool) and value > 0:
         return str(value)
     if not isinstance(value, str) or not _BYTES.fullmatch(value):
@@ -192,19 +198,21 @@ def _bytes(value: object) -> str:
 
 
 def _precision(value: object) -> str:
+    """Check that a value is the name of a precision, and return it."""
     from hypcheck.implementations.domain import PRECISIONS
 
     return strict.one_of(*PRECISIONS)(value)
 
 
 def _question(value: object) -> str:
+    """Check that a value is the name of a question, and return it."""
     from hypcheck.implementations.description import QUESTIONS
 
     return strict.one_of(*QUESTIONS)(value)
 
 
 def _domain(value: object) -> str:
-    """A table in the form of the option, JSON. Raises InputError too."""
+    """Check the table of a domain, and return it in the form of the option, JSON. Raises InputError too."""
     from hypcheck.implementations.description import parse_domain
 
     if not isinstance(value, dict):
@@ -238,4 +246,4 @@ _KEYS: Mapping[str, Check[Any]] = MappingProxyType(
         "see": strict.texts('a list of paths, such as ["vendor/lib"]'),
     }
 )
-"""Checks the value of each key, and gives it the form of its option."""
+"""The check of each key, which gives the value the form of its option."""

@@ -76,12 +76,14 @@ def init(language: str, directory: Path, stub: str, name: str | None, source: st
 
 
 def _remark(path: str, project: Project, added: Collection[str]) -> str:
+    """Return the words behind the path of a written file."""
     if path == project.predicate:
         return "   the stub: replace it"
     return "   existed: added to" if path in added else ""
 
 
 def _print_next(project: Project, directory: Path) -> None:
+    """Print the commands to type next."""
     click.echo(f"\nType next{'' if directory == Path() else f', in {printable(shlex.quote(str(directory)))}'}:\n")
     for command in project.commands:
         click.echo(printable(f"    {command}"))
@@ -92,6 +94,7 @@ def _print_next(project: Project, directory: Path) -> None:
 
 
 def _named(name: str | None, directory: Path) -> str:
+    """Return the name of the implementation: that of --name, or of the directory. Raises InputError if it is bad."""
     from hypcheck.scaffold.project import safe_name
 
     if name is None:
@@ -122,7 +125,7 @@ def info(as_json: bool) -> None:
 
 
 def installation() -> dict[str, Any]:
-    """Everything that info shows, as the object of --json."""
+    """Return everything that info shows, as the object of --json."""
     import platform
     import sys
 
@@ -149,10 +152,12 @@ def installation() -> dict[str, Any]:
 
 
 def _availability_of(reason: str | None) -> dict[str, Any]:
+    """Return whether a part is available, and the reason if it is not, for JSON."""
     return {"available": reason is None, "reason": reason}
 
 
 def _lines(facts: dict[str, Any]) -> list[str]:
+    """Return the lines about the installation."""
     kernel = facts["kernel"]
     level = f", {kernel['level']}" if kernel["level"] else ""
     present = [f"{name} {text}" for name, text in facts["versions"].items() if text]
@@ -169,6 +174,7 @@ def _lines(facts: dict[str, Any]) -> list[str]:
 
 
 def _availability(title: str, parts: dict[str, dict[str, Any]]) -> list[str]:
+    """Return the lines about parts that may be missing."""
     lines = [
         f"{name}: {'available' if part['available'] else 'not available: ' + part['reason']}"
         for name, part in parts.items()

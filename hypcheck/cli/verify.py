@@ -35,7 +35,7 @@ _WITHOUT_SPEC = frozenset({"oracles", "judged", "roots", "meshes"})
 
 
 def _plan_of(specs: tuple[str, ...], values: Mapping[str, Any]) -> ConformancePlan:
-    """The plan of a conformance run. Raises InputError about a wrong option."""
+    """Return the plan of a conformance run. Raises InputError about a wrong option."""
     from hypcheck.implementations.description import parse_domain
     from hypcheck.runs.plan import ConformancePlan
 
@@ -96,7 +96,10 @@ def _conformance(specs: tuple[str, ...], values: Mapping[str, Any], title: str, 
 
 
 def _fresh_seed(text: str | None, resume: Path | None) -> int | None:
-    """The seed of the fresh rows (None: no fresh rows): the option's, the resumed run's, or a random one in CI."""
+    """Return the seed of the fresh rows, or None for no fresh rows.
+
+    It is the seed of the option, that of the resumed run, or a random one in CI.
+    """
     from hypcheck.record.reader import interrupted_in, read
     from hypcheck.runs.cases import FRESH_SEEDS
 
@@ -111,7 +114,7 @@ def _fresh_seed(text: str | None, resume: Path | None) -> int | None:
 
 
 def _recorded(plan: ConformancePlan, values: Mapping[str, Any]) -> dict[str, Any]:
-    """The options of the plan as the record's header has them."""
+    """Return the options of the plan as the record's header has them."""
     every = asdict(plan)
     del every["pace"]
     isolation = every["limits"].pop("isolation")
@@ -145,6 +148,7 @@ def _self_check(values: Mapping[str, Any], title: str, settings: SettingsPart | 
 
 
 def _oracles(text: str) -> tuple[str, ...]:
+    """Return the names of oracles in a text. Raises InputError if one is not known, or there is none."""
     from hypcheck.runs.oracles import ORACLES
 
     names = options.names_in(text)
@@ -159,7 +163,7 @@ def _oracles(text: str) -> tuple[str, ...]:
 _COUNT = options.IntegerOption(1)
 
 _THOROUGH = 10
-"""Times as many generated rows."""
+"""The factor by which --thorough multiplies the number of generated rows."""
 
 
 @click.command(short_help="Test the implementations that SPEC names; without SPEC, hypcheck itself.")
@@ -272,12 +276,12 @@ def verify(context: click.Context, /, specs: tuple[str, ...], **values: Any) -> 
 
 
 def in_ci() -> bool:
-    """Whether this process runs in continuous integration, by the environment variable CI."""
+    """Return whether this process runs in continuous integration, by the environment variable CI."""
     return os.environ.get("CI", "").lower() not in ("", "0", "false")
 
 
 def _chosen_specs(context: click.Context, specs: tuple[str, ...], *, self_check: bool) -> tuple[str, ...]:
-    """The SPECs to gate; none if hypcheck itself is verified. Raises InputError in CI if nothing is named."""
+    """Return the SPECs to gate; none if hypcheck itself is verified. Raises InputError in CI if nothing is named."""
     if self_check:
         if specs:
             raise InputError(f"--self verifies hypcheck itself and takes no SPEC; {escaped(specs[0])} is one")

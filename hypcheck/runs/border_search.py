@@ -35,16 +35,17 @@ from hypcheck.runs.tally import EMPTY, STATUS_CODES, StatusCodes
 from hypcheck.vectors.border_lines import FARTHEST_OCTAVE, LINES, NEAREST_OCTAVE, RUNGS, RUNGS_ON_A_SIDE, SEARCHED
 
 ROUNDS = 32
-"""A search asks one in so many of its rows at a time, and half of them at first, whatever is answered."""
+"""A search sends half of its rows first, whatever the answers are; after that it sends one in ROUNDS of them at a
+time."""
 
 FAR = 32
-"""A far line for so many rows of a search."""
+"""A search has one far line for every FAR of its rows."""
 
 MOST = 40_000
-"""Rows of a search at most: it holds all its sides."""
+"""The most rows of a search. It holds all its sides in memory."""
 
 _CLEARLY = 4
-"""A near side begins at so many times the tolerated change, of all numbers of a row together."""
+"""A near side begins at this multiple of the tolerated change. Changes of all numbers of a row may add up."""
 
 _GOLDEN = 0.6180339887498949
 
@@ -70,8 +71,9 @@ class SearchStep:
 class _Side:
     """One side of a line: the `first` tested rung, and the range of rungs in which answers become right.
 
-    Answers at the rung `wrong` and nearer to the border are wrong, or that near to it is within the tolerance. The
-    answer at the rung `right` is right; `right` is None until an answer was right. `next` is the rung to test next;
+    Answers at the rung `wrong` and nearer to the border are wrong; at the start `wrong` is the rung before the first
+    tested one, where a wrong answer would be tolerated. The answer at the rung `right` is right; `right` is None until
+    an answer was right. `next` is the rung to test next;
     None if the search of this side has ended.
     """
 
@@ -126,25 +128,25 @@ def searched(rows: int, first: int, ask: Callable[[Indices], StatusCodes]) -> No
 
 
 def at_first(rows: int) -> int:
-    """The number of sides with which a search of `rows` rows begins; few enough that it tests all its rows."""
+    """Return the number of sides that a search of `rows` rows begins with. It leaves rows for the steps that follow."""
     return -(-rows // 2)
 
 
 def first_near_rows(step: SearchStep, first: int) -> Rows:
-    """The first rows of the near sides of a search that begins at the rung `first`."""
+    """Return the first rows of the near sides of a search that begins at the rung `first`."""
     sides = islice(_sides(first, step.rows // FAR), at_first(step.rows))
     near = np.array([_place(side) for side in sides][2 * (step.rows // FAR) :], dtype=np.int64)
     return rows_at(step.family, step.seed, near)
 
 
 def far_numbers(step: SearchStep, first: int) -> Indices:
-    """The numbers in the family of the rows at which the far sides of a search begin."""
+    """Return the numbers in the family of the rows at which the far sides of a search begin."""
     sides = islice(_sides(first, step.rows // FAR), 2 * (step.rows // FAR))
     return np.array([_place(side) for side in sides], dtype=np.int64)
 
 
 def _sides(first: int, far: int) -> Iterator[_Side]:
-    """The sides of all lines, without end: first `far` far sides, then near sides."""
+    """Yield the sides of all lines, without end: first `far` far sides, then near sides."""
     begins = far_rungs(first, far)
     for number, begin in enumerate(begins):
         yield _Side(number, first - 1, begin)
@@ -153,19 +155,19 @@ def _sides(first: int, far: int) -> Iterator[_Side]:
 
 
 def far_rungs(first: int, far: int) -> list[int]:
-    """The rungs at which the sides of `far` far lines begin: evenly spread from the rung `first` outwards."""
+    """Return the rungs at which the sides of `far` far lines begin: evenly spread from the rung `first` outwards."""
     shares = ((line + side / 2) * _GOLDEN % 1 for line in range(far) for side in (0, 1))
     return [first + int(share * (RUNGS_ON_A_SIDE - first)) for share in shares]
 
 
 def _place(side: _Side) -> int:
-    """The number in the family of the row that the search of this side tests next."""
+    """Return the number, in its family, of the row that the search of this side tests next."""
     line, half = divmod(side.number, 2)
     return line * RUNGS + half * RUNGS_ON_A_SIDE + (side.next or 0)
 
 
 def first_of(criterion: Criterion) -> int:
-    """The rung at which a search begins: most wrong answers at rungs nearer to the border are tolerated."""
+    """Return the rung at which a search begins: most wrong answers at rungs nearer to the border are tolerated."""
     tolerated = float(criterion.tolerance * criterion.unit)
     if not tolerated:
         return 0
@@ -174,7 +176,7 @@ def first_of(criterion: Criterion) -> int:
 
 
 def rows_at(family: str, seed: int, places: Indices) -> Rows:
-    """The rows of a searched family with these ascending numbers."""
+    """Return the rows of a searched family with these ascending numbers."""
     lines, rungs = np.divmod(places, RUNGS)
     if not len(places):
         return np.empty((0, len(SEARCHED[family].columns)))

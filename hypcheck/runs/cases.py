@@ -25,7 +25,7 @@ from hypcheck.vectors.draw import BLOCK, Family
 from hypcheck.vectors.families import FAMILIES, case_id, family_of
 
 _SMALLEST = 1e-300
-"""Below this distance the float in a frozen vector is too inaccurate."""
+"""If the distance in a frozen vector is below this number, it is computed again: the float is too inaccurate."""
 
 _MEASURED = frozenset({*vectors.NAMES, *vectors.TILTED_NAMES})
 """The files whose vectors hold distances to other positions."""
@@ -48,7 +48,7 @@ _LOADED: dict[str, FrozenVectors] = {}
 
 
 def frozen_vectors(name: str) -> FrozenVectors:
-    """The vectors of a family. Raises InputError if it has none."""
+    """Return the vectors of a family. Raises InputError if it has none."""
     if name not in _LOADED:
         vectors_of_family = vectors.load(name)
         exponents = np.full(len(vectors_of_family.rows), math.nan)
@@ -62,7 +62,7 @@ def frozen_vectors(name: str) -> FrozenVectors:
 
 
 def loaded_vectors() -> dict[str, FrozenVectors]:
-    """All vectors that this process has read, to send to another process: reading and checking a file is slow."""
+    """Return all vectors that this process has read. Another process gets them, because reading a file is slow."""
     return dict(_LOADED)
 
 
@@ -72,7 +72,7 @@ def keep_loaded(some: Mapping[str, FrozenVectors]) -> None:
 
 
 def _exponent(vector: Vector, *, upright: bool) -> float:
-    """The exponent of the distance to the nearest other position; −inf for a tangency.
+    """Return the exponent of the distance to the nearest other position; −inf for a tangency.
 
     Upright distances are rounded up, so the exponent k is that of a distance above 2^k, and at most 2^(k+1); it is NaN
     below _SMALLEST. Tilted distances have two bounds: the exponent is that of the lower one, or of the upper one if the
@@ -91,7 +91,7 @@ def _exponent(vector: Vector, *, upright: bool) -> float:
 
 
 CHUNK_ROWS = 64 * BLOCK
-"""Generated rows of a chunk: the most that a question in binary may have."""
+"""The number of generated rows of a chunk: the most rows that one message in binary may have."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,11 +121,12 @@ PACE = Pace()
 """The pace of a run of the command line."""
 
 EXPONENTS_OF = 2000
-"""The distance to the nearest other position is recorded of so many first cases of a family."""
+"""The number of first cases of a family for which the distance to the nearest other position is recorded."""
 
 
 FRESH_SEEDS = 1 << 32
-"""The seeds of fresh rows are at least so large: no row of theirs has the place of one of the run's own seed."""
+"""The least seed of fresh rows. Other seeds are smaller, so a fresh row never has the place of another row
+(place())."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,7 +146,7 @@ class CaseChunk:
         return self.stop - self.start
 
     def between(self, first: int, last: int) -> CaseChunk:
-        """The cases `first` to `last` − 1 of this chunk as a chunk."""
+        """Return the cases `first` to `last` − 1 of this chunk as a chunk."""
         measured = min(max(self.measured - first, 0), last - first)
         return CaseChunk(self.family, self.seed, self.start + first, self.start + last, measured)
 
@@ -155,22 +156,28 @@ class CaseChunk:
         return 1 if self.seed is None else family_of(self.family).movement
 
     def part(self, chunk_rows: int = CHUNK_ROWS) -> int:
-        """The part of the retest with its cases: 0 for the first chunk of a family, then 1 and 2 alternately."""
+        """Return the part (0, 1 or 2) of a retest that tests its cases again.
+
+        It is 0 for the first chunk of a family and for frozen vectors, then 1 and 2 in turn.
+        """
         number = 0 if self.seed is None else self.start // chunk_rows
         return 1 + number % 2 if number else 0
 
     def place(self, index: int) -> Place:
-        """The place of a case in the family."""
+        """Return the place of a case in the family: its group and its number there.
+
+        The groups are 0 for frozen vectors, 1 for rows of the run's own seed, and 2 for fresh rows.
+        """
         return 0 if self.seed is None else 1 + (self.seed >= FRESH_SEEDS), self.start + index
 
     def name(self, index: int) -> str:
-        """The id of a case."""
+        """Return the id of a case."""
         if self.seed is None:
             return frozen_vectors(self.family).ids[self.start + index]
         return case_id(family_of(self.family), self.seed, self.start + index)
 
     def find(self, name: str) -> int | None:
-        """The index of the case with that id, or None."""
+        """Return the index of the case with that id, or None."""
         if self.seed is None:
             ids = frozen_vectors(self.family).ids[self.start : self.stop]
             return ids.index(name) if name in ids else None
@@ -196,7 +203,7 @@ class ChunkCases:
 
 
 def family_chunks(family: Family, seed: int, count: int, chunk_rows: int = CHUNK_ROWS) -> Iterator[CaseChunk]:
-    """The chunks of a family's frozen vectors, then of the `count` generated rows that follow the frozen ones."""
+    """Yield the chunks of a family's frozen vectors, then of the `count` generated rows that follow the frozen ones."""
     measured = EXPONENTS_OF
     known = frozen_count(family.name)
     if known:
@@ -208,14 +215,14 @@ def family_chunks(family: Family, seed: int, count: int, chunk_rows: int = CHUNK
 
 
 def fresh_chunks(family: Family, seed: int, count: int, chunk_rows: int = CHUNK_ROWS) -> Iterator[CaseChunk]:
-    """The chunks of `count` generated rows of a seed not known before the run; none of them is a frozen vector."""
+    """Yield the chunks of `count` rows of a seed that was not known before the run; none of them is a frozen vector."""
     first = first_unfrozen(family, seed) if seed < FRESH_SEEDS else 0
     for start, stop in _generated_chunks(first, count, chunk_rows):
         yield CaseChunk(family.name, seed, start, stop)
 
 
 def _generated_chunks(start: int, count: int, chunk_rows: int) -> Iterator[tuple[int, int]]:
-    """The bounds [first, end) of the chunks that divide `count` rows from `start` on."""
+    """Divide `count` rows from `start` on into chunks; yield the first row of each and the one after its last."""
     stop = start + count
     while start < stop:
         end = min(stop, (start // chunk_rows + 1) * chunk_rows)
@@ -224,12 +231,12 @@ def _generated_chunks(start: int, count: int, chunk_rows: int) -> Iterator[tuple
 
 
 def frozen_count(name: str) -> int:
-    """The number of frozen vectors of a family."""
+    """Return the number of frozen vectors of a family."""
     return vectors.count_of(name) if name in vectors.ALL_NAMES else 0
 
 
 def searched_chunks() -> Iterator[CaseChunk]:
-    """The frozen vectors that no family generates: the worst cancellations, which a search found."""
+    """Yield the frozen vectors that no family generates: the worst cancellations, which a search found."""
     for name in vectors.NAMES:
         if name not in FAMILIES:
             known = frozen_count(name)
@@ -237,7 +244,7 @@ def searched_chunks() -> Iterator[CaseChunk]:
 
 
 def cases_of_chunk(chunk: CaseChunk) -> ChunkCases:
-    """The rows of a chunk with their truths: certified positions for frozen vectors, exact decisions for other rows."""
+    """Return the rows of a chunk with their truths: stored ones of frozen vectors, exact decisions about other rows."""
     if chunk.seed is None:
         known, part = frozen_vectors(chunk.family), slice(chunk.start, chunk.stop)
         return ChunkCases(chunk, known.rows[part], np.ascontiguousarray(known.rows[part].T), known.positions[part])
@@ -248,7 +255,7 @@ def cases_of_chunk(chunk: CaseChunk) -> ChunkCases:
 
 @lru_cache
 def first_unfrozen(family: Family, seed: int) -> int:
-    """The number of rows at the start of a seed's sequence that are frozen vectors."""
+    """Return the number of rows at the start of a seed's sequence that are frozen vectors."""
     if not frozen_count(family.name):
         return 0
     known = {row.tobytes() for row in frozen_vectors(family.name).rows}
@@ -261,10 +268,11 @@ def first_unfrozen(family: Family, seed: int) -> int:
 
 
 def flip_exponents_of(made: ChunkCases, indices: NDArray[np.intp]) -> NDArray[np.float64]:
-    """floor(log2) of the distance to the nearest other position, for those of the ascending indices that record it.
+    """Return floor(log2) of the distance to the nearest other position for the first of these cases.
 
-    Frozen vectors hold their distance. It is not recorded for sweeps. It is not recorded for generated rows of tilted
-    spheroids either, because its proof would take longer than the rest of the run.
+    `indices` are ascending; the first of them, below `measured` of the chunk, have such a distance. Frozen vectors hold
+    their distance. It is not recorded for sweeps. It is not recorded for generated rows of tilted spheroids either,
+    because its proof would take longer than the rest of the run.
     """
     chunk, measured = made.chunk, indices[indices < made.chunk.measured]
     frozen = chunk.seed is None and chunk.family in _MEASURED

@@ -34,20 +34,20 @@ Answers = NDArray[np.int8]
 
 
 SILENT = 100
-"""What a rule gives for a row about which it says nothing."""
+"""The value that a rule returns for a row to which it does not apply."""
 
 
 class Scope(IntEnum):
     """The rows to which a rule applies, in the order in which rules explain the wrong answers that are left."""
 
     PLACE = 0
-    """Wrong in exact arithmetic, in one region."""
+    """The rule is wrong in exact arithmetic, in one region."""
 
     ROUNDING = 1
-    """Right in exact arithmetic; what rounding leaves open."""
+    """The rule is right in exact arithmetic; rounding makes its answer wrong."""
 
     EVERYWHERE = 2
-    """Another rule altogether; asked first where it explains most wrong answers."""
+    """The rule is wrong at every row. It is tried first if it explains most of the wrong answers."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,13 +66,13 @@ class AnsweredRows:
         return self.criterion.layout.subject(self.rows)
 
     def part(self, places: Sequence[int] | Indices) -> AnsweredRows:
-        """The rows at these indices with their truths, answers and times, as a value of their own."""
+        """Return the rows at these indices with their truths, answers and times, as a value of their own."""
         times = None if self.times is None else self.times[places]
         rows = np.ascontiguousarray(self.rows[places])
         return AnsweredRows(rows, self.truth[places], self.given[places], self.criterion, times)
 
     def answers_at(self, positions: NDArray[np.int8]) -> Answers:
-        """The right answers to the question for these positions; SILENT is unchanged."""
+        """Return the right answers to the question for these positions; SILENT is unchanged."""
         answers = judge.expected(positions, self.criterion.question)
         return np.where(positions == SILENT, SILENT, answers).astype(np.int8)
 
@@ -82,7 +82,7 @@ class AnsweredRows:
         return {}
 
     def kind(self, place: int) -> Kind:
-        """The kind of a row (7,), decided exactly."""
+        """Return the kind of a row (7,), decided exactly."""
         if place not in self.kinds:
             self.kinds[place] = exact.kind_of(Pair.from_row(self.rows[place].tolist()).lengths)
         return self.kinds[place]
@@ -120,7 +120,7 @@ class Cause:
     certain: Callable[[AnsweredRows], Mask] | None = None
 
     def remedy_in(self, language: str) -> str:
-        """The remedy for an implementation in that language; a command in the text can be typed without changes."""
+        """Return the remedy for an implementation in that language. Commands in the text can be typed as they are."""
         name = {"c++": "cpp"}.get(language.lower(), language.lower())
         command = "hypcheck emit --method exact"
         return self.remedy.replace(command, f"{command} --language {name}") if name in LANGUAGES else self.remedy
@@ -140,19 +140,23 @@ def cause(
     slack: float = 0.02,
     certain: Callable[[AnsweredRows], Mask] | None = None,
 ) -> Cause:
-    """The cause with the texts of that name in causes.toml."""
+    """Return the cause with the texts of that name in causes.toml."""
     texts = toml.shipped("hypcheck.runs", "causes.toml")[name]
     return Cause(name=name, rule=rule, scope=scope, subject=subject, slack=slack, certain=certain, **texts)
 
 
 def causes_about(subject: str, rules: Mapping[str, Rule], scope: Scope = Scope.EVERYWHERE) -> tuple[Cause, ...]:
-    """The causes about a subject: "upright", "tilted" or "way", one for each of the rules by name."""
+    """Return the causes about a subject: "upright", "tilted" or "way", one for each of the rules by name."""
     return tuple(cause(name, rule, scope, subject=subject) for name, rule in rules.items())
 
 
 @dataclass(frozen=True, eq=False)
 class Numbers:
-    """A, B, P, Q, c1, c2, Δ, g'(B) and g'(−A) of rows (n, 7) in float64; values that overflow are not finite."""
+    """The numbers of the plain formula at rows (n, 7), in float64; values that overflow are not finite.
+
+    A = (α/b)², B = (γ/d)², P = (x² + y²)/b² and Q = (z/d)² are the letters of the paper. c1 and c2 are coefficients of
+    the cubic g, and `delta` is its discriminant Δ. `slope_at_B` is g'(B), `slope_at_minus_A` is g'(−A).
+    """
 
     A: Floats
     B: Floats
@@ -166,7 +170,7 @@ class Numbers:
 
     @classmethod
     def of(cls, rows: Rows) -> Numbers:
-        """The numbers of Table 2, and g'(B) and g'(−A), of rows (n, 7) or wider."""
+        """Return the numbers of Table 2, and g'(B) and g'(−A), of rows (n, 7) or wider."""
         alpha, gamma, b, d, x, y, z = rows[:, : len(COLUMNS)].T
         with np.errstate(all="ignore"):
             A, B, P, Q = (alpha / b) ** 2, (gamma / d) ** 2, (x * x + y * y) / (b * b), (z / d) ** 2
@@ -175,13 +179,13 @@ class Numbers:
             return cls(A, B, P, Q, c1, c2, delta, (3 * B + 2 * c2) * B + c1, (3 * A - 2 * c2) * A + c1)
 
     def errors(self, unit: float, *, roots: bool = False) -> tuple[Floats, Floats, Floats]:
-        """Bounds of the errors of c0, c1 and c2 with roundings of this unit: 8 roundings a term, which is ample.
+        """Compute bounds of the errors of c0, c1 and c2 for roundings of this unit, with 8 roundings a term (ample).
 
-        With `roots`, bounds of the errors of the cubic whose exact roots are the computed roots. Divided by powers of
-        N, the largest of |c2|, √|c1| and ∛|c0|, the companion matrix has numbers up to 1. Its computed eigenvalues are
-        the exact ones of a matrix whose numbers differ by 30 u at most, as QR of three rows leaves it. A coefficient is
-        a sum of up to 6 products of up to 3 such numbers, so the error of the coefficient of λ^(3 − k) is at most 6 · 3
-        · 30 u N^k, less than 1024 u N^k.
+        With `roots`, compute bounds of the errors of the cubic whose exact roots are the computed roots. Divided by
+        powers of N, the largest of |c2|, √|c1| and ∛|c0|, the companion matrix has numbers up to 1. Its computed
+        eigenvalues are the exact ones of a matrix whose numbers differ by 30 u at most, as QR of three rows leaves it.
+        A coefficient is a sum of up to 6 products of up to 3 such numbers, so the error of the coefficient of λ^(3 − k)
+        is at most 6 · 3 · 30 u N^k, less than 1024 u N^k.
         """
         A, B, P, Q = self.A, self.B, self.P, self.Q
         e0, e1 = 8 * unit * A * B, 12 * unit * (A * B + A + B + B * P + A * Q)
@@ -192,7 +196,7 @@ class Numbers:
         return e0, e1, e2
 
     def delta_error(self, unit: float, *, roots: bool = False) -> Floats:
-        """A bound of the error of Δ: 16 roundings a term, and the effect of the coefficients' errors."""
+        """Compute a bound of the error of Δ: 16 roundings a term, and the effect of the coefficients' errors."""
         e0, e1, e2 = self.errors(unit, roots=roots)
         m0, m1, m2 = self.A * self.B + e0, np.abs(self.c1) + e1, np.abs(self.c2) + e2
         carried = (
@@ -204,7 +208,7 @@ class Numbers:
         return np.asarray(carried + 16 * unit * terms)
 
     def possible(self, unit: float, *, printed: bool = False, roots: bool = False) -> NDArray[np.bool_]:
-        """A mask (n, 3) of the signs −1, 0, +1 that a plain evaluation with roundings of this unit can give.
+        """Return a mask (n, 3) of the signs −1, 0, +1 that a plain evaluation with roundings of this unit can give.
 
         With `printed`, the evaluation is one of the rules of Propositions 3 and 5, which do not compare roots with the
         poles −A and B. With `roots`, it is a rule about computed roots, with or without the poles: a root at a pole can
@@ -236,7 +240,11 @@ class Numbers:
             return np.column_stack([apart & inner, contact, apart & outer])
 
     def near_the_ring(self, share: float) -> Mask:
-        """Whether B is nearly a double root, and the simple one lies below it: g'(B) is this share of its terms."""
+        """Mark the rows where B is nearly a double root of g, and the simple root lies below B.
+
+        B is nearly a double root if g'(B) is at most `share` times the sum of the sizes of its terms, and if Q is at
+        most `share` (1 + B + P).
+        """
         with np.errstate(all="ignore"):
             size = 3 * self.B * self.B + 2 * np.abs(self.c2) * self.B + np.abs(self.c1)
             small = self.Q <= share * (1 + self.B + self.P)
@@ -244,22 +252,22 @@ class Numbers:
 
 
 def greatest_of(*values: Floats) -> Floats:
-    """The greatest of some numbers in each place."""
+    """Return the greatest of these arrays' values at each place."""
     return np.asarray(np.max(values, axis=0))
 
 
 def silent(answered: AnsweredRows) -> Answers:
-    """An answer to no row."""
+    """Return SILENT for every row."""
     return np.full(len(answered.rows), SILENT, dtype=np.int8)
 
 
 def always(answer: int) -> Rule:
-    """The rule that gives this answer to every row."""
+    """Return the rule that gives this answer to every row."""
     return lambda answered: np.full(len(answered.rows), answer, dtype=np.int8)
 
 
 def of_changed_rows(change: Callable[[Rows], Rows]) -> Rule:
-    """The rule that answers the changed rows exactly; SILENT where a changed row is not valid."""
+    """Return the rule that answers the changed rows exactly; SILENT where a changed row is not valid."""
 
     def rule(answered: AnsweredRows) -> Answers:
         with np.errstate(all="ignore"):
@@ -271,7 +279,7 @@ def of_changed_rows(change: Callable[[Rows], Rows]) -> Rule:
 
 
 def with_columns(**columns: Callable[[dict[str, Floats]], Floats]) -> Rule:
-    """The change of rows that replaces some columns by values computed from all columns."""
+    """Return the rule that answers rows exactly after it replaced some columns by values computed from all columns."""
 
     def change(rows: Rows) -> Rows:
         names = PAIRS.columns(rows.shape[1])
@@ -284,7 +292,7 @@ def with_columns(**columns: Callable[[dict[str, Floats]], Floats]) -> Rule:
 
 
 def where_kind(candidates: Mask, answered: AnsweredRows, kind: Kind, position: Position) -> Answers:
-    """The answer for this position at the candidates of this kind, which exact arithmetic decides; SILENT elsewhere."""
+    """Return the answer for this position at those candidates whose exact kind is this one; SILENT elsewhere."""
     positions = silent(answered)
     for place in np.flatnonzero(candidates).tolist():
         if answered.kind(place) is kind:

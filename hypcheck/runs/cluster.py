@@ -46,7 +46,7 @@ CONNECT = 10
 """Seconds until a scheduler must answer, and until it must have a worker."""
 
 START_TRIES = 3
-"""How often workers may begin anew if one of them ends while it starts."""
+"""The number of attempts to start the workers. An attempt fails if one of them ends while it starts."""
 
 CLOSE, CLOSE_LOCAL = 5, 1
 """Seconds that a client has to close, and the workers of a local cluster: they hold nothing that could be lost."""
@@ -57,7 +57,7 @@ SAME = ("hypcheck", "python", "dask", "distributed", "numpy")
 OTHER_FILES = f"has other files of hypcheck {VERSION} than this machine; install the same files there"
 
 ALLOWED_FAILURES = 1
-"""A task may cost this many workers of a local cluster and one more; then it is tried alone."""
+"""A local cluster gives a task up after one more death of a worker than this number; then the task is tried alone."""
 
 LOOPBACK = "127.0.0.1"
 
@@ -66,10 +66,12 @@ SCRATCH = "hypcheck-cluster-"
 
 
 def call_with_timeout(seconds: int, call: Callable[[], Result]) -> Result:
-    """The return value of a call. Raises what the call raises, or TimeoutError; after a timeout the call keeps running.
+    """Perform a call, and return its value. Raises what the call raises, and TimeoutError after `seconds`.
 
-    A call may never return if the scheduler's process exists but no longer works. Seconds in which this process was
-    suspended do not count.
+    After a timeout the call keeps running.
+
+    The time limit is needed because a call may never return if the scheduler's process exists but no longer works.
+    Seconds in which this process was suspended do not count.
     """
     future: futures.Future[Result] = futures.Future()
 
@@ -89,7 +91,9 @@ def call_with_timeout(seconds: int, call: Callable[[], Result]) -> Result:
 
 @contextmanager
 def cluster_client(address: str) -> Iterator[Client]:
-    """A client of the scheduler at that address, which has a worker. Processes started here end with the block.
+    """Enter a block with a client of the scheduler at that address, which has a worker.
+
+    Processes that were started for the client end with the block.
 
     Raises UnavailableError if no certificate can be made for `local:N`, and InputError if the scheduler cannot be
     reached, has no workers, or has other versions than this machine.
@@ -106,6 +110,7 @@ def cluster_client(address: str) -> Iterator[Client]:
 
 @contextmanager
 def _client(address: str, security: Security) -> Iterator[Client]:
+    """Connect to the scheduler at this address; check its workers, versions and files; close the client at the end."""
     _require_scheduler(address, security)
     try:
         with warnings.catch_warnings(), interrupts_held():
@@ -151,6 +156,7 @@ def _require_scheduler(address: str, security: Security) -> None:
 
 
 def _no_scheduler(address: str, error: BaseException) -> InputError:
+    """Return the error that no dask scheduler answers at this address, with the reason that `error` gives."""
     chain = [error]  # dask wraps connection errors in others, and retries until its timeout
     while (before := chain[-1].__cause__ or chain[-1].__context__) is not None:
         chain.append(before)
@@ -168,6 +174,7 @@ def _no_scheduler(address: str, error: BaseException) -> InputError:
 
 
 def _require_workers(client: Client, address: str) -> None:
+    """Wait for a worker. Raise InputError if the scheduler has none within CONNECT seconds."""
     try:
         client.wait_for_workers(1, timeout=CONNECT)
     except OSError:  # TimeoutError is an OSError
@@ -187,6 +194,7 @@ def _require_versions(report: Mapping[str, Any], address: str) -> None:
 
 
 def _require_same_versions(node: str, there: Mapping[str, Any], here: Mapping[str, Any], address: str) -> None:
+    """Raise InputError if a package of SAME has another version on the machine `node` than on this one."""
     ours, theirs = _versions(here), _versions(there)
     for package in SAME:
         if theirs[package] != ours[package]:
@@ -209,6 +217,7 @@ def _require_same_files(files: Mapping[str, Any], address: str) -> None:
 
 
 def _versions(machine: Mapping[str, Any]) -> dict[str, str | None]:
+    """Return the versions of the packages of SAME on a machine; None for a package that it lacks."""
     packages = machine["packages"]
     return {name: packages.get(name) for name in SAME} | {"python": ".".join(packages["python"].split(".")[:2])}
 
@@ -240,7 +249,7 @@ class Worker(_WithoutHttp, distributed.Worker):  # type: ignore[misc]  # as abov
 
 @contextmanager
 def local_cluster(workers: int) -> Iterator[tuple[str, Security]]:
-    """Start a scheduler with `workers` workers here: its address, and the security settings that a client needs.
+    """Start a scheduler with `workers` workers here; the block gets its address and the security settings for a client.
 
     All processes end with the block. Raises UnavailableError if no certificate can be made.
     """
@@ -269,7 +278,10 @@ def local_cluster(workers: int) -> Iterator[tuple[str, Security]]:
 
 
 def _started(workers: int, security: Security) -> distributed.SpecCluster:
-    """The scheduler and its workers. If a worker's process ends at its start, all start again, START_TRIES times."""
+    """Start the scheduler and its workers, and return them as a cluster.
+
+    If a worker's process ends at its start, all are started again, up to START_TRIES times in all.
+    """
     for _ in range(START_TRIES):
         with suppress(RuntimeError, OSError):  # dask raises this if a process ended
             return _start_once(workers, security)
@@ -277,6 +289,7 @@ def _started(workers: int, security: Security) -> distributed.SpecCluster:
 
 
 def _start_once(workers: int, security: Security) -> distributed.SpecCluster:
+    """Try once to start the scheduler and its workers. Raises RuntimeError or OSError if a process ends meanwhile."""
     here = {"host": LOOPBACK, "protocol": "tls://", "security": security, "dashboard": False}
     scheduler = {**here, "port": 0, "allowed_failures": ALLOWED_FAILURES}
     worker = {**here, "worker_class": Worker, "nthreads": 1, "memory_limit": 0, "silence_logs": logging.CRITICAL}
@@ -289,6 +302,7 @@ def _start_once(workers: int, security: Security) -> distributed.SpecCluster:
 
 
 def _temporary_security() -> Security:
+    """Return TLS settings with a new certificate. Raises UnavailableError if the package that makes one is missing."""
     try:
         return Security.temporary()
     except ImportError:
@@ -300,7 +314,7 @@ def _temporary_security() -> Security:
 
 @contextmanager
 def _scratch_folder() -> Iterator[Path]:
-    """A folder for the files of workers; it is removed after the block. Folders left by killed runs are removed first.
+    """Make a folder for the files of workers; remove it after the block. Remove folders that killed runs left before.
 
     A run holds a lock on its folder. The system releases the lock however the run ends.
     """
@@ -316,6 +330,7 @@ def _scratch_folder() -> Iterator[Path]:
 
 
 def _locked_folder() -> tuple[Path, int | None]:
+    """Make a folder and lock it. Return it with the descriptor of the lock; None on Windows, which has no lock."""
     while True:
         folder = Path(tempfile.mkdtemp(prefix=SCRATCH))
         if sys.platform == "win32":
@@ -328,6 +343,7 @@ def _locked_folder() -> tuple[Path, int | None]:
 
 
 def _remove_unless_in_use(folder: Path) -> None:
+    """Remove the folder of an earlier run of this user, unless that run still holds the lock."""
     if sys.platform == "win32":
         return
     with suppress(OSError):  # another run removed it, or somebody put a link there

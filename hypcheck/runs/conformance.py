@@ -54,7 +54,7 @@ def run_conformance(
     state: RunState | None = None,
     expect: Advance = lambda _: None,
 ) -> None:
-    """Test the implementations of the plan; `advance` is called with the number of cases that were tested.
+    """Test the implementations of the plan, and call `advance` with the number of cases tested in each step.
 
     `expect` is called with the number of cases of an implementation beyond planned_size. A resumed run skips
     implementations that its record has finished, and continues the next one from `state`; `advance` is not called for
@@ -77,6 +77,7 @@ def run_conformance(
 
 
 def _cluster_client(address: str) -> AbstractContextManager[Client]:
+    """Return a context that gives a client of the cluster. Raises UnavailableError if dask is not installed."""
     try:
         from hypcheck.runs.cluster import cluster_client  # noqa: PLC0415 - loads dask, an extra that is slow to load
     except ModuleNotFoundError as error:
@@ -132,7 +133,10 @@ def _task_execution(
     rules: JudgingRules,
     client: Client | None,
 ) -> AbstractContextManager[TaskExecution]:
-    """The executor of the tasks: this process, or a pool or a cluster, whose processes open the implementation."""
+    """Return a context that gives the executor of the tasks: this process, a pool, or a cluster.
+
+    The processes of a pool or a cluster open the implementation themselves, so it is closed here.
+    """
     workers = plan.pool_workers
     if client is None and workers is None:
         return execution_here(implementation, rules)
@@ -223,11 +227,12 @@ class ImplementationLines:
         )
 
     def _subjects(self) -> set[str]:
-        """The subjects of all tested families, in the terms of causes; none if only some families were tested."""
+        """Return the subjects ("upright", "tilted" or "way") of all tested families; none if only some were tested."""
         families = () if self.plan.filtered else chosen_families(self.plan, self.used)
         return {family.layout.subject(family.columns) for family in families}
 
     def _group(self, family: str, tallied: Tally) -> GroupLine:
+        """Make the line about a family, with the statuses for which the family fails the run."""
         wrong_fails = self.plan.fail_on == "wrong" or tallied.dangerous > 0 or family in INVALID_CONTENTS
         grave = (*((Status.WRONG,) if wrong_fails else ()), Status.UNDECIDED, *UNANSWERED)
         failing = [status.value for status in grave if tallied.counts.get(status.value)]
@@ -237,7 +242,10 @@ class ImplementationLines:
         )
 
     def _causes(self, tallies: Mapping[str, Tally]) -> Iterator[CauseLine]:
-        """The causes of its wrong answers. Families with only right answers show which causes it does not have."""
+        """Yield a line for each accepted cause of its wrong answers.
+
+        Families with only right answers show which causes the implementation does not have.
+        """
         clean = [
             family for family, tallied in tallies.items() if {Status.RIGHT.value} == tallied.counts.keys() - _NOT_ASKED
         ]
@@ -260,7 +268,7 @@ class ImplementationLines:
             )
 
     def _troubles(self, total: CasesResult, groups: Sequence[GroupLine], *, finished: bool) -> Iterator[str]:
-        """Reasons why the implementation fails as a whole, not in one family."""
+        """Yield reasons why the implementation fails as a whole, not in one family."""
         nothing_judged = finished and not any(group.judged for group in groups)
         if nothing_judged:
             cases = sum(line.asked for line in groups)

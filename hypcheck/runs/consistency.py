@@ -82,14 +82,17 @@ def require_lines(lines: Sequence[RecordLine], whole: ImplementationLine, plan: 
 
 
 def _lacks_trouble(whole: ImplementationLine, groups: Sequence[GroupLine], plan: ConformancePlan) -> bool:
-    """Whether the line lacks a reason why the implementation fails as a whole."""
+    """Return whether the line lacks a reason why the implementation fails as a whole."""
     abstained = sum(line.counts.get(Status.ABSTAINED.value, 0) for line in groups) > plan.max_abstained
     changed = plan.deterministic and whole.retest.within > 0
     return bool(abstained or changed) and not whole.troubles
 
 
 def _of_fresh(family: str, sums: GroupLine | Tally, plan: ConformancePlan, *, unfinished: bool = False) -> str:
-    """The fresh rows that were tested or skipped must be as many as planned; in an unfinished run at most as many."""
+    """Return what is wrong with a family's number of fresh rows; "" if nothing is.
+
+    The fresh rows that were tested or skipped must be as many as planned; in an unfinished run at most as many.
+    """
     generated = plan.fresh is not None and (family in ALL or family in SEARCHED or MARK in family)
     most = plan.count * family_of(family).times if generated else 0
     most = min(most, border_search.MOST) if family in SEARCHED else most
@@ -100,7 +103,10 @@ def _of_fresh(family: str, sums: GroupLine | Tally, plan: ConformancePlan, *, un
 
 
 def _of_failing(line: GroupLine, plan: ConformancePlan) -> str:
-    """The statuses for which a group fails the run must agree with its counts, as far as the counts decide them."""
+    """Return how the statuses for which a group fails the run contradict its counts; "" if they do not.
+
+    The counts do not decide about a wrong answer if only false clears fail the run.
+    """
     must = {name for name in (*_UNANSWERED, Status.UNDECIDED.value) if line.counts.get(name)}
     may = must | ({str(Status.WRONG.value)} if line.counts.get(Status.WRONG.value) else set())
     if plan.fail_on == "wrong" or line.family in INVALID_CONTENTS:
@@ -130,7 +136,10 @@ def require_state(state: RunState, steps: Iterable[Step], plan: ConformancePlan,
 
 
 def _require_steps(state: RunState, steps: Iterable[Step]) -> list[CaseChunk]:
-    """The chunks whose cases may be pending after the steps that are done; all other cases must be tallied."""
+    """Return the chunks whose cases may be pending after the steps that are done.
+
+    Raises ValueError unless all other cases of these steps are tallied.
+    """
     counted = Counter({family: sum(tally.counts.values()) for family, tally in state.total.tallies.items()})
     for pending in state.total.pending:
         counted[pending.chunk.family] += len(pending.indices)
@@ -155,6 +164,7 @@ def _require_steps(state: RunState, steps: Iterable[Step]) -> list[CaseChunk]:
 
 
 def _difference(tallied: Mapping[str, int], planned: Mapping[str, int]) -> str:
+    """Return a sentence about the first family whose number of tallied cases is not the planned one; "" if none is."""
     for family in sorted({*tallied, *planned}):
         counted, expected = tallied.get(family, 0), planned.get(family, 0)
         if counted != expected:
@@ -163,7 +173,7 @@ def _difference(tallied: Mapping[str, int], planned: Mapping[str, int]) -> str:
 
 
 def _of_allowance(state: RunState, plan: ConformancePlan) -> str:
-    """Why the restarts, faults and hangs that are left contradict the plan or the tested rows; "" if they do not."""
+    """Return how the restarts, faults and hangs that are left contradict the plan or the rows; "" if they do not."""
     left = state.left
     hangs = left.hangs is None or 0 <= left.hangs <= MAX_HANGS
     if not (0 <= left.restarts <= plan.limits.restarts and 0 <= left.faults <= MAX_FAULTS and hangs):
@@ -173,7 +183,10 @@ def _of_allowance(state: RunState, plan: ConformancePlan) -> str:
 
 
 def _of_pending(pending: PendingRetest, waiting: Sequence[CaseChunk], rules: JudgingRules) -> str:
-    """Pending cases must be part of a planned chunk, and each must have an answer that the question allows."""
+    """Return what is wrong with pending cases; "" if nothing is.
+
+    They must be part of a planned chunk, and each must have an answer that the question allows.
+    """
     chunk, indices = pending.chunk, pending.indices
     known = (*QUESTIONS[rules.criterion.question].answers, CANNOT_SAY)
     whole = [
@@ -195,7 +208,7 @@ Bins = Sequence[Sequence[int]]
 def _of_sums(
     family: str, sums: GroupLine | Tally, octaves: Mapping[str, Mapping[str, int]], bins: tuple[Bins, Bins]
 ) -> str:
-    """The numbers about one family in a line or a tally must agree with each other."""
+    """Return how the numbers about one family in a line or a tally contradict each other; "" if they do not."""
     counts = Counter(sums.counts)
     if not {*counts} <= {name.value for name in Status} or not {*sums.mistakes} <= {name.value for name in Mistake}:
         return f"{family} has a status or a mistake that does not exist"
@@ -229,6 +242,7 @@ def _of_sums(
 
 
 def _of_tally(family: str, tally: Tally, rules: JudgingRules) -> str:
+    """Return how the tally of a family contradicts itself or the judgement of its kept cases now; "" if it does not."""
     counts = Counter(tally.counts)
     trouble = _of_sums(family, tally, tally.octaves, (tally.size_bins.as_lists(), tally.place_bins.as_lists()))
     if trouble:
@@ -251,7 +265,7 @@ def _of_tally(family: str, tally: Tally, rules: JudgingRules) -> str:
 
 
 def _is_judged_so(case: WorstCase, rules: JudgingRules) -> bool:
-    """Whether judging a worst case now gives the judgement in the record."""
+    """Judge a worst case again, and return whether the judgement equals the one in the record."""
     rows, answers = np.array([row_of(case)]), np.array([case.answer], dtype=np.int8)
     criterion, times = rules.criterion, None if case.time is None else np.array([case.time])
     wrong = np.flatnonzero(judge.is_amiss(rows, judge.truth_of(rows, criterion.layout), answers, times, criterion))
@@ -264,7 +278,7 @@ def _is_judged_so(case: WorstCase, rules: JudgingRules) -> bool:
 
 
 def _of_result(total: CasesResult, rules: JudgingRules) -> str:
-    """The numbers about all families together must agree."""
+    """Return how the numbers about all families together contradict each other; "" if they do not."""
     counts: Counter[str] = sum((Counter(tally.counts) for tally in total.tallies.values()), Counter())
     retest, known = total.retest, rules.known
     answered = total.pending or any(counts[status.value] for status in (Status.RIGHT, *_OFF, Status.ABSTAINED))

@@ -63,9 +63,9 @@ Arguments = ParamSpec("Arguments")
 def execution_on_cluster(
     client: Client, opener: ImplementationOpener, rules: JudgingRules, implementation: Implementation
 ) -> Iterator[TaskExecution]:
-    """Perform tasks on the workers of a cluster. A task raises the error of a worker that cannot start.
+    """Enter a block in which the workers of a cluster perform tasks.
 
-    Raises InputError if the cluster is lost; so do tasks.
+    A task raises the error of a worker that cannot start. Raises InputError if the cluster is lost; so do tasks.
     """
     name = f"hypcheck-{uuid.uuid4().hex}"
     files, module = files_to_ship(opener.spec), module_sha256(opener.spec)
@@ -93,6 +93,7 @@ def _register(client: Client, plugin: ImplementationPlugin, executor: DaskExecut
 
 
 def _registered(client: Client, plugin: ImplementationPlugin, executor: DaskExecutor) -> None:
+    """Give the plugin to all workers. Raises ConnectionError if a worker is gone, InputError if there is no answer."""
     try:
         call_with_timeout(CONNECT, lambda: client.register_plugin(plugin))
     except TimeoutError:
@@ -139,11 +140,12 @@ class DaskExecutor(Executor):
         self._running.clear()
 
     def lost(self, why: str) -> InputError:
-        """The error that the cluster is lost."""
+        """Return the error that the cluster is lost."""
         remark = "the record holds the finished part"
         return InputError(f"--cluster {self._address}: the cluster was lost: {why}; {remark}")
 
     def _forget(self, future: Future[Any]) -> None:
+        """Tell the scheduler that the result of this future is not needed any more."""
         there = self._running.pop(future, None)
         if there is not None:
             there.release()  # unlike cancel(), this does not wait for the scheduler
@@ -171,28 +173,29 @@ class DaskExecutor(Executor):
                 future.set_result(result)
 
     def _fail(self, future: Future[Any], error: BaseException) -> None:
+        """Let a future raise this error, unless it was cancelled."""
         with suppress(InvalidStateError):  # if it was cancelled meanwhile
             future.set_exception(error)
 
     def _watch(self) -> None:
         """Let all calls fail if the cluster is lost; this is checked while no results arrive."""
-        alone = silent = 0
+        without_worker = silent = 0
         while not self._over.wait(TICK):
             if self._news.is_set() or not self._running:
                 self._news.clear()
-                alone = silent = 0
+                without_worker = silent = 0
                 continue
             trouble = ""
             try:
                 workers = call_with_timeout(CONNECT, self._client.nthreads)
-                silent, alone = 0, 0 if workers else alone + 1
+                silent, without_worker = 0, 0 if workers else without_worker + 1
             except TimeoutError:
                 silent += 1
             except Exception:  # noqa: BLE001 - dask raises whatever its broken connection leads to
                 trouble = "its scheduler is gone"
             if silent == SILENCES:
                 trouble = f"its scheduler has not answered for {SILENCES * CONNECT} s"
-            if alone > MAX_CHECKS_WITHOUT_WORKER:
+            if without_worker > MAX_CHECKS_WITHOUT_WORKER:
                 trouble = f"it has had no worker for {MAX_CHECKS_WITHOUT_WORKER} s"
             if trouble:
                 for future in list(self._running):
@@ -215,7 +218,7 @@ class ShippedFile:
 
 
 def files_to_ship(text: str) -> tuple[ShippedFile, ...]:
-    """The files that a SPEC names by their paths. Raises InputError if one cannot be read."""
+    """Return the files that a SPEC names by their paths. Raises InputError if one cannot be read."""
     files = []
     for named in files_of(text):
         if named.searched:
@@ -229,7 +232,7 @@ def files_to_ship(text: str) -> tuple[ShippedFile, ...]:
 
 
 def spec_on_worker(text: str, files: tuple[ShippedFile, ...], worker: str, folder: Path) -> str:
-    """The SPEC as a worker can open it: files that the worker lacks are written into the folder.
+    """Return the SPEC as a worker can open it: files that the worker lacks are written into the folder.
 
     Raises InputError if a file on the worker has different content.
     """
@@ -243,6 +246,10 @@ def spec_on_worker(text: str, files: tuple[ShippedFile, ...], worker: str, folde
 
 
 def _path_on_worker(file: ShippedFile, worker: str, folder: Path) -> str:
+    """Return the path of a file on this worker: its own file, or a copy in `folder` if it has none.
+
+    Raises InputError if the worker has a file with other content there.
+    """
     path = Path(file.path)
     if not path.is_file():
         place = folder / str(file.word) / os.path.basename(file.path)
@@ -261,7 +268,7 @@ def require_same_sha256(what: str, here: str, there: str, worker: str) -> None:
 
 
 def module_sha256(text: str) -> str:
-    """The sha256 of the file of a SPEC's Python module, as it is found here; empty if the SPEC names no module."""
+    """Return the sha256 of the file of a SPEC's Python module on this machine; "" if the SPEC names no module."""
     spec = parse_spec(text)
     if spec.kind != "python" or is_file(spec.words[0]):
         return ""
@@ -313,6 +320,7 @@ class ImplementationPlugin(WorkerPlugin):  # type: ignore[misc]  # of a package 
         return result
 
     def _opener_here(self) -> ImplementationOpener:
+        """Return the opener for this worker. Raises InputError if its files differ from those where the run began."""
         spec = self.opener.spec
         if code_fingerprint() != self.fingerprint:
             raise InputError(f"worker {self._worker} {OTHER_FILES}")
@@ -326,6 +334,7 @@ class ImplementationPlugin(WorkerPlugin):  # type: ignore[misc]  # of a package 
             raise InputError(f"worker {self._worker} cannot write into its folder {self._home}: {reason}") from None
 
     def _close_idle(self) -> None:
+        """Close implementations that have been idle for IDLE seconds, until the plugin is removed."""
         while not self._over.wait(IDLE / 4):
             with self._lock:
                 old = [idle for idle in self._idle if time.monotonic() > idle[0] + IDLE]
@@ -338,6 +347,7 @@ class ImplementationPlugin(WorkerPlugin):  # type: ignore[misc]  # of a package 
         self._close()
 
     def _close(self) -> None:
+        """Kill the idle implementations, and remove the folder of files that were sent here."""
         self._over.set()
         with self._lock:
             idle, self._idle = self._idle, []

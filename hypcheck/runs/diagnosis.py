@@ -51,7 +51,7 @@ WITNESSES = 256
 """The number of right answers of a chunk, evenly chosen, that are compared with the rules."""
 
 MIXED = 0.25
-"""A whole rule has to give this share of the wrong answers that are left for it."""
+"""A cause about every row is accepted only if it explains at least this share of the answers that are left for it."""
 
 PLACED = 0.5
 """Causes about places are accepted together if they explain this share of the wrong answers."""
@@ -73,7 +73,7 @@ FAILING = (Status.WRONG, Status.UNDECIDED)
 
 
 def kept_case(case: WrongCase, place: Place, name: str, layout: Layout, error: float) -> WorstCase:
-    """The wrong answer at that place with that id, for the record; `error` is the known information about its size."""
+    """Make the record's struct of a wrong answer at that place with that id; `error` is its size if that is known."""
     return WorstCase(
         place=place,
         case=name,
@@ -88,7 +88,7 @@ def kept_case(case: WrongCase, place: Place, name: str, layout: Layout, error: f
 
 
 def measured_worst(explained: Explained, question: str) -> WorstCase:
-    """The worst of some wrong answers with its measured error."""
+    """Measure the error of the worst of some wrong answers, and return it with this error."""
     worst, exponent, least = explained.worst, float(explained.exponent), float(explained.worst.error)
     mistake, status = Mistake(worst.mistake), Status(worst.status)
     case = WrongCase(0, row_of(worst), worst.truth, worst.answer, mistake, status, exponent, worst.time, least)
@@ -96,13 +96,13 @@ def measured_worst(explained: Explained, question: str) -> WorstCase:
 
 
 def _joined(parts: Sequence[Explained]) -> Explained:
-    """The sum of at least one part, with the causes of the worst answer: the largest error, then the first place."""
+    """Add one part or more, and keep the worst answer: that with the largest error, then the first place."""
     worst = min(parts, key=lambda explained: (-explained.exponent, explained.worst.place))
     return structs.replace(worst, cases=sum(explained.cases for explained in parts))
 
 
 def merged(parts: Iterable[Explained]) -> list[Explained]:
-    """The sums of wrong answers that the same causes explain, the same in any order; the sets of causes are sorted."""
+    """Add the parts with the same set of causes. The result is sorted by set; the order of the parts has no effect."""
     by_set: dict[int, list[Explained]] = {}
     for explained in parts:
         by_set.setdefault(int(explained.causes, 16), []).append(explained)
@@ -116,9 +116,10 @@ def with_diagnosis(
     right: Sequence[int],
     named: Sequence[tuple[Place, str]],
 ) -> Tally:
-    """The tally of answers to rows with its diagnosis.
+    """Return a tally to which the diagnosis of its answers is added.
 
-    `wrong` are the wrong cases, `named` their places and ids, and `right` the indices of the right answers.
+    `answered` are the tested rows. `wrong` are the wrong cases, `named` their places and ids, and `right` the indices
+    of the right answers.
     """
     failing = [
         (case, place_and_name) for case, place_and_name in zip(wrong, named, strict=True) if case.status in FAILING
@@ -126,7 +127,7 @@ def with_diagnosis(
     if not failing:
         return tally
     witnesses = list(right[:: max(1, -(-len(right) // WITNESSES))])
-    share = len(right) / len(witnesses) if witnesses else 0.0
+    right_per_witness = len(right) / len(witnesses) if witnesses else 0.0
     places = [case.index for case, _ in failing]
     part = answered.part(places + witnesses)
     sets, denied = [0] * len(failing), {RIGHT: len(right)}
@@ -140,7 +141,7 @@ def with_diagnosis(
             _exposed(cause, answered.part(witnesses)) if cause.rounds else _against(cause, part, answers, len(failing))
         )
         if against:
-            denied[cause.name] = round(against * share)
+            denied[cause.name] = round(against * right_per_witness)
     by_set: dict[int, list[tuple[WrongCase, tuple[Place, str]]]] = {}
     for causes, one in zip(sets, failing, strict=True):
         by_set.setdefault(causes, []).append(one)
@@ -150,14 +151,17 @@ def with_diagnosis(
 
 
 def _explained(causes: int, some: Sequence[tuple[WrongCase, tuple[Place, str]]], layout: Layout) -> Explained:
-    """Wrong answers with their places and ids, all explained by the same causes."""
+    """Make the record's struct of wrong answers with the same set of causes; it has their number and the worst one."""
     case, (place, name) = min(some, key=lambda one: (-one[0].exponent, one[1][0]))
     worst = kept_case(case, place, name, layout, case.least)
     return Explained(causes=f"{causes:x}", cases=len(some), worst=worst, exponent=Extended(case.exponent))
 
 
 def _against(cause: Cause, answered: AnsweredRows, answers: Answers, first: int = 0) -> int:
-    """The strength with which the given answers, from the index `first` on, contradict a rule that gives `answers`."""
+    """Count the given answers, from the index `first` on, that contradict a rule which gives `answers`.
+
+    An answer that cannot be right by luck counts CERTAIN times more.
+    """
     other = (answers != SILENT) & (answers != answered.given)
     other[:first] = False
     certain = 0 if cause.certain is None or not other.any() else int((other & cause.certain(answered)).sum())
@@ -165,7 +169,7 @@ def _against(cause: Cause, answered: AnsweredRows, answers: Answers, first: int 
 
 
 def _exposed(cause: Cause, answered: AnsweredRows) -> int:
-    """The number of these right answers at rows where a cause about rounding would explain another answer."""
+    """Count these right answers at rows where a cause about rounding would explain another answer."""
     exposed = np.zeros(len(answered.rows), dtype=bool)
     for answer in (-1, 0, 1):
         other = replace(answered, given=np.full(len(answered.rows), answer, dtype=np.int8))
@@ -200,12 +204,15 @@ class _Left:
         return sum(explained.cases for explained in self.explained.values())
 
     def number(self, *some: Cause) -> int:
-        """The number of wrong answers that at least one of these causes explains."""
+        """Count the wrong answers that at least one of these causes explains."""
         bits = _bits(some)
         return sum(explained.cases for (_, causes), explained in self.explained.items() if causes & bits)
 
     def take_each(self, some: Sequence[Cause], *, least: float = 0.0, in_order: bool = False) -> None:
-        """Let each cause take what it explains, the largest number first, while this is at least the share `least`."""
+        """Let each cause take the answers that it explains: the cause with most answers first, or the causes in order.
+
+        End at the first cause that explains less than the share `least` of the answers that are left.
+        """
         waiting = list(some)
         while waiting and self.total:
             cause = waiting[0] if in_order else max(waiting, key=self.number)
@@ -227,7 +234,7 @@ class _Left:
 
 
 def _bits(some: Iterable[Cause]) -> int:
-    """A set of causes as a number with one bit for each cause."""
+    """Return a set of causes as a number with one bit for each cause."""
     return sum(1 << _BITS[cause.name] for cause in some)
 
 
@@ -238,7 +245,7 @@ CLEAN = 16
 def causes_of(
     tallies: Mapping[str, Tally], clean: Sequence[str], criterion: Criterion, domain: Domain
 ) -> list[CountedCause]:
-    """The accepted causes after all families: those with most wrong answers first, unexplained answers last.
+    """Return the accepted causes of a whole run, those with most wrong answers first, unexplained answers last.
 
     `clean` are the tested families without a wrong answer.
     """
@@ -267,7 +274,7 @@ def causes_of(
 
 
 def _right_answers(clean: Sequence[str], criterion: Criterion, domain: Domain) -> Iterator[AnsweredRows]:
-    """The frozen vectors of these families that lie in the domain, with the right answers as the given ones."""
+    """Yield the frozen vectors of these families that lie in the domain, with the right answers as the given ones."""
     layout = QUESTIONS[criterion.question].layout
     by_groups: dict[Groups, list[tuple[Rows, Positions]]] = {}
     for family in clean:
@@ -288,6 +295,7 @@ def _right_answers(clean: Sequence[str], criterion: Criterion, domain: Domain) -
 
 
 def _in_all_families(some: list[CountedCause]) -> CountedCause:
+    """Add what one cause explains in the families of several subjects."""
     families: Counter[str] = Counter()
     for counted in some:
         families.update(counted.families)
@@ -295,7 +303,10 @@ def _in_all_families(some: list[CountedCause]) -> CountedCause:
 
 
 def _accepted(tallies: Mapping[str, Tally], elsewhere: Mapping[str, int]) -> list[CountedCause]:
-    """The accepted causes for the families of one subject; `elsewhere` holds denials in other families."""
+    """Return the accepted causes for the families of one subject, in the order in which they took their answers.
+
+    `elsewhere` has the number of right answers of other families that contradict each cause.
+    """
     denied = Counter(elsewhere)
     for tally in tallies.values():
         denied.update(tally.denied)
@@ -308,14 +319,14 @@ def _accepted(tallies: Mapping[str, Tally], elsewhere: Mapping[str, int]) -> lis
     )
 
     def of(scope: Scope) -> list[Cause]:
-        """The causes of this scope that explain some wrong answer and that right answers hardly deny."""
+        """Return the causes of this scope that explain some wrong answer, and that right answers hardly contradict."""
         some = ((cause, left.number(cause)) for cause in CAUSES if cause.scope is scope)
         return [
             cause for cause, number in some if number and (cause.rounds or denied[cause.name] <= cause.slack * number)
         ]
 
     def stands_out(cause: Cause, others: Sequence[Cause]) -> bool:
-        """Whether wrong answers are much more frequent at its rows than at rows that no other cause explains."""
+        """Return whether wrong answers are much more frequent at its rows than at rows that no other cause explains."""
         inside, outside = left.number(cause), left.total - left.number(*others)
         right = denied[RIGHT] - denied[cause.name]
         return inside * (outside + right) > LIFT * outside * (inside + denied[cause.name])

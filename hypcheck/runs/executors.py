@@ -46,7 +46,10 @@ WATCH = Watch()
 
 
 _KEPT = 24 << 20
+"""The largest piece of memory, in bytes, that the C library is told to keep."""
+
 _PATIENCE = 5.0
+"""Seconds that a pool at its end waits for its threads before it kills the processes."""
 
 Result = TypeVar("Result")
 Arguments = ParamSpec("Arguments")
@@ -59,7 +62,7 @@ class SerialExecutor(Executor):
     def submit(
         self, function: Callable[Arguments, Result], /, *args: Arguments.args, **kwargs: Arguments.kwargs
     ) -> Future[Result]:
-        """A future that is already done."""
+        """Call the function now; return a future that already has its result or error."""
         future: Future[Result] = Future()
         try:
             future.set_result(function(*args, **kwargs))
@@ -131,7 +134,7 @@ class WorkerPool(Executor):
         worker.leave()
 
     def _begun(self) -> _Worker:
-        """A new worker that is ready, or that holds the reason why it is not."""
+        """Start a worker and prepare it. Return it; if it is not ready, each call raises the reason."""
         worker = _Worker(self._watch)
         with self._lock:  # multiprocessing's list of children is shared by the threads
             if not self._over:
@@ -172,7 +175,10 @@ class _Worker:
             self._trouble, self.process = error, None
 
     def call(self, function: Callable[[], object]) -> object:
-        """The function's result in the process. Raises what the function raises, and WorkerLost if the process ends."""
+        """Call a function in the process, and return its result.
+
+        Raises what the function raises, and WorkerLost if the process ends.
+        """
         if self.process is None:
             raise self._trouble
         try:
@@ -222,7 +228,7 @@ def _serve(line: Connection) -> None:
 
 
 def is_stopped(process: SpawnProcess) -> bool:
-    """Whether a signal has stopped a child of this process, such as kill -STOP; False if the system cannot tell."""
+    """Return whether a signal such as SIGSTOP has stopped a child of this process; False if the system cannot tell."""
     if sys.platform != "linux" or process.pid is None:
         return False
     try:
@@ -233,7 +239,7 @@ def is_stopped(process: SpawnProcess) -> bool:
 
 @contextmanager
 def execution_here(implementation: Implementation, rules: JudgingRules) -> Iterator[schedule.TaskExecution]:
-    """Perform tasks in this process."""
+    """Enter a block in which this process performs tasks."""
     function = partial(schedule.perform_task, implementation=implementation, rules=rules)
     yield schedule.TaskExecution(
         SerialExecutor(), function, 0, implementation.allowance, implementation.max_rows, rules
@@ -248,7 +254,7 @@ def execution_in_pool(
     implementation: Implementation,
     watch: Watch = WATCH,
 ) -> Iterator[schedule.TaskExecution]:
-    """Perform tasks in `workers` processes, each of which opens the implementation.
+    """Enter a block in which `workers` processes perform tasks; each opens the implementation.
 
     A task raises StartError if the implementation's description in its process differs from the one here.
     """
@@ -268,6 +274,7 @@ _OPENED: ContextVar[tuple[Implementation, JudgingRules]] = ContextVar("opened")
 def _opened(
     opener: schedule.ImplementationOpener, rules: JudgingRules, fingerprint: str, frozen: dict[str, FrozenVectors]
 ) -> Iterator[None]:
+    """The context of a process of a pool: open the implementation, and close it at the end of the process."""
     keep_freed_memory()
     keep_loaded(frozen)
     if code_fingerprint() != fingerprint:
@@ -278,6 +285,7 @@ def _opened(
 
 
 def _perform_opened(task: schedule.Step, allowance: Allowance) -> schedule.TaskResult:
+    """Perform a task in a process of the pool, with the implementation that the process has opened."""
     return schedule.perform_task(task, *_OPENED.get(), allowance)
 
 

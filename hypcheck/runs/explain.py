@@ -34,21 +34,22 @@ _FIRST = {
     "tilted": ("tilted-small-integers",),
     "way": ("way-small-integers",),
 }
-"""Families whose rows are short, looked at before the others."""
+"""The families that are searched first for a row of a cause, by the cause's subject: their rows are short."""
 
 _ROUNDING_FIRST = ("near-tangent-outside", "near-tangent-inside", "ring-neighbourhood", "near-axis")
-"""Families looked at first for causes about rounding, which short rows seldom show: their floats are exact."""
+"""The families that are searched first for causes about rounding. Short rows seldom show these: their floats are
+exact."""
 
 _NAMES = {"upright": NAMES, "tilted": TILTED_NAMES, "way": SWEEP_NAMES}
 
 _PRECISIONS = {"float64-for-more": "binary128"}
-"""Causes about other precisions than float64, with one of which an implementation may have them."""
+"""The precision in which a cause is shown, if that is not float64."""
 
 _SHOWN_BY = {"out-of-range": "extreme-float64"}
-"""Causes that a family is made for."""
+"""The family that was made to show a cause; it is searched first."""
 
 _SWEEPS = 40
-"""The number of sweeps of a family that are looked at: a time takes milliseconds to decide."""
+"""The number of sweeps of a family that are searched for a row: to decide one takes milliseconds."""
 
 _ABOUT = {
     "upright": "upright spheroids",
@@ -75,7 +76,7 @@ class Witness:
 
 
 def cause_with_id(name: str) -> Cause:
-    """The cause with this id. Raises InputError if there is none."""
+    """Return the cause with this id. Raises InputError if there is none."""
     if name not in BY_ID:
         near = suggestion(name, BY_ID, otherwise="")
         hint = near if near.strip().startswith("did you mean") else "`hypcheck explain` lists all"
@@ -84,7 +85,7 @@ def cause_with_id(name: str) -> Cause:
 
 
 def witness_of(cause: Cause) -> Witness:
-    """A frozen vector at which the cause gives a wrong answer."""
+    """Return a frozen vector at which the cause gives a wrong answer."""
     first: tuple[str, ...] = _ROUNDING_FIRST if cause.rounds else _FIRST[cause.subject]
     first = (_SHOWN_BY[cause.name],) if cause.name in _SHOWN_BY else first
     others = [name for name in _NAMES[cause.subject] if name not in first]
@@ -96,6 +97,7 @@ def witness_of(cause: Cause) -> Witness:
 
 
 def _witness_in(cause: Cause, name: str) -> Witness | None:
+    """Return the shortest row of a family at which the cause gives a wrong answer; None if there is none."""
     vectors, sweeps = load(name), cause.subject == "way"
     count = _SWEEPS if sweeps else len(vectors.rows)
     rows, truth = vectors.rows[:count], vectors.positions[:count]
@@ -112,7 +114,7 @@ def _witness_in(cause: Cause, name: str) -> Witness | None:
 
 
 def _possible_answers(rows: Floats, truth: Any, criterion: Criterion) -> Iterator[AnsweredRows]:  # noqa: ANN401 - Positions
-    """For each answer to the question, the rows with this answer given to all; for sweeps also with wrong times."""
+    """Yield, for each possible answer, the rows with this answer given to all; for sweeps also with wrong times."""
     answered = AnsweredRows(np.ascontiguousarray(rows), truth, truth, criterion)
     for answer in (0, 1, -1) if criterion.question == "position" else (0, 1):
         yield replace(answered, given=np.full(len(rows), answer, dtype=np.int8))
@@ -125,13 +127,13 @@ def _possible_answers(rows: Floats, truth: Any, criterion: Criterion) -> Iterato
 
 
 def _is_wrong(answered: AnsweredRows) -> Mask:
-    """A mask of the wrong answers; a right hit is wrong if its time is given and wrong."""
+    """Return a mask of the wrong answers; a right hit is wrong if its time is given and wrong."""
     wrong = np.asarray(answered.given != judge.expected(answered.truth, answered.criterion.question))
     return wrong if answered.times is None else ~wrong & (answered.given == 1)
 
 
 def listed() -> Iterator[str]:
-    """The lines that list all causes, grouped by their subjects."""
+    """Yield the lines that list all causes, grouped by their subjects."""
     width = max(map(len, BY_ID))
     for subject, about in _ABOUT.items():
         yield f"{about}:"
@@ -143,7 +145,7 @@ def listed() -> Iterator[str]:
 
 
 def explained(cause: Cause) -> dict[str, Any]:
-    """The full explanation of a cause, for JSON."""
+    """Return the full explanation of a cause, for JSON."""
     return brief(cause) | {
         "why": cause.why,
         "claim": cause.claim or None,
@@ -153,17 +155,17 @@ def explained(cause: Cause) -> dict[str, Any]:
 
 
 def brief(cause: Cause) -> dict[str, Any]:
-    """A cause in short, as an element of the JSON list."""
+    """Return a cause in short, as an element of the JSON list."""
     return {"id": cause.name, "about": cause.subject, "sentence": cause.sentence, "remedy": cause.remedy}
 
 
 def as_json(content: Any) -> str:  # noqa: ANN401 - whatever JSON holds
-    """The JSON text of an explanation or of a list."""
+    """Return the JSON text of an explanation or of a list."""
     return json.dumps(content, ensure_ascii=False, indent=2)
 
 
 def explained_lines(cause: Cause) -> Iterator[str]:
-    """The lines of the full explanation of a cause, for the terminal."""
+    """Yield the lines of the full explanation of a cause, for the terminal."""
     shown = witness_of(cause)
     first = None if shown.time is None else passage_of(shown.row).first_lower
     yield f"{cause.name} (a cause of wrong answers about {_ABOUT[cause.subject]})"
@@ -185,6 +187,7 @@ def explained_lines(cause: Cause) -> Iterator[str]:
 
 
 def _recognise(cause: Cause) -> str:
+    """Return the sentence about the place of wrong answers of this cause."""
     return f"wrong answers lie {_SHOWN[cause.scope]}"
 
 
@@ -194,6 +197,7 @@ def _answer_text(answer: int, time: float | None) -> str:
 
 
 def _columns(row: Row, cause: Cause) -> tuple[str, ...]:
+    """Return the names of the row's columns."""
     question = "passage" if cause.subject == "way" else "position"
     return tuple(QUESTIONS[question].layout.columns(len(row)))
 

@@ -83,19 +83,21 @@ class Batch:
         return np.array([decision.position for decision in self.decisions], dtype=np.int8)
 
     def head(self, count: int) -> Batch:
-        """The first `count` cases."""
+        """Return the first `count` cases."""
         return Batch(self.chunk.between(0, min(count, len(self.rows))), self.rows[:count], self.decisions[:count])
 
 
 def batch_of(family: Family, seed: int, start: int, stop: int) -> Batch:
-    """The cases of one family from `start` to `stop` − 1, decided exactly."""
+    """Return the cases of one family from `start` to `stop` − 1, decided exactly."""
     rows = np.ascontiguousarray(family.columns_between(seed, start, stop).T)
     decisions = tuple(exact.decide(Pair.from_row(row).lengths) for row in rows.tolist())
     return Batch(CaseChunk(family.name, seed, start, stop), rows, decisions)
 
 
 def mathematical_findings(formula: Formula, batch: Batch, plan: SelfCheckPlan) -> list[FindingLine]:
-    """A formula's errors in exact rationals on the first rows of a family, by cause, inside and outside its regimes.
+    """Find a formula's errors in exact rationals on the first rows of a family.
+
+    Return a line for each cause, inside and outside the regimes of the formula.
 
     The lines have no reason yet. Their key `asked` counts all tested rows inside or outside the regimes.
     """
@@ -123,7 +125,10 @@ def mathematical_findings(formula: Formula, batch: Batch, plan: SelfCheckPlan) -
 
 
 def cause(batch: Batch, place: int) -> str:
-    """The special property of a case that printed statements often do not treat."""
+    """Return the property of a case that is the likely cause of an error, because printed statements seldom treat it.
+
+    It is "ring", "zero-coefficient" or "none known".
+    """
     decision = batch.decisions[place]
     if decision.kind is Kind.EXTERIOR_RING:
         return "ring"
@@ -134,12 +139,15 @@ def cause(batch: Batch, place: int) -> str:
 
 
 def exact_formulas() -> list[Formula]:
-    """The formulas whose only input is a pair, so that exact arithmetic can evaluate them."""
+    """Return the formulas whose only input is a pair, so that exact arithmetic can evaluate them."""
     return [formula for formula in FORMULAS.values() if formula.classifies_pairs]
 
 
 def method_group(method: Method, batch: Batch, exponents: NDArray[np.float64], plan: SelfCheckPlan) -> GroupLine:
-    """The record's line about one method and one family; `exponents` as in Score.tally, of all the batch's rows."""
+    """Judge one method on one family, and return the record's line.
+
+    `exponents` are floor(log2) of the distance to the nearest other position, for all rows of the batch.
+    """
     tolerance = Fraction(0) if method.exact else plan.tolerance
     criterion = Criterion(method.question, method.precision, tolerance)
     inside, left_out = rows_asked(batch.rows, batch.chunk.family, criterion, method.domain)
@@ -163,12 +171,12 @@ class KnownFinding:
 
 
 def known_findings() -> tuple[KnownFinding, ...]:
-    """The known findings in the list that hypcheck installs."""
+    """Return the known findings in the list that hypcheck installs."""
     return msgspec.convert(toml.shipped("hypcheck.runs", "known_findings.toml")["finding"], tuple[KnownFinding, ...])
 
 
 def reason_for(finding: FindingLine, known: Iterable[KnownFinding]) -> str | None:
-    """The reason of a known finding; None if it is unknown, or outside the regimes of the formula."""
+    """Return the reason of a known finding; None if it is unknown, or outside the regimes of the formula."""
     if not finding.inside:
         return None
     matching = (entry.reason for entry in known if (entry.formula, entry.cause) == (finding.formula, finding.cause))
@@ -176,7 +184,7 @@ def reason_for(finding: FindingLine, known: Iterable[KnownFinding]) -> str | Non
 
 
 def finding_drift(lines: Sequence[FindingLine], known: Sequence[KnownFinding], *, complete: bool) -> list[str]:
-    """A sentence for each difference between the findings and the known ones.
+    """Return a sentence for each difference between the findings and the known ones.
 
     A difference is an error inside the stated regimes that is not known or, in a complete run, a known error that did
     not occur.
@@ -217,7 +225,10 @@ TOWER = (2.0, 17.8, 0.25, 0.15)
 
 
 def tower_panels() -> tuple[MapPanel, MapPanel]:
-    """The cooling tower with its surroundings, and the surroundings of its ring, at r* = b √((c²+1)(a²+c²))/c."""
+    """Return the panel of the whole cooling tower, and the panel of the surroundings of its ring.
+
+    With a = α/b and c = γ/d the radius of the ring is b √((c² + 1)(a² + c²))/c.
+    """
     alpha, gamma, b, d = TOWER
     a, c = alpha / b, gamma / d
     ring = b * np.sqrt((c * c + 1) * (a * a + c * c)) / c
@@ -227,7 +238,7 @@ def tower_panels() -> tuple[MapPanel, MapPanel]:
 
 
 def map_line(panel: MapPanel, method: Method) -> MapLine:
-    """The record's line about one panel: a text line of letters for each z, from the lowest up."""
+    """Judge a method on the grid of a panel, and return the record's line: letters for each z, from the lowest up."""
     rows = _grid(panel)
     truth = float_filter.positions(rows)
     wrong = judge.is_wrong(truth, method.answer(rows), method.question)
@@ -246,6 +257,7 @@ def map_line(panel: MapPanel, method: Method) -> MapLine:
 
 
 def _grid(panel: MapPanel) -> Rows:
+    """Return the rows of the grid points of a panel: x is r, y is 0."""
     r = np.linspace(*panel.r, panel.columns)
     z = np.linspace(*panel.z, panel.lines)
     rows = np.zeros((panel.columns * panel.lines, 7))

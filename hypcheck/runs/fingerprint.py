@@ -35,7 +35,7 @@ from hypcheck.vectors.frozen import folder
 
 
 def fingerprints(specs: Iterable[str], *others: Path | None) -> dict[str, str]:
-    """The sha256 of the files that SPECs name or start, and of other files, by path, as far as they exist."""
+    """Return the sha256 of the files that SPECs name or start, and of other files, by path, as far as they exist."""
     paths: list[Path] = []
     for spec in specs:
         paths += [*(file.path for file in files_of(spec)), *map(Path, started_files(spec).paths)]
@@ -44,7 +44,7 @@ def fingerprints(specs: Iterable[str], *others: Path | None) -> dict[str, str]:
 
 
 def not_hashed(specs: Iterable[str]) -> list[str]:
-    """The files that SPECs start and that only running them would show, in words without a full stop; once each."""
+    """Return a phrase for each file that SPECs start but that is not known unless they run; each phrase once."""
     return list(dict.fromkeys(sentence for spec in specs for sentence in started_files(spec).missing))
 
 
@@ -52,7 +52,7 @@ _BLOCK_BYTES = 1 << 20
 
 
 def sha256(path: Path) -> str:
-    """The sha256 of a file's content, in hexadecimal; if it cannot be read, or is a pipe or device, the reason."""
+    """Return the sha256 of a file in hexadecimal; the reason instead if it cannot be read or is a pipe or device."""
     digest = hashlib.sha256()
     try:
         if path.exists() and not path.is_file():  # a pipe may block for ever
@@ -76,7 +76,7 @@ class NamedFile:
 
 
 def files_of(text: str) -> Iterator[NamedFile]:
-    """The files of a SPEC: a library, a Python file or module, or a command with those of its words that are files.
+    """Yield the files that the words of a SPEC name: a library, a Python file or module, the words of a command.
 
     Nothing is imported or run to find them. Raises InputError if the text is not a SPEC.
     """
@@ -92,7 +92,7 @@ def files_of(text: str) -> Iterator[NamedFile]:
 
 
 def _module_file(name: str) -> str | None:
-    """The file of a module, found as the worker finds it: from the working directory first."""
+    """Return the file of a module, found as the worker finds it: from the working directory first."""
     places: list[str] | None = [os.getcwd(), *sys.path]
     origin = None
     for depth in range(1, name.count(".") + 2):
@@ -116,7 +116,7 @@ MOST_FILES = 2000
 _DYNAMIC = frozenset(
     {"__import__", "import_module", "exec", "run_path", "run_module", "spec_from_file_location", "CDLL"}
 )
-"""Functions that load what a look at the source does not tell."""
+"""Functions that load files whose names the source does not show."""
 
 
 @dataclass
@@ -156,7 +156,7 @@ class StartedFiles:
 
 
 def started_files(text: str) -> StartedFiles:
-    """The files of a SPEC that exist, with what they load. Raises InputError if the text is not a SPEC."""
+    """Return the files of a SPEC that exist, with what they load. Raises InputError if the text is not a SPEC."""
     spec, files = parse_spec(text), StartedFiles()
     if spec.kind == "library":
         files.add(spec.words[0], ())
@@ -168,6 +168,7 @@ def started_files(text: str) -> StartedFiles:
 
 
 def _add_function(spec: Spec, files: StartedFiles) -> None:
+    """Add the files of the Python file or module that the SPEC names."""
     target = spec.words[0]
     if is_file(target):
         files.add(target, [os.path.dirname(target), *_python_path()])
@@ -201,7 +202,10 @@ def _add_command(spec: Spec, files: StartedFiles) -> None:
 
 
 def _tokens(word: str, *, first_is_program: bool) -> Iterator[str]:
-    """The parts of a word that may be a file: the word, its words in shell syntax, values after =, parts of a path."""
+    """Yield the parts of a word that may name a file.
+
+    They are the word itself, or its words in shell syntax, values after "=", and the parts of a list of paths.
+    """
     if os.path.exists(word):
         yield word
         return
@@ -219,18 +223,19 @@ def _tokens(word: str, *, first_is_program: bool) -> Iterator[str]:
 
 
 def _is_script(path: str) -> bool:
-    """Whether a file begins with #!."""
+    """Return whether a file begins with #!."""
     with suppress(OSError), open(path, "rb") as file:
         return file.read(2) == b"#!"
     return False
 
 
 def _python_path() -> list[str]:
+    """Return the folders in PYTHONPATH."""
     return [folder for folder in os.environ.get("PYTHONPATH", "").split(os.pathsep) if folder]
 
 
 def _imported(node: ast.AST, path: str) -> Iterator[str]:
-    """The names of modules that a statement may import: relative ones as paths from the file's folder."""
+    """Yield the names of modules that a statement may import: relative ones as paths from the file's folder."""
     if isinstance(node, ast.Import):
         yield from (alias.name for alias in node.names)
     elif isinstance(node, ast.ImportFrom):
@@ -246,7 +251,7 @@ def _imported(node: ast.AST, path: str) -> Iterator[str]:
 
 
 def _modules(name: str, folders: Sequence[str]) -> Iterator[str]:
-    """The files of a module and of the packages around it, in the first of the folders that has any of them."""
+    """Yield the files of a module and of the packages around it, in the first of the folders that has any of them."""
     if os.sep in name:
         yield from _existing(name.rstrip(os.sep))
         return
@@ -259,13 +264,14 @@ def _modules(name: str, folders: Sequence[str]) -> Iterator[str]:
 
 
 def _existing(stem: str) -> Iterator[str]:
-    """The files of the module with that path, without hypcheck's own files, whose hashes the record has."""
+    """Yield the files of the module with that path, without hypcheck's own files, whose hashes the record has."""
     for path in (f"{stem}.py", os.path.join(stem, "__init__.py"), *_extensions(stem)):
         if os.path.isfile(path) and _PACKAGE.resolve() not in Path(path).resolve().parents:
             yield path
 
 
 def _extensions(stem: str) -> list[str]:
+    """Return the paths of compiled modules (.so, .pyd) with this path without its ending."""
     parent, name = os.path.split(stem)
     with suppress(OSError):
         entries = sorted(os.listdir(parent or "."))
@@ -275,6 +281,7 @@ def _extensions(stem: str) -> list[str]:
 
 
 def _name_of(function: ast.expr) -> str:
+    """Return the last name of a called function; "" if it has none."""
     return function.attr if isinstance(function, ast.Attribute) else getattr(function, "id", "")
 
 
@@ -288,7 +295,10 @@ _NEEDED, _STRINGS, _RPATH, _RUNPATH = 1, 5, 15, 29
 
 
 def _needed(path: str) -> list[str]:
-    """The libraries that an ELF file needs, from the folders that it or LD_LIBRARY_PATH names; no system libraries."""
+    """Return the libraries that an ELF file needs, found in the folders that it or LD_LIBRARY_PATH names.
+
+    Libraries of the system are left out.
+    """
     size = os.path.getsize(path)
     with open(path, "rb") as file:
         head = file.read(64)
@@ -311,7 +321,10 @@ def _needed(path: str) -> list[str]:
 
 
 def _dynamic_strings(content: bytes) -> dict[int, list[str]]:
-    """The texts of the dynamic section by tag: needed libraries and search paths. Raises struct.error or ValueError."""
+    """Return the texts of the dynamic section by tag: needed libraries and search paths.
+
+    Raises struct.error or ValueError.
+    """
     wide, order = content[4] == 2, "<" if content[5] == 1 else ">"
     offset, entry, number = (
         struct.unpack_from(f"{order}Q", content, 32)[0] if wide else struct.unpack_from(f"{order}I", content, 28)[0],
@@ -350,7 +363,10 @@ _HEADER = 16
 
 @lru_cache
 def code_fingerprint() -> str:
-    """The fingerprint of the names and contents of hypcheck's modules and frozen vectors, taken at the first call."""
+    """Return the sha256 of the names and contents of hypcheck's modules and frozen vectors.
+
+    It is computed at the first call in a process.
+    """
     digest = hashlib.sha256()
     for place, pattern in ((_PACKAGE, "**/*.py"), (folder(), "*.json*")):
         for path in sorted(place.glob(pattern)):
@@ -370,7 +386,10 @@ class FileSnapshot:
         self._ours = _own_files()
 
     def record_changes(self, recorder: Recorder) -> list[str]:
-        """Sentences about files that changed, hypcheck's own first; the record gets them as lines that fail the run."""
+        """Record a line for each file that changed, and return their sentences, those of hypcheck's own files first.
+
+        Each line fails the run. After MAX_FILES_NAMED files one line has the number of the others.
+        """
         changes = list(self._changes())
         if len(changes) > MAX_FILES_NAMED:
             changes[MAX_FILES_NAMED:] = [f"{len(changes) - MAX_FILES_NAMED} more files were changed"]
@@ -379,6 +398,7 @@ class FileSnapshot:
         return changes
 
     def _changes(self) -> Iterator[str]:
+        """Yield a sentence for each file that changed since the start."""
         now = _own_files()
         for path in sorted({*self._ours, *now}):
             before, after = self._ours.get(path), now.get(path)
@@ -391,16 +411,17 @@ class FileSnapshot:
 
 
 def _change_of(before: str | None, after: str | None) -> str:
+    """Return the verb for the change of a file: "added", "removed" or "changed"."""
     return "added" if before is None else "removed" if after is None else "changed"
 
 
 def _is_compiled(path: str, before: str | None, after: str | None) -> bool:
-    """Whether a change may be a module that Python compiled during the run, or a cache that somebody removed."""
+    """Return whether a change may be a module that Python compiled during the run, or a cache that somebody removed."""
     return path.endswith(".pyc") and (before is None or after is None)
 
 
 def _own_files() -> dict[str, str]:
-    """The sha256 of every file of the package and of the frozen vectors, by path.
+    """Return the sha256 of every file of the package and of the frozen vectors, by path.
 
     Compiled Python counts only if Python would load it without checking its source.
     """
@@ -418,7 +439,7 @@ def _own_files() -> dict[str, str]:
 
 
 def _content_of(path: str) -> bytes:
-    """The content of a small file; empty if it cannot be read, or was removed meanwhile."""
+    """Return the content of a small file; empty if it cannot be read, or was removed meanwhile."""
     with suppress(OSError), open(path, "rb", buffering=0) as file:  # faster without a buffer
         return file.read()
     return b""

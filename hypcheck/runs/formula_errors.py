@@ -38,7 +38,7 @@ from hypcheck.runs.judge import time_is_right
 from hypcheck.truth.passage_error import passage_of
 
 _MOSTLY = 0.5
-"""A formula is evaluated exactly, too, where it gives this share of the wrong answers in float64."""
+"""If float64 gives at least this share of the wrong answers, the formula is evaluated exactly at the other rows."""
 
 
 Number = Any
@@ -61,20 +61,21 @@ class Terms:
 
     @classmethod
     def of(cls, row: Lengths) -> Terms:
-        """The terms of the paper for a row of lengths."""
+        """Return the terms of the paper for a row of lengths."""
         bb, dd = row["b"] ** 2, row["d"] ** 2
         squares = row["x"] ** 2 + row["y"] ** 2
         return cls(row["alpha"] ** 2 * dd, row["gamma"] ** 2 * bb, squares * dd, row["z"] ** 2 * bb, bb * dd)
 
 
 def _in_floats(rows: Rows) -> Lengths:
-    """The rows, with b and d as the two units."""
+    """Return the columns of rows in float64, radial lengths in units of b and axial ones in units of d."""
     alpha, gamma, b, d, x, y, z = rows.T
     one = np.ones(len(rows))
     return dict(zip(COLUMNS, (alpha / b, gamma / d, one, one, x / b, y / b, z / d), strict=True))
 
 
 def _in_whole_numbers(rows: Rows) -> Lengths:
+    """Return the columns of rows as whole numbers, exactly: radial lengths in one unit, axial ones in another."""
     columns: dict[str, Number] = {}
     for group in ((0, 2, 4, 5), (1, 3, 6)):
         mantissas, exponents = np.frexp(rows[:, group])
@@ -119,7 +120,7 @@ class SlippedRule:
     signs: tuple[int, int] = (1, -1)
 
     def positions(self, row: Lengths) -> Answers:
-        """The positions, int8 (n,)."""
+        """Answer rows with this rule: positions, int8 (n,)."""
         with np.errstate(all="ignore"):
             t = self.terms(row)
             c0, c1, c2 = (
@@ -136,7 +137,10 @@ class SlippedRule:
             return np.where(exterior, 1, np.where(interior, -1, 0)).astype(np.int8)
 
     def __call__(self, answered: AnsweredRows) -> Answers:
-        """The rule's answers: from float64, or from exact arithmetic where only this gives the given answer."""
+        """Return the rule's answers to the question.
+
+        They are computed in float64. If most of the wrong answers agree, the rows that disagree are computed exactly.
+        """
         answers = answered.answers_at(self.positions(_in_floats(answered.rows)))
         others, wrong = np.flatnonzero(answers != answered.given), answered.given != answered.answers_at(answered.truth)
         if (answers == answered.given)[wrong].sum() < _MOSTLY * wrong.sum():
@@ -148,7 +152,7 @@ class SlippedRule:
 
 
 def _formula_errors() -> Iterator[Cause]:
-    """The causes with a wrong sign or term in a coefficient or in Δ, or with a wrong decision."""
+    """Yield the causes with a wrong sign or term in a coefficient or in Δ, or with a wrong decision."""
 
     def slip(name: str, what: str, why: str, remedy: str, rule: Rule) -> Cause:
         sentence = f"it answers as if{what}"
@@ -178,30 +182,33 @@ def _formula_errors() -> Iterator[Cause]:
 
 
 def _terms(**changed: Callable[[Lengths], Number]) -> Rule:
-    """The rule of the formula with some of A, B, P, Q (times b² d²) replaced."""
+    """Return the rule of the formula with some of A, B, P, Q (times b² d²) replaced."""
     return SlippedRule(lambda row: replace(Terms.of(row), **{name: compute(row) for name, compute in changed.items()}))
 
 
 def _swapped(first: str, second: str) -> Rule:
+    """Return the rule that takes each of two columns for the other."""
     return with_columns(**{first: lambda c: c[second], second: lambda c: c[first]})
 
 
 def _ignored(name: str) -> Rule:
+    """Return the rule that takes 0 for a column."""
     return with_columns(**{name: lambda c: 0 * c[name]})
 
 
 def _ball(radius: Callable[[Floats, Floats], Floats]) -> Rule:
-    """The rule that answers a ball, whose radius is computed from b and d."""
+    """Return the rule that takes the spheroid for a ball whose radius is computed from b and d."""
     return with_columns(b=lambda c: radius(c["b"], c["d"]), d=lambda c: radius(c["b"], c["d"]))
 
 
 def _gap(answered: AnsweredRows) -> Floats:
-    """The horizontal distance of the centre from the surface at its height, negative inside."""
+    """Return the horizontal distance of the centre from the surface at its height, negative inside."""
     alpha, gamma, _, _, x, y, z = answered.rows.T
     return np.asarray(np.hypot(x, y) - alpha * np.hypot(1, z / gamma))
 
 
 def _horizontally(answered: AnsweredRows) -> Answers:
+    """Answer by the horizontal distance alone, as if the spheroid were a horizontal disc with radius b."""
     gap, b = _gap(answered), answered.rows[:, 2]
     return answered.answers_at(np.where(gap > b, 1, np.where(gap < -b, -1, 0)).astype(np.int8))
 
@@ -253,7 +260,7 @@ UPRIGHT_FORMULA_ERRORS = (
 
 
 def _axis(compute: Callable[[Floats, Floats, Floats], Columns]) -> Rule:
-    """The change of rows that replaces the axis; upright if the new axis has no direction."""
+    """Return the rule that replaces the axis, and answers exactly. A new axis without direction becomes vertical."""
 
     def change(rows: Rows) -> Rows:
         rows[:, 7:] = np.column_stack(compute(*rows[:, 7:].T.copy()))
@@ -264,7 +271,7 @@ def _axis(compute: Callable[[Floats, Floats, Floats], Columns]) -> Rule:
 
 
 def _angle(turn: Callable[[Floats], Floats]) -> Rule:
-    """The change of rows that turns the axis to another angle from the vertical, in radians."""
+    """Return the rule that turns the axis to another angle from the vertical, in radians, and answers exactly."""
 
     def compute(x: Floats, y: Floats, z: Floats) -> Columns:
         across = np.hypot(x, y)
@@ -276,17 +283,23 @@ def _angle(turn: Callable[[Floats], Floats]) -> Rule:
 
 
 def _in_float32(*values: Floats) -> Columns:
+    """Return the values, rounded to float32."""
     x, y, z = (value.astype(np.float32).astype(np.float64) for value in values)
     return x, y, z
 
 
 def _direction_in_float32(x: Floats, y: Floats, z: Floats) -> Columns:
+    """Return the unit vector of the axis, rounded to float32."""
     length = np.sqrt(x * x + y * y + z * z)
     return _in_float32(x / length, y / length, z / length)
 
 
 def _along(factor: Callable[[Rows], Floats]) -> Rule:
-    """The matrix I/b² + (1/d² − 1/b²) f v vᵀ/(v·v), which is the spheroid's own if f = 1."""
+    """Return the rule of a wrong matrix of the spheroid: I/b² + (1/d² − 1/b²) f v vᵀ/(v·v).
+
+    v is the axis, and f is `factor` of it; with f = 1 the matrix is right. The rule changes d so that the spheroid has
+    this matrix, and answers exactly.
+    """
 
     def change(rows: Rows) -> Rows:
         b, d = rows[:, 2], rows[:, 3]
@@ -332,11 +345,11 @@ TILTED_FORMULA_ERRORS = causes_about(
 
 
 SAME_TIME = 1e-9
-"""Two times of a sweep, from 0 to 1, that a rule and an implementation may compute differently."""
+"""The most by which two times of a sweep (0 to 1) may differ if a rule and an implementation compute the same one."""
 
 
 _SLIGHTLY = 1e-3
-"""Times that are off by less were computed inexactly; those that are later by more are of another position."""
+"""A time that is wrong by less was computed inexactly; a time that is later by more belongs to another position."""
 
 
 _MOST_SWEEPS = 512
@@ -344,7 +357,7 @@ _MOST_SWEEPS = 512
 
 
 def _touches(answered: AnsweredRows, times: Floats | float) -> Answers:
-    """Whether the spheroid is in contact at these times of the sweeps: 0 is the start, 1 the end."""
+    """Return 1 for each sweep with contact at its time, else 0. Time 0 is the start of the sweep, 1 its end."""
     rows, times = answered.rows, np.full((1, len(answered.rows)), times).T
     start, end = rows[:, 4:7], rows[:, 7:10]
     with np.errstate(over="ignore"):  # rounded beyond the largest float64, a centre would be no valid row
@@ -353,7 +366,7 @@ def _touches(answered: AnsweredRows, times: Floats | float) -> Answers:
 
 
 def _timed(answered: AnsweredRows, hits: Answers, times: Floats | float) -> Answers:
-    """The hits, but SILENT where the given answer is a hit at a time other than this rule's."""
+    """Return the hits, but SILENT where the given answer is a hit at a time other than this rule's."""
     if answered.times is None:
         return hits
     with np.errstate(invalid="ignore"):
@@ -362,19 +375,20 @@ def _timed(answered: AnsweredRows, hits: Answers, times: Floats | float) -> Answ
 
 
 def _at_both_ends(answered: AnsweredRows) -> Answers:
+    """Answer by the positions at both ends of the sweep alone."""
     first = _touches(answered, 0.0)
     return _timed(answered, np.maximum(first, _touches(answered, 1.0)), np.where(first == 1, 0.0, 1.0))
 
 
 def _between(answered: AnsweredRows) -> Answers:
-    """The rule that answers clear where both ends are clear and the sweep between them is not."""
+    """Answer 0 (clear) where 0 is given, both ends are clear, and the sweep between them is not; SILENT elsewhere."""
     first, last = _touches(answered, 0.0), _touches(answered, 1.0)
     missed = (answered.truth == 1) & (answered.given == 0) & (first == 0) & (last == 0)
     return np.where(missed, 0, SILENT).astype(np.int8)
 
 
 def _other_sweeps(*order: int) -> Rule:
-    """The rule that answers sweeps whose columns are in this order; SILENT about tilted spheroids."""
+    """Return the rule that answers sweeps with their columns in another order; SILENT about tilted spheroids."""
 
     def rule(answered: AnsweredRows) -> Answers:
         answers, times = silent(answered), np.zeros(len(answered.rows))
@@ -389,7 +403,7 @@ def _other_sweeps(*order: int) -> Rule:
 
 
 def _where_time(answered: AnsweredRows, holds: Callable[[Row, float], bool]) -> Answers:
-    """The given answer where it is a right hit and `holds` is true of its sweep and its time; SILENT elsewhere."""
+    """Return the given answer where it is a right hit and `holds(sweep, time)` is true; SILENT elsewhere."""
     answers = silent(answered)
     if answered.times is not None:
         for place in np.flatnonzero((answered.given == 1) & (answered.truth == 1)).tolist():
@@ -399,12 +413,15 @@ def _where_time(answered: AnsweredRows, holds: Callable[[Row, float], bool]) -> 
 
 
 def _times_from_the_end(answered: AnsweredRows) -> Answers:
-    """The given answer where its time is right if it is counted from the sweep's end."""
+    """Return the given answer where its time is right if it is counted from the sweep's end; SILENT elsewhere."""
     return _where_time(answered, lambda row, time: time_is_right(row, 1 - time, answered.criterion))
 
 
 def _times_off(answered: AnsweredRows, holds: Callable[[float], bool]) -> Answers:
-    """The given answer where only its time is wrong, and `holds` is true of the time since the first contact."""
+    """Return the given answer where only its time is wrong, by an amount for which `holds` is true; SILENT elsewhere.
+
+    The amount is the time minus the first contact.
+    """
 
     def is_off(row: Row, time: float) -> bool:
         return holds(time - passage_of(row).first_lower) and not time_is_right(row, time, answered.criterion)
@@ -413,7 +430,10 @@ def _times_off(answered: AnsweredRows, holds: Callable[[float], bool]) -> Answer
 
 
 def _sampled(answered: AnsweredRows) -> Answers:
-    """The given answer where its time is one of contact, by a thousandth of the sweep or more after the first."""
+    """Return the given answer where its time is a thousandth of the sweep or more too late; SILENT elsewhere.
+
+    There must be contact at that time, as there is if positions at sampled times are tested.
+    """
     touches = _touches(answered, 0.0 if answered.times is None else np.nan_to_num(answered.times))
     late = _times_off(answered, lambda off: off >= _SLIGHTLY)
     return np.where(touches == 1, late, SILENT).astype(np.int8)

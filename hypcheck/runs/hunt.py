@@ -31,10 +31,10 @@ from hypcheck.truth.passage_error import first_contact
 from hypcheck.vectors.draw import Integers
 
 PIECE = 4096
-"""The most rows between two checks of the budget; the first piece has the square root of this number."""
+"""A piece is the rows that are tested between two checks of the budget: PIECE at most, and √PIECE at first."""
 
 PIECE_SECONDS = 0.5
-"""If a piece takes longer, in seconds, the next pieces are smaller."""
+"""If a piece takes more seconds than this, the next pieces are smaller."""
 
 _ANSWERED = (Status.RIGHT, Status.WRONG, Status.ABSTAINED)
 
@@ -73,7 +73,7 @@ class HuntTarget:
         return self.criterion.layout
 
     def claimed(self, rows: Rows) -> Indices:
-        """The indices of the rows that the implementation claims to answer."""
+        """Return the indices of the rows that the implementation claims to answer."""
         return claimed(rows, self.domain, self.criterion.precision, extreme=self.extreme, layout=self.layout)
 
     def ask(self, rows: Rows) -> Score:
@@ -90,7 +90,7 @@ def target_of(
     tolerance: Fraction = DEFAULT_TOLERANCE,
     options: tuple[tuple[str, str], ...] = (),
 ) -> HuntTarget:
-    """The target with the implementation's own description; `regimes`, if given, replace those it declares.
+    """Return the target with the implementation's own description; `regimes`, if given, replace the declared ones.
 
     Raises InputError if a regime is unknown or the tolerance is negative.
     """
@@ -101,7 +101,10 @@ def target_of(
 
 @dataclass(frozen=True, slots=True)
 class HuntFinding:
-    """A wrong answer, its error as its judge measures it (also in units u), the row's place, and the source."""
+    """A wrong answer with its error as judge.measured gives it, and in units u; and the place of its row.
+
+    `source` names the stratum or the search that found the row.
+    """
 
     case: WrongCase
     error: float
@@ -111,7 +114,7 @@ class HuntFinding:
 
     @classmethod
     def of(cls, case: WrongCase, criterion: Criterion, place: RowPlace, source: str) -> HuntFinding:
-        """The finding of a judged case."""
+        """Measure the error of a judged case, and return its finding."""
         error = judge.measured(case, criterion.question)
         return cls(case, error, judge.in_units(error, criterion.unit), place, source)
 
@@ -180,7 +183,7 @@ class Hunt:
         return self.spent >= 1 or self.nothing_in_domain or Status.NOT_RUN in self.unanswered
 
     def worst_first(self) -> list[FindingCluster]:
-        """The clusters with an answer beyond the tolerance, the worst first."""
+        """Return the clusters with an answer beyond the tolerance, the worst first."""
         beyond = [cluster for cluster in self.clusters.values() if cluster.beyond]
         return sorted(beyond, key=lambda cluster: cluster.worst.rank, reverse=True)
 
@@ -202,7 +205,7 @@ class Hunt:
                 cluster.tolerated += 1
 
     def ask(self, rows: Rows, ladders: Integers | None = None) -> list[WrongCase]:
-        """Test the rows that the target claims, and return the wrong answers; `index` is the place in the given rows.
+        """Test the rows that the target claims, and return the wrong answers. Their `index` is the place in `rows`.
 
         With `ladders`, the number of each row's ladder, (n,), only the last wrong answer of each ladder is judged and
         returned.
@@ -222,7 +225,7 @@ class Hunt:
         ]
 
     def _pieces(self, rows: Rows, places: Indices) -> Iterator[tuple[Indices, Score]]:
-        """Test the rows at these places, a piece at a time, until the budget is spent."""
+        """Test the rows at these places, a piece at a time, until the budget is spent; yield each with its score."""
         start = 0
         while start < len(places) and not self.over:
             part = places[start : start + self.piece]
@@ -243,11 +246,12 @@ class Hunt:
 
 
 def _may_be_worse(case: WrongCase, worst: WrongCase) -> bool:
+    """Return whether a case may be worse than the worst so far; only then is its error measured."""
     return (case.status is Status.WRONG, case.exponent) >= (worst.status is Status.WRONG, worst.exponent)
 
 
 def hunt_lines(run: Hunt, most: int) -> Iterator[str]:
-    """The report of a hunt: at most `most` kinds of wrong answers in full, the worst first."""
+    """Yield the report of a hunt: at most `most` kinds of wrong answers in full, the worst first."""
     clusters = run.worst_first()
     beyond = sum(cluster.beyond for cluster in clusters)
     tolerated = sum(cluster.tolerated for cluster in run.clusters.values())
@@ -279,10 +283,12 @@ def hunt_lines(run: Hunt, most: int) -> Iterator[str]:
 
 
 def _answers(number: int) -> str:
+    """Return the number of answers with the verb: "1 answer was", "2 answers were"."""
     return f"{counted(number, 'answer')} {'was' if number == 1 else 'were'}"
 
 
 def _cluster_lines(number: int, cluster: FindingCluster, target: HuntTarget) -> Iterator[str]:
+    """Yield the lines about one kind of wrong answers."""
     worst = cluster.worst
     yield f"{number}. {worst.case.mistake.value}, {how_wrong(worst)}, {worst.place.words}"
     yield from finding_lines(worst, target)
@@ -293,7 +299,7 @@ def _cluster_lines(number: int, cluster: FindingCluster, target: HuntTarget) -> 
 
 
 def finding_lines(finding: HuntFinding, target: HuntTarget) -> Iterator[str]:
-    """A finding: its row, the truth beside the answer, and the command that replays it."""
+    """Yield the lines about a finding: its row, the truth beside the answer, and the command that replays it."""
     case = finding.case
     question = target.criterion.question
     truth, answer = judge.truth_in_words(case.truth, question), judge.in_words(case.answer, question)
@@ -307,7 +313,7 @@ def finding_lines(finding: HuntFinding, target: HuntTarget) -> Iterator[str]:
 
 
 def _command(target: HuntTarget, *words: str) -> str:
-    """The start of a command about the target, with the options that opened it."""
+    """Return the start of a command about the target, with the options that opened it."""
     options = [
         part for name, value in target.options if words[0] != "replay" or name != "--regimes" for part in (name, value)
     ]
@@ -315,11 +321,12 @@ def _command(target: HuntTarget, *words: str) -> str:
 
 
 def _row(row: Sequence[float], target: HuntTarget) -> str:
+    """Return the text of a row: its numbers, and the names of its columns."""
     return f"{decimals_of(row)}  ({', '.join(target.layout.columns(len(row)))})"
 
 
 def how_wrong(finding: HuntFinding) -> str:
-    """The text of a finding's error: in units u; for a wrong time, in spheroid radii of the sweep."""
+    """Return the text of a finding's error: in units u; for a wrong time, in spheroid radii of the sweep."""
     if finding.case.time is not None:
         return f"{finding.error:.3g} spheroid radii"
     if finding.error_u == math.inf:
@@ -328,10 +335,10 @@ def how_wrong(finding: HuntFinding) -> str:
 
 
 def name_of_target(target: HuntTarget) -> str:
-    """The implementation, the question and the precision."""
+    """Return the text that names the implementation, the question and the precision."""
     return f"{target.implementation.description.name} ({target.criterion.question}, {target.criterion.precision})"
 
 
 def titled(title: str, line: str) -> str:
-    """A line of a finding that begins with its title."""
+    """Return a line of a finding that begins with its title."""
     return f"   {title:9} {line}"

@@ -52,9 +52,9 @@ _MOVES: dict[Groups, list[tuple[int, ...]]] = {
         ),
     )
 }
-"""Columns that are multiplied together, by the groups of a row.
+"""The sets of columns that a neighbour multiplies by one factor, by the groups of a row.
 
-Where they are all of a unit of length, or an axis, only the rounding changes.
+If the set holds all lengths of one unit, or an axis, the answer is the same in exact arithmetic; only roundings change.
 """
 
 
@@ -74,8 +74,9 @@ class Climber:
 
 @dataclass(frozen=True, slots=True)
 class Neighbours:
-    """Rows (n, 7, 10, 13 or 16) to test; for each row the number of its climber and of its ladder, (n,).
+    """Rows (n, 7, 10, 13 or 16) to test.
 
+    `owners` (n,) are the numbers of the climbers to which they belong, `ladders` (n,) the numbers of their ladders.
     A row on no ladder has a ladder of its own. The rungs of a ladder are ordered away from the border: the last with a
     wrong answer is the worst.
     """
@@ -86,11 +87,11 @@ class Neighbours:
 
 
 RUNGS = 4 ** np.arange(EXPONENTS // 2, dtype=np.int64)
-"""The rungs of a ladder, in ulp of the factor."""
+"""The distances of a ladder's rungs from the border, in ulp of the factor."""
 
 
 def ladders(rows: Rows, mask: Mask, factors: Floats) -> tuple[Rows, Integers]:
-    """The rungs of all rows that have a border, and for each rung the number of its ladder.
+    """Return the rows of the ladders of all rows that have a border, and for each of them the number of its ladder.
 
     Ladder 2i leads outwards from the border of row i, ladder 2i + 1 inwards; rungs are ordered away from the border.
     """
@@ -101,7 +102,7 @@ def ladders(rows: Rows, mask: Mask, factors: Floats) -> tuple[Rows, Integers]:
 
 
 def neighbours(draw: Draw, climbers: Sequence[Climber], layout: Layout = PAIRS) -> Neighbours:
-    """The neighbours of the climbers, rows of this layout."""
+    """Return the neighbours of the climbers, rows of this layout."""
     with np.errstate(all="ignore"):  # rows beyond float64 are not valid, and not tested
         around = [_around(climber, layout) for climber in climbers]
     rows = np.concatenate(as_wide(around, layout))
@@ -118,11 +119,15 @@ def neighbours(draw: Draw, climbers: Sequence[Climber], layout: Layout = PAIRS) 
 
 
 BROUGHT = 3
-"""Neighbours of a sweep that are brought to the border at a time: each takes about 60 decisions of a millisecond."""
+"""The number of neighbours of sweeps that are moved to the border at a time: each takes 60 decisions of a
+millisecond."""
 
 
 def _borders(draw: Draw, rows: Rows, layout: Layout) -> tuple[Mask, Floats]:
-    """The columns of each row that a factor can bring to the border of contact, and the factor; NaN if none can."""
+    """Choose for each row the columns to multiply, at random; return them as a mask, and the factors.
+
+    A factor brings its row to the border of contact; it is NaN if none can.
+    """
     if not layout.has_end:
         movers = list(movers_of(columns := layout.columns(rows.shape[1])))
         mask = columns_of(np.asarray(movers)[draw.integers(len(rows), 0, len(movers) - 1)], columns)
@@ -135,7 +140,7 @@ def _borders(draw: Draw, rows: Rows, layout: Layout) -> tuple[Mask, Floats]:
 
 
 def _around(climber: Climber, layout: Layout) -> Rows:
-    """The row itself, its neighbours one step away, and special rows beside it."""
+    """Return the row itself, its neighbours one step away, and special rows beside it."""
     row, step = climber.row, climber.step
     moves = _MOVES[layout.groups(row)]
     rows = np.repeat(np.array([row]), 1 + 2 * len(moves), axis=0)
@@ -147,7 +152,11 @@ def _around(climber: Climber, layout: Layout) -> Rows:
 
 
 def _at_ends(row: Row, layout: Layout) -> Rows:
-    """Rows with the centre at each end or half a height beyond; rows without one end or both; rows with other ends."""
+    """Return eight rows with other ends.
+
+    Four have the centre at an end, or d beyond it. The others lack the lower end, the upper end, or both, or are solid
+    instead of open (and the other way round).
+    """
     width, d = len(row), row[3]
     low, high = row[-3:-1]
     images = np.repeat(np.array([row]), 8, axis=0)
@@ -163,7 +172,7 @@ def _at_ends(row: Row, layout: Layout) -> Rows:
 
 
 def _special(row: Row, layout: Layout) -> Rows:
-    """The projections of a row onto the four surfaces; for a sweep onto three, and special sweeps beside it."""
+    """Return the projections of a row onto the four surfaces; for a sweep onto three, and special sweeps beside it."""
     images = np.repeat(np.array([row]), 7 if layout.has_end else 4, axis=0)
     *others, waist, throat, groove = images
     throat[0] = throat[2]
@@ -182,7 +191,7 @@ def _special(row: Row, layout: Layout) -> Rows:
 
 
 FIRST_LOOK = 128
-"""Rows of each stratum in the first round; whole blocks follow."""
+"""The number of rows of each stratum in the first round; whole blocks follow."""
 
 CLIMBERS_TOGETHER = 4
 """The number of climbers, each of another cluster, whose rows are tested together."""
@@ -209,13 +218,13 @@ def run_hunt(run: Hunt, progress: Progress = lambda _: None, everywhere: Sequenc
 
 
 def strata_of(run: Hunt) -> tuple[HuntStratum, ...]:
-    """All strata with rows that the target of a hunt can take."""
+    """Return all strata with rows that the target of a hunt can take."""
     target = run.target
     return strata(target.domain.settings, target.implementation.description.groups)
 
 
 def _look(run: Hunt, everywhere: Sequence[HuntStratum]) -> Iterator[None]:
-    """Test the strata, without end: first some rows of each, then block after block."""
+    """Test the strata, without end: first some rows of each, then block after block. Yield between the steps."""
     for stratum in everywhere:
         _take(run, stratum.rows(run.plan.seed, 0)[:FIRST_LOOK], stratum.name)
         if run.over:
@@ -232,11 +241,15 @@ def _look(run: Hunt, everywhere: Sequence[HuntStratum]) -> Iterator[None]:
 
 
 def _take(run: Hunt, rows: Rows, source: str) -> None:
+    """Test rows that the source of this name gives, and add the wrong answers to the hunt."""
     run.add(run.ask(rows), source)
 
 
 def _climb(run: Hunt) -> Iterator[bool]:
-    """Do a step of some local searches around the worst answers of clusters; False if there is none to continue."""
+    """Do steps of local searches around the worst answers of clusters, without end.
+
+    Yield after each step: whether there was a search to continue.
+    """
     climbers: dict[ClusterKey, Climber] = {}
     number = 0
     while True:
@@ -254,7 +267,7 @@ def _climb(run: Hunt) -> Iterator[bool]:
 
 
 def _climbers(run: Hunt, climbers: dict[ClusterKey, Climber]) -> list[ClusterKey]:
-    """The climbers for the next step: those with the longest step first, then those with the worst answer.
+    """Return the climbers for the next step: those with the longest step first, then those with the worst answer.
 
     A climber is at the worst answer of its cluster. It starts again with the first step if a worse one is found.
     """

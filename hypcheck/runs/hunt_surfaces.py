@@ -90,19 +90,22 @@ class RowPlace:
 
 
 def place_of_row(row: Sequence[float], layout: Layout) -> RowPlace:
-    """The place of a valid row of this layout."""
+    """Return the place of a valid row of this layout."""
     return sweep_place(tuple(row)) if layout.has_end else place_of(Pair.from_row(row))
 
 
 def _first_that_holds(signs: Mapping[str, object], otherwise: str, *known: str) -> RowPlace:
-    """The place whose kind is the first sign that holds, or else `otherwise`; its words also name what is `known`."""
+    """Return the place whose kind is the first sign that holds, or `otherwise` if none holds.
+
+    Its words name all signs that hold, after the words in `known`.
+    """
     named = [name for name, holds in signs.items() if holds]
     kind = named[0] if named else otherwise
     return RowPlace(kind, ", ".join([*known, *named] or [otherwise]), kind)
 
 
 def place_of(pair: Pair) -> RowPlace:
-    """The place of a pair: the surfaces that it is on or next to, and the cause that they suggest."""
+    """Return the place of a pair: the surfaces that it is on or next to, and the cause that they suggest."""
     if pair.has_ends:
         return _ended_place(pair)
     if not pair.is_upright:
@@ -117,7 +120,7 @@ def place_of(pair: Pair) -> RowPlace:
 
 
 def _tilted_place(pair: Pair) -> RowPlace:
-    """The place of a tilted spheroid: the special properties of its axis and its centre."""
+    """Return the place of a tilted spheroid: the special properties of its axis and its centre."""
     x, y, z, axis_x, axis_y, axis_z = map(Fraction, (pair.x, pair.y, pair.z, *pair.axis))
     across, along = axis_x**2 + axis_y**2, axis_z**2
     signs = {
@@ -133,7 +136,7 @@ def _tilted_place(pair: Pair) -> RowPlace:
 
 
 def _ended_place(pair: Pair) -> RowPlace:
-    """The place of a pair whose hyperboloid ends: the change that the ends cause, and the centre's position to them."""
+    """Return the place of a pair whose hyperboloid ends: what the ends change, and where the centre is beside them."""
     decision, whole = exact.decide(pair.lengths), exact.position(pair.without_ends.lengths)
     low, high = pair.z_min, pair.z_max
     signs = {
@@ -153,6 +156,7 @@ def _ended_place(pair: Pair) -> RowPlace:
 
 
 def _double_roots(lengths: Lengths, kind: Kind) -> Iterator[tuple[str, str]]:
+    """Yield the name and the words of the surface Δ = 0, the ring or a tangency that the pair is on or next to."""
     if kind is Kind.EXTERIOR_RING:
         yield RING, "z = 0 and Δ = 0 (the ring)"
     elif kind.position is Position.EXTERIOR and (off := _off_the_ring(lengths)) is not None:
@@ -164,6 +168,7 @@ def _double_roots(lengths: Lengths, kind: Kind) -> Iterator[tuple[str, str]]:
 
 
 def _coefficients(g: Cubic) -> Iterator[tuple[str, str]]:
+    """Yield the name and the words of each coefficient of the cubic that is 0."""
     if g.n1 == 0:
         yield "c1 = 0", "c1 = 0"
     if g.n2 == 0:
@@ -171,6 +176,7 @@ def _coefficients(g: Cubic) -> Iterator[tuple[str, str]]:
 
 
 def _borders(lengths: Lengths) -> Iterator[tuple[str, str]]:
+    """Yield the name and the words of each border of a regime, and each long ratio, that the pair is at."""
     throat = Fraction(lengths.alpha - lengths.b, lengths.b)
     if abs(throat) <= NEAR:
         yield "a = 1", _at_or_near("a", "1", throat, "a − 1")
@@ -183,6 +189,7 @@ def _borders(lengths: Lengths) -> Iterator[tuple[str, str]]:
 
 
 def _regimes(lengths: Lengths) -> Iterator[tuple[str, str]]:
+    """Yield the name and the words of each regime, beside the main one, in which the pair lies."""
     if lengths.gamma**2 * lengths.b < lengths.d**2 * lengths.alpha:
         yield "c² < a", "c² < a"
     if lengths.alpha < lengths.b:
@@ -190,6 +197,7 @@ def _regimes(lengths: Lengths) -> Iterator[tuple[str, str]]:
 
 
 def _planes(lengths: Lengths) -> Iterator[tuple[str, str]]:
+    """Yield the name and the words of r = 0 and z = 0 if the centre is there or near."""
     r = Fraction(math.isqrt((lengths.x**2 + lengths.y**2) << 128), lengths.b << 64)
     if r <= NEAR and r * lengths.b <= NEAR * lengths.alpha:
         yield "r = 0", _at_or_near("r", "0", r, "r")
@@ -199,7 +207,7 @@ def _planes(lengths: Lengths) -> Iterator[tuple[str, str]]:
 
 
 def _off_the_ring(lengths: Lengths) -> float | None:
-    """The approximate distance of the centre from the ring, a circle in the plane z = 0, in radii; None if not near."""
+    """Return roughly how far the centre is from the ring, a circle in the plane z = 0, in radii; None if not near."""
     a, c = _a(lengths), _c(lengths)
     radius = _ring_radius(a, c)
     if radius is None:
@@ -211,23 +219,27 @@ def _off_the_ring(lengths: Lengths) -> float | None:
 
 
 def _ring_radius(a: float, c: float) -> float | None:
-    """The ring's radius √((c² + 1)(a² + c²))/c in radii of the spheroid; None if there is no ring."""
+    """Return the ring's radius √((c² + 1)(a² + c²))/c in radii of the spheroid; None if there is no ring."""
     return math.sqrt(c * c + 1) * math.hypot(a / c, 1) if 0 < a < c * c < math.inf else None
 
 
 def _at_or_near(name: str, value: str, off: Fraction, what: str) -> str:
+    """Return the words for a quantity that has a special value, or differs from it by `off`."""
     return f"{name} = {value}" if off == 0 else f"{name} ≈ {value} ({what} = {float(off):.1e})"
 
 
 def _a(lengths: Lengths) -> float:
+    """Return a = α/b as a float; inf if it is too large."""
     return _ratio(lengths.alpha, lengths.b)
 
 
 def _c(lengths: Lengths) -> float:
+    """Return c = γ/d as a float; inf if it is too large."""
     return _ratio(lengths.gamma, lengths.d)
 
 
 def _ratio(top: int, bottom: int) -> float:
+    """Return |top|/bottom as a float; inf if it is too large."""
     try:
         return abs(top) / bottom
     except OverflowError:
@@ -235,7 +247,7 @@ def _ratio(top: int, bottom: int) -> float:
 
 
 def sweep_place(row: Row) -> RowPlace:
-    """The place of a sweep: the events on it, and its direction; findings are grouped by the first name."""
+    """Return the place of a sweep: the events on it, and its direction; findings are grouped by the first name."""
     start, end = row[len(SIZES) : len(COLUMNS)], row[len(COLUMNS) : len(SWEEP_COLUMNS)]
     passage, length = passage_of(row), sweep_in_radii(row)
     still, sides = start == end, (passage.start, passage.end)
@@ -258,7 +270,7 @@ def sweep_place(row: Row) -> RowPlace:
 
 
 def _crosses_the_ring(row: Row) -> bool:
-    """Whether an upright spheroid's centre is on or near the ring when its sweep crosses the waist's plane."""
+    """Return whether an upright spheroid's centre is on or near the ring when its sweep crosses the waist's plane."""
     alpha, gamma, b, d, x, y, z, end_x, end_y, end_z = row
     radius = _ring_radius(alpha / b, gamma / d)
     if radius is None or z * end_z > 0:
@@ -276,23 +288,23 @@ MOVERS: dict[str, tuple[int, ...]] = {
     "b": (2,),
     "d": (3,),
 }
-"""The unknowns of a pair with their columns; multiplied by one factor, each can reach the border of contact."""
+"""The movers of a pair: sets of columns, by name. Multiplied by one factor, a set can move the row to the border."""
 
 END_MOVERS: dict[str, tuple[int, ...]] = {"lower end": (10,), "upper end": (11,)}
-"""The same of the heights between which a hyperboloid ends."""
+"""The movers of the heights between which a hyperboloid ends."""
 
 SIZE = (2, 3)
 """The columns of b and d, which are the size of the spheroid together."""
 
 REACH = 2.0**12
-"""Factors from 1/REACH to REACH are tried."""
+"""The greatest factor by which a number is multiplied in the search for the border; the least is 1/REACH."""
 
 EXPONENTS = 46
 """Rows are moved up to 2^(EXPONENTS − 1) ulp of the factor away from the border."""
 
 
 def columns_of(movers: NDArray[np.str_], columns: Sequence[str] = COLUMNS) -> Mask:
-    """The columns that the named movers multiply, as a mask (n, len(columns))."""
+    """Return a mask (n, len(columns)) of the columns that each of the n named movers multiplies."""
     mask = np.zeros((len(movers), len(columns)), dtype=np.bool_)
     for name, places in movers_of(columns).items():
         mask[np.ix_(movers == name, places)] = True
@@ -300,18 +312,20 @@ def columns_of(movers: NDArray[np.str_], columns: Sequence[str] = COLUMNS) -> Ma
 
 
 def movers_of(columns: Sequence[str]) -> dict[str, tuple[int, ...]]:
-    """The movers of rows with these columns: the unknowns that can be changed."""
+    """Return the movers of rows with these columns, by name."""
     return MOVERS if set(HEIGHTS).isdisjoint(columns) else MOVERS | END_MOVERS
 
 
 def moved(rows: Rows, mask: Mask, factor: Floats) -> Rows:
-    """The rows with the masked columns multiplied by each row's factor; numbers beyond float64 become infinite."""
+    """Multiply the masked columns by each row's factor; numbers beyond float64 become infinite."""
     with np.errstate(all="ignore"):
         return np.where(mask, rows * factor[:, None], rows)
 
 
 def border_factors(rows: Rows, mask: Mask, far: Mask, layout: Layout = PAIRS) -> Floats:
-    """The factor just before the position changes or contact on a sweep begins, (n,); NaN if none within REACH.
+    """Find for each row the factor just before the position changes or contact on a sweep begins, (n,).
+
+    It is NaN if nothing changes between 1/REACH and REACH.
 
     If there are two changes, the rows in `far` take the one with the greater factor.
     """
@@ -337,7 +351,7 @@ UNUSABLE = 3
 
 
 def _truths(rows: Rows, layout: Layout) -> Positions:
-    """Exact positions, or hits of sweeps; UNUSABLE if a length is outside the range of float64."""
+    """Return exact positions, or hits of sweeps; UNUSABLE if a length is outside the range of float64."""
     usable = ~invalid(rows, layout)
     truths = np.full(len(rows), UNUSABLE, dtype=np.int8)
     truths[usable] = truth_of(rows[usable], layout)
@@ -345,7 +359,7 @@ def _truths(rows: Rows, layout: Layout) -> Positions:
 
 
 def beside_border(draw: Draw, rows: Rows, movers: NDArray[np.str_]) -> Rows:
-    """The rows, each moved to a border by its mover, then away by a random rung; rows without a border are left out."""
+    """Move each row to a border by its mover, then a random distance away; rows without a border are left out."""
     mask = columns_of(movers)
     factors = border_factors(rows, mask, draw.signs(len(rows)) > 0)
     rungs = ldexp(draw.signs(len(rows)), draw.integers(len(rows), 0, EXPONENTS - 1)).astype(np.int64)
@@ -354,10 +368,11 @@ def beside_border(draw: Draw, rows: Rows, movers: NDArray[np.str_]) -> Rows:
 
 
 SURFACES = {"z = 0": "height", "r = 0": "radius", "a = 1": "alpha", "c² = a": "alpha"}
-"""The four surfaces, each with the mover that would leave it."""
+"""The four surfaces, each with the mover (a name in MOVERS) that would move a row away from it."""
 
 CROSSING_BLOCK = 96
-"""Rows of a crossing that are made at a time: to reach the border costs more than a question."""
+"""The number of rows of a crossing that are made at a time: to move them to the border takes longer than to test
+them."""
 
 SWEEPS_TOGETHER = 24
 """The number of sweeps of a family that are tested at a time: one takes milliseconds to decide."""
@@ -378,7 +393,7 @@ _FAMILIES = ENDED_SWEEP_FAMILIES | SWEEP_FAMILIES | ENDED_FAMILIES | TILTED_FAMI
 
 
 def strata(settings: tuple[FixedSizes, ...] = (), taken: Groups = NO_GROUPS) -> tuple[HuntStratum, ...]:
-    """All strata where these groups are taken, families of vectors first.
+    """Return all strata for an implementation that takes these groups, families of vectors first.
 
     For fixed sizes and for sweeps there are only the families for them.
     """
@@ -392,10 +407,13 @@ def strata(settings: tuple[FixedSizes, ...] = (), taken: Groups = NO_GROUPS) -> 
 
 
 def _of_family(family: Family) -> HuntStratum:
+    """Return the stratum of a family of pairs."""
     return HuntStratum(f"the family {family.name}", family.block)
 
 
 def _of_sweeps(family: Family) -> HuntStratum:
+    """Return the stratum of a family of sweeps, with small blocks."""
+
     def rows(seed: int, number: int) -> Rows:
         return family.columns_between(seed, number * SWEEPS_TOGETHER, (number + 1) * SWEEPS_TOGETHER).T
 
@@ -403,12 +421,13 @@ def _of_sweeps(family: Family) -> HuntStratum:
 
 
 def _of_crossing(surfaces: tuple[str, ...]) -> HuntStratum:
+    """Return the stratum of rows on these surfaces at the border of contact."""
     name = f"contact beside {' and '.join(surfaces)}"
     return HuntStratum(name, lambda seed, number: crossing(Draw(name, VERSION, seed, number), CROSSING_BLOCK, surfaces))
 
 
 def crossing(draw: Draw, n: int, surfaces: tuple[str, ...]) -> Rows:
-    """At most n rows on these surfaces or very close to them, each at a random distance from the border of contact."""
+    """Make at most n rows on or very close to these surfaces, each at a random distance from the border of contact."""
     size = _sizes(draw, n, surfaces)
     height = heights(draw, size.c) * _slack(draw, n, pinned="z = 0" in surfaces)
     radius = np.abs(size.a + offsets(draw, n)) * _slack(draw, n, pinned="r = 0" in surfaces)
@@ -418,14 +437,14 @@ def crossing(draw: Draw, n: int, surfaces: tuple[str, ...]) -> Rows:
 
 
 def _slack(draw: Draw, n: int, *, pinned: bool) -> Floats:
-    """Factors for a distance: 1; if `pinned`, randomly 0 (on the surface) or from 2⁻⁵⁰ to 2⁻³."""
+    """Draw factors (n,) for a distance: 1; if `pinned`, 0 (on the surface) or from 2⁻⁵⁰ to 2⁻³, at random."""
     if not pinned:
         return np.ones(n)
     return np.where(draw.signs(n) < 0, 0.0, draw.log_uniform(n, -50, -3))
 
 
 def _sizes(draw: Draw, n: int, surfaces: tuple[str, ...]) -> Sizes:
-    """Sizes of every regime; on the surfaces α = b, or α/b is the square of γ/d, exactly or nearly."""
+    """Draw sizes of every regime. On the surface a = 1, α = b; on c² = a, α/b = (γ/d)²: exactly or nearly."""
     top, bottom = np.floor(draw.log_uniform(n, 0, 12)), np.floor(draw.log_uniform(n, 0, 12))
     if "a = 1" in surfaces:
         top = bottom
@@ -438,11 +457,11 @@ def _sizes(draw: Draw, n: int, surfaces: tuple[str, ...]) -> Sizes:
 
 
 def _nearly_one(draw: Draw, n: int) -> Floats:
-    """Factors 1 and 1 ± 2⁻⁵² … 2⁻³, at random."""
+    """Draw factors (n,): 1, or 1 ± a number from 2⁻⁵² to 2⁻³, at random."""
     return np.asarray(1 + draw.signs(n) * np.where(draw.signs(n) < 0, 0.0, draw.log_uniform(n, -52, -3)))
 
 
 def _movers_within(surfaces: tuple[str, ...]) -> list[str]:
-    """The movers that can bring a row to the border without leaving these surfaces."""
+    """Return the movers that can bring a row to the border without leaving these surfaces."""
     kept = {SURFACES[surface] for surface in surfaces}
     return [mover for mover in ("radius", "height", "alpha") if mover not in kept]

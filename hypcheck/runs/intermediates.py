@@ -34,7 +34,7 @@ Number = Fraction | QuadraticSurd
 
 
 def number_of(value: Any) -> bool | float | Fraction:  # noqa: ANN401 - any scalar of numpy
-    """A machine value as a truth value, the exact value of a finite number, or an infinity or NaN as a float."""
+    """Return a machine value as a truth value, the exact value of a finite number, or an infinity or NaN as a float."""
     scalar: Any = np.asarray(value)[()]
     if isinstance(scalar, np.bool_):
         return bool(scalar)
@@ -44,7 +44,7 @@ def number_of(value: Any) -> bool | float | Fraction:  # noqa: ANN401 - any scal
 
 
 def rational(value: Number, bits: int = 64) -> Fraction:
-    """A rational within a relative 2^−bits of the value; the value itself if it is rational."""
+    """Return a rational within a relative 2^−bits of the value; the value itself if it is rational."""
     if not isinstance(value, QuadraticSurd):
         return value
     # p and q√h of equal sign cannot cancel. Else p + q√h = (p² − q²h)/(p − q√h), and p, −q√h have equal sign.
@@ -55,7 +55,7 @@ def rational(value: Number, bits: int = 64) -> Fraction:
 
 
 def number_text(value: object, digits: int = DIGITS) -> str:
-    """A value of either arithmetic as text: yes or no, "undefined", inf or nan, or a number with `digits` digits."""
+    """Return the text of a value: yes or no, "undefined", inf or nan, or a number with `digits` digits."""
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, (Fraction, QuadraticSurd)):
@@ -64,7 +64,7 @@ def number_text(value: object, digits: int = DIGITS) -> str:
 
 
 def _decimal(value: Fraction, digits: int) -> str:
-    """A rational with that many digits, without an exponent if that is short, without zeros at the end."""
+    """Return a rational with that many digits, without an exponent if that is short, without zeros at the end."""
     context = Context(prec=digits, Emin=-(10**9), Emax=10**9)
     rounded = context.divide(Decimal(value.numerator), Decimal(value.denominator))
     if not rounded:
@@ -76,11 +76,15 @@ def _decimal(value: Fraction, digits: int) -> str:
 
 
 def _trimmed(text: str) -> str:
+    """Remove zeros, and then the point, at the end of a decimal text with a point."""
     return text.rstrip("0").rstrip(".") if "." in text else text
 
 
 def relative_error(value: object, exact: object) -> float | None:
-    """|value − exact|/|exact|: 0 if equal, inf if exact is 0 or value is not finite, None if they are not numbers."""
+    """Compute |value − exact|/|exact|: 0 if both are equal, inf if `exact` is 0 or `value` is not finite.
+
+    None if they are not numbers.
+    """
     if isinstance(value, bool) or not isinstance(exact, (Fraction, QuadraticSurd)):
         return None
     if not isinstance(value, Fraction):
@@ -98,7 +102,7 @@ _DUAL = cut(FORMULAS["dual"].program, DISTANCES, ("above_zero", "positive"))
 _DUAL_DECIDED = Program(
     _DUAL.name, _DUAL.inputs, (*_DUAL.steps, *steps_of("side = positive ? 1 : -1\n position = above_zero ? side : 0"))
 )
-"""The method of this name evaluates this once it has found its λ: the sign of φ, on the side of λ."""
+"""The program that the method "dual" evaluates once it has found its λ: the sign of φ, on the side of λ."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,7 +145,7 @@ class FormulaComparison:
 
 
 def compare_formula(formula: Formula, format_name: str, row: Row) -> FormulaComparison | None:
-    """The formula on a valid row in a format of float_arithmetic and exactly; None if it has no values.
+    """Evaluate a formula on a valid row, in a format of float_arithmetic and exactly; None if it has no values.
 
     The dual form is evaluated at the λ that its method finds in that format; it has no values if that λ is not finite.
     """
@@ -177,11 +181,16 @@ Prepared = tuple[Program, Mapping[str, Any], Mapping[str, Any]]
 
 
 def _plain(formula: Formula, row: Row) -> Prepared:
+    """Return the program of a formula, and its inputs for floats and for exact arithmetic."""
     columns = dict(zip(COLUMNS, row, strict=True))
     return formula.program, columns, columns
 
 
 def _dual(format_name: str, row: Row) -> Prepared:
+    """Return the program of the dual form, and its inputs at the λ that its search finds, in floats and exactly.
+
+    There are no exact inputs if that λ is not finite.
+    """
     numbers = {
         name: values[0]
         for name, values in searched(dict(zip(COLUMNS, np.array([row]).T, strict=True)), format_name).items()
@@ -195,7 +204,7 @@ def _dual(format_name: str, row: Row) -> Prepared:
 
 
 def _decisions(program: Program) -> set[str]:
-    """The names of truth values, and of constants that are selected by truth values."""
+    """Return the names of the steps that give truth values, or select one of several constants by a truth value."""
     names: set[str] = set()
     for step in program.steps:
         chosen = step.arguments[1:] if step.operation == "select" else ()
@@ -206,6 +215,7 @@ def _decisions(program: Program) -> set[str]:
 
 
 def _intermediate(name: str, operation: str, machine: Any, exact: object, unit: float | None) -> Intermediate:  # noqa: ANN401
+    """Return one value of a program. `unit` is u, for its error; None for a decision, which has no error."""
     value = number_of(machine)
     error = None if unit is None else relative_error(value, exact)
     return Intermediate(
@@ -214,13 +224,13 @@ def _intermediate(name: str, operation: str, machine: Any, exact: object, unit: 
 
 
 def _culprit(wrong: Step, values: Mapping[str, Intermediate]) -> str | None:
-    """The number in a decision with the greatest absolute error."""
+    """Return the name of the number with the greatest absolute error in a wrong decision; None if it reads none."""
     numbers = [values[name] for name in wrong.reads]
     return max(numbers, key=_absolute_error).name if numbers else None
 
 
 def _absolute_error(intermediate: Intermediate) -> tuple[int, Fraction]:
-    """A key that sorts by error; numbers that are not finite, or undefined in exact arithmetic, come last."""
+    """Return a key that sorts by error; numbers that are not finite, or undefined in exact arithmetic, come last."""
     if not isinstance(intermediate.value, Fraction) or not isinstance(intermediate.exact, (Fraction, QuadraticSurd)):
         return (1, Fraction(0))
     return (0, abs(rational(intermediate.exact - intermediate.value)))
@@ -255,7 +265,7 @@ def require_formula(name: str | None) -> None:
 def choose_formula(
     implementation: Implementation, answer: int | None, row: Row, truth: Position, name: str | None
 ) -> FormulaChoice:
-    """The formula to show for a valid row: the one with that name, or else the nearest to the implementation.
+    """Return the formula to show for a valid row: the one with that name, or else the nearest to the implementation.
 
     `answer` is the implementation's, None if there is none. A built-in formula is shown in its own precision; other
     formulas in the precision of the description in use.
@@ -273,7 +283,7 @@ def choose_formula(
 
 
 def format_of(precision: str) -> tuple[str, str]:
-    """The numpy format for a declared precision, and a note if the format's precision differs from the declared one."""
+    """Return the numpy format for a declared precision, and a note ("" if the format has exactly that precision)."""
     if precision in ("float16", "float32", "float64"):
         return precision, ""
     if np.finfo(np.longdouble).nmant == _MANTISSA.get(precision):
@@ -283,6 +293,7 @@ def format_of(precision: str) -> tuple[str, str]:
 
 
 def _of_builtin(implementation: Implementation) -> Formula | None:
+    """Return the formula that a built-in implementation evaluates; None for any other."""
     if implementation.spec.kind != "builtin":
         return None
     return FORMULAS.get(implementation.spec.words[0].removesuffix(f"-{implementation.declared.precision}"))
@@ -291,10 +302,10 @@ def _of_builtin(implementation: Implementation) -> Formula | None:
 def _nearest(
     used: Description, answer: int | None, row: Row, truth: Position, format_name: str, instead: str
 ) -> FormulaChoice:
-    """A formula with a comparable question that is right if the implementation is, and wrong if it is; table-2 first.
+    """Return a formula whose answer is as right or wrong as the implementation's; PREFERRED_FORMULA is tried first.
 
-    A formula with the same error explains a wrong answer. An answer "no" that leaves several positions possible would
-    explain nothing.
+    Only formulas about a comparable question are tried. A formula with the same error explains a wrong answer. An
+    answer "no" that leaves several positions possible would explain nothing.
     """
     comparable = _comparable(used.question)
     comparisons = [compared for formula in comparable if (compared := compare_formula(formula, format_name, row))]
@@ -310,7 +321,7 @@ def _nearest(
 
 
 def _comparable(question: str) -> Iterator[Formula]:
-    """Formulas whose answers can be compared with answers to the question, the preferred one first."""
+    """Yield formulas whose answers can be compared with answers to the question, the preferred one first."""
     names = sorted(SHOWN_FORMULAS, key=lambda name: name != PREFERRED_FORMULA)
     for formula in (FORMULAS[name] for name in names if FORMULAS[name].classifies_pairs):
         if formula.question == question or "position" in (formula.question, question):
@@ -318,7 +329,7 @@ def _comparable(question: str) -> Iterator[Formula]:
 
 
 def _positions(answer: int, question: str) -> set[Position]:
-    """The positions for which the answer to the question is right."""
+    """Return the positions for which the answer to the question is right."""
     if question == "position":
         return {Position(answer)}
     position = Position[question.upper()]

@@ -132,30 +132,30 @@ class WrongCase:
 
 
 def exact_positions(rows: Rows) -> Positions:
-    """The exact positions of valid rows, (n, 7), (n, 10) or (n, 13): int8 (n,)."""
+    """Decide the exact positions of valid rows, (n, 7), (n, 10) or (n, 13): int8 (n,)."""
     return float_filter.positions(rows)
 
 
 def truth_of(rows: Rows, layout: Layout) -> Positions:
-    """The truth about valid rows of this layout, int8 (n,): their positions; for sweeps 1 for contact, else 0."""
+    """Decide valid rows of this layout exactly, int8 (n,): positions of pairs; for sweeps 1 for contact, else 0."""
     return _SUBJECTS[layout].truth(rows)
 
 
 def expected(truth: Positions, question: str) -> NDArray[np.int8]:
-    """The right answers to a question, int8 (n,): the truth, or 1 for yes and 0 for no."""
+    """Return the right answers to a question, int8 (n,): the truth, or 1 for yes and 0 for no."""
     position = QUESTIONS[question].position
     return truth if position is None else np.asarray(truth == position, dtype=np.int8)
 
 
 def is_wrong(truth: Positions, answers: NDArray[np.int8], question: str) -> Mask:
-    """A mask (n,) of the wrong answers. `answers` hold allowed values and CANNOT_SAY, which is not wrong."""
+    """Return a mask (n,) of the wrong answers. `answers` hold allowed values and CANNOT_SAY, which is not wrong."""
     return np.asarray((answers != expected(truth, question)) & (answers != CANNOT_SAY))
 
 
 def is_amiss(
     rows: Rows, truth: Positions, answers: NDArray[np.int8], times: Floats | None, criterion: Criterion
 ) -> Mask:
-    """A mask (n,) of the wrong answers, and of the right ones with a time that is not right."""
+    """Return a mask (n,) of the wrong answers, and of the right ones with a time that is not right."""
     wrong = is_wrong(truth, answers, criterion.question)
     if times is not None:
         for place in np.flatnonzero((answers == HIT) & (truth == HIT)).tolist():
@@ -164,14 +164,14 @@ def is_amiss(
 
 
 def time_is_right(row: Row, time: float, criterion: Criterion) -> bool:
-    """Whether a time of first contact, from 0 to 1, is right within the tolerance, on a sweep with contact."""
+    """Return whether a time of first contact, from 0 to 1, is right within the tolerance, on a sweep with contact."""
     return passage_error.time_is_tolerated(row, time, criterion.tolerance, criterion.unit)
 
 
 def judged(
     rows: Rows, answers: NDArray[np.int8], wrong: Indices, criterion: Criterion, times: Floats | None = None
 ) -> Iterator[WrongCase]:
-    """The wrong answers at these indices of a batch, judged in order."""
+    """Yield the wrong answers at these indices of a batch, judged in order."""
     return _SUBJECTS[criterion.layout].judged(rows, answers, wrong, criterion, times)
 
 
@@ -182,7 +182,10 @@ def _judged_positions(
     criterion: Criterion,
     times: Floats | None,  # noqa: ARG001 - a position has none
 ) -> Iterator[WrongCase]:
-    """Judge positions: by float64 where this proves an error beyond the tolerance, elsewhere with more bits."""
+    """Judge positions: by float64 where this proves an error beyond the tolerance, elsewhere with more bits.
+
+    Yield the wrong answers in order.
+    """
     pairs = [Pair.from_row(row) for row in rows[wrong].tolist()]
     truths = [exact.decide(pair.lengths) for pair in pairs]
     given_answers = [int(answers[index]) for index in wrong.tolist()]
@@ -201,7 +204,7 @@ def _judged_positions(
 
 
 def _judged(index: int, pair: Pair, truth: Decision, answer: int, criterion: Criterion) -> WrongCase:
-    """The judged answer; UNDECIDED if the tolerance lies between the two bounds of the error."""
+    """Judge a wrong answer; it is UNDECIDED if the tolerance lies between the two bounds of its error."""
     targets = right_positions(truth.position, answer, criterion.question)
     within = backward_error.tolerated(pair, truth, targets, criterion.tolerance * criterion.unit)
     status = Status.UNDECIDED if within is None else Status.TOLERATED if within else Status.WRONG
@@ -211,7 +214,7 @@ def _judged(index: int, pair: Pair, truth: Decision, answer: int, criterion: Cri
 
 
 def measured(case: WrongCase, question: str) -> float:
-    """The error of a wrong answer: a proved bound if only bounds are known; for a wrong time, in spheroid radii.
+    """Return the error of a wrong answer: a proved bound if only bounds are known; for a wrong time, in spheroid radii.
 
     The bound is the lower one if it exceeds the tolerance, which is then proved, else the upper one. A backward error
     has 4 significant digits; the error of a sweep's size is within 1 %.
@@ -220,17 +223,19 @@ def measured(case: WrongCase, question: str) -> float:
 
 
 def _measured_position(case: WrongCase, question: str) -> float:
+    """Return the error of a wrong position."""
     if case.least:
         return case.least
     return _measured(Pair.from_row(case.row), case.answer, question, case.status in (Status.WRONG, Status.EXCUSED))
 
 
 KEPT = 4096
-"""The number of cached errors: methods that are judged on the same rows often err alike."""
+"""The number of cached errors: methods that are judged on the same rows often make the same mistakes."""
 
 
 @lru_cache(KEPT)
 def _measured(pair: Pair, answer: int, question: str, beyond: bool) -> float:
+    """Return the error of an answer: its proved lower bound if `beyond` (the tolerance), else an upper bound."""
     truth = exact.decide(pair.lengths)
     targets = right_positions(truth.position, answer, question)
     if beyond:
@@ -239,7 +244,7 @@ def _measured(pair: Pair, answer: int, question: str, beyond: bool) -> float:
 
 
 def about_error_of(row: Sequence[float], answer: int, question: str) -> float:
-    """The backward error of an answer to a row, right or wrong, to 4 significant digits.
+    """Return the backward error of an answer to a row, right or wrong, to 4 significant digits.
 
     For a tilted spheroid it is an estimate, because a proof takes much longer.
     """
@@ -251,13 +256,13 @@ def about_error_of(row: Sequence[float], answer: int, question: str) -> float:
 
 @lru_cache(KEPT)
 def _exponent(pair: Pair, truth: Decision, answer: int, question: str) -> float:
-    """About log2 of the least backward error that makes the answer right."""
+    """Compute about log2 of the least backward error that makes the answer right."""
     targets = right_positions(truth.position, answer, question)
     return min(backward_error.exponent(pair, truth, target) for target in targets)
 
 
 def right_positions(truth: Position, answer: int, question: str) -> tuple[Position, ...]:
-    """The positions other than the truth for which a wrong answer would be right.
+    """Return the positions other than the truth for which a wrong answer would be right.
 
     "No" to a question about one position is right for two positions; contact is nearer to a clear position than the
     other.
@@ -273,14 +278,14 @@ def right_positions(truth: Position, answer: int, question: str) -> tuple[Positi
 
 
 def in_units(error: float, unit: Fraction) -> float:
-    """A backward error in units u; inf for the precision "exact", where rounding excuses no wrong answer."""
+    """Return a backward error in units u; inf for the precision "exact", where rounding excuses no wrong answer."""
     if error in (0, math.inf):
         return error
     return error / float(unit) if unit else math.inf
 
 
 def in_words(answer: int, question: str) -> str:
-    """An answer in words: the stated position or hit, or yes or no to the question; any other answer as its number."""
+    """Return an answer in words: the stated position or hit, or yes or no; any other answer as its number."""
     facts = QUESTIONS[question]
     labels = _SUBJECTS[facts.layout].labels if facts.position is None else _YES_OR_NO
     return labels.get(answer, str(answer)).format(question)
@@ -290,12 +295,12 @@ _YES_OR_NO = {1: "{}: yes", 0: "{}: no"}
 
 
 def truth_in_words(truth: int, question: str) -> str:
-    """The truth about a row, in words."""
+    """Return the truth about a row, in words."""
     return _SUBJECTS[QUESTIONS[question].layout].labels[truth]
 
 
 def mistake_of(truth: int, answer: int, question: str) -> Mistake:
-    """The kind of a wrong answer, which is neither right nor CANNOT_SAY."""
+    """Return the mistake of an answer that is neither right nor CANNOT_SAY."""
     facts = QUESTIONS[question]
     if answer == facts.contact:
         return Mistake.FALSE_CONTACT
@@ -303,12 +308,13 @@ def mistake_of(truth: int, answer: int, question: str) -> Mistake:
 
 
 _TOGETHER = 256
-"""Wrong answers about sweeps whose size errors are estimated at a time."""
+"""The number of wrong answers about sweeps whose size errors are estimated at a time."""
 
 
 def _judged_sweeps(
     rows: Rows, answers: NDArray[np.int8], wrong: Indices, criterion: Criterion, times: Floats | None
 ) -> Iterator[WrongCase]:
+    """Judge wrong answers about sweeps, and right hits with a wrong time; yield them in order."""
     for start in range(0, len(wrong), _TOGETHER):
         some = {index: tuple(rows[index].tolist()) for index in wrong[start : start + _TOGETHER].tolist()}
         wrong_hits = [
@@ -323,6 +329,7 @@ def _judged_sweeps(
 
 
 def _wrong_time(index: int, row: Row, time: float) -> WrongCase:
+    """Judge a right hit with a wrong time."""
     mistake = Mistake.LATE if time > passage_of(row).first_upper else Mistake.EARLY
     off = passage_error.radii_off(row, time)
     exponent = math.floor(math.log2(off)) if 0 < off < math.inf else (-math.inf if not off else math.inf)
@@ -330,6 +337,7 @@ def _wrong_time(index: int, row: Row, time: float) -> WrongCase:
 
 
 def _wrong_hit(index: int, row: Row, answer: int, criterion: Criterion, near: float) -> WrongCase:
+    """Judge a wrong answer about contact on a sweep. `near` is the rough exponent of its size error."""
     change = passage_error.tolerance(row, criterion.tolerance, criterion.unit)
     within = bool(change) and (passage_of(row).grazes or passage_error.is_tolerated(row, bool(answer), change))
     status, truth = Status.TOLERATED if within else Status.WRONG, CLEAR if answer else HIT
@@ -337,6 +345,7 @@ def _wrong_hit(index: int, row: Row, answer: int, criterion: Criterion, near: fl
 
 
 def _measured_sweep(case: WrongCase, question: str) -> float:  # noqa: ARG001 - one question is about sweeps
+    """Return the error of a wrong answer about a sweep: that of its time in spheroid radii, or its size error."""
     if case.time is not None:
         return passage_error.radii_off(case.row, case.time)
     error = passage_error.size_error(case.row, bool(case.answer))
@@ -345,7 +354,11 @@ def _measured_sweep(case: WrongCase, question: str) -> float:  # noqa: ARG001 - 
 
 @dataclass(frozen=True, slots=True)
 class _Subject:
-    """The subject of rows: the truths, their `labels`, which one is `contact`, and how wrong answers are judged."""
+    """How one layout of rows (pairs or sweeps) is judged.
+
+    `truth` decides rows exactly, `labels` are the words for its values, and `contact` is the value for contact.
+    `judged` judges wrong answers, and `measured` gives the error of one.
+    """
 
     truth: Callable[[Rows], Positions]
     labels: Mapping[int, str]

@@ -60,13 +60,16 @@ class KnownFailure:
         return next(f"{key} {name}" for key in _SUBJECTS if (name := getattr(self, key)) is not None)
 
     def names(self, case: str, family: str, *, fresh: bool) -> bool:
-        """Whether this entry names the case or its family. It then excuses a wrong answer to the case up to `max_u`."""
+        """Return whether this entry names the case, or its family if the case is not fresh.
+
+        If it does, it excuses a wrong answer to the case up to the error `max_u`.
+        """
         return case == self.case or (family == self.family and not fresh)
 
 
 @cache
 def excusable_causes() -> Mapping[str, tuple[Cause, ...]]:
-    """The causes that an entry may name, by id: the causes about places and roundings."""
+    """Return the causes that an entry may name, by id: the causes about places and roundings."""
     names = dict.fromkeys(cause.name for cause in CAUSES if cause.scope is not Scope.EVERYWHERE)
     return {name: tuple(cause for cause in CAUSES if cause.name == name) for name in names}
 
@@ -74,7 +77,10 @@ def excusable_causes() -> Mapping[str, tuple[Cause, ...]]:
 def entries_about(
     known: Sequence[KnownFailure], cases: Sequence[tuple[int, str]], family: str, answered: AnsweredRows, *, fresh: bool
 ) -> list[list[int]]:
-    """The numbers of the entries about each case of a family; a case is its index among the tested rows and its id."""
+    """Return, for each case of a family, the numbers of the entries about it: their places in `known`.
+
+    A case is given as its index among the tested rows and its id.
+    """
     numbers = [
         [number for number, entry in enumerate(known) if entry.names(name, family, fresh=fresh)] for _, name in cases
     ]
@@ -90,7 +96,7 @@ def entries_about(
 
 
 def read_known_failures(path: Path) -> tuple[KnownFailure, ...]:
-    """The entries of a file. Raises InputError naming the file, the line, the entry, and the allowed values."""
+    """Return the entries of a file. Raises InputError naming the file, the line, the entry, and the allowed values."""
     try:
         text = toml.text_of(str(path))
     except FileNotFoundError:
@@ -100,6 +106,7 @@ def read_known_failures(path: Path) -> tuple[KnownFailure, ...]:
 
 
 def _entry(table: StrictTable) -> KnownFailure:
+    """Read one entry. Raises InputError about anything that is wrong in it."""
     named = {key: table.optional(key, strict.text, None) for key in _SUBJECTS}
     subjects = [(key, name) for key, name in named.items() if name is not None]
     if len(subjects) != 1:
@@ -116,6 +123,7 @@ def _entry(table: StrictTable) -> KnownFailure:
 
 
 def _reason(value: object) -> str:
+    """Check that a value is a text that is not blank, and return it. Raises ValueError with what it must be."""
     if not isinstance(value, str) or not value.strip():
         raise ValueError("a text that says why it is known")
     return value
@@ -128,6 +136,7 @@ _FROZEN_ID = re.compile(r"(?P<family>.+)-\d+", re.ASCII)
 
 
 def _require_case(name: str) -> None:
+    """Raise InputError if there is no case with this id."""
     if "/" in name:
         parse_case_id(name)
         return
@@ -143,11 +152,13 @@ def _require_case(name: str) -> None:
 
 
 def _require_family(name: str) -> None:
+    """Raise InputError if there is no family of this name."""
     if name not in _families():
         family_of(name)  # one for given sizes
 
 
 def _require_cause(name: str) -> None:
+    """Raise InputError if there is no cause with this id, or if it may not be excused."""
     if name in excusable_causes():
         return
     if any(cause.name == name for cause in CAUSES):
@@ -162,19 +173,22 @@ _REQUIRE: Mapping[str, Callable[[str], None]] = {
     "family": _require_family,
     "cause": _require_cause,
 }
-"""Raises InputError if there is no case, family or cause of that name, or if it cannot be excused."""
+"""The checks by key: each raises InputError if there is no case, family or cause of that name, or it cannot be
+excused."""
 
 
 def _families() -> tuple[str, ...]:
+    """Return the names of the families of valid rows."""
     return tuple(name for name in frozen.ALL_NAMES if name not in INVALID_CONTENTS)
 
 
 def render(entries: Iterable[KnownFailure]) -> str:
-    """The text of a file with these entries."""
+    """Return the text of a file with these entries."""
     return "\n".join(_rendered(entry) for entry in entries)
 
 
 def _rendered(entry: KnownFailure) -> str:
+    """Return the text of one entry."""
     names = ((key, getattr(entry, key)) for key in _SUBJECTS)
     lines = [f"{key} = {_quoted(name)}" for key, name in names if name is not None]
     if entry.max_u != float("inf") or entry.cause is not None:
@@ -183,6 +197,7 @@ def _rendered(entry: KnownFailure) -> str:
 
 
 def _quoted(text: str) -> str:
+    """Return a text as a string of TOML."""
     escaped = "".join(c if c.isprintable() and c not in '"\\' else f"\\U{ord(c):08x}" for c in text)
     return f'"{escaped}"'
 
@@ -190,13 +205,14 @@ def _quoted(text: str) -> str:
 def no_longer_failing(
     entries: Sequence[KnownFailure], used: AbstractSet[int], asked_cases: AbstractSet[str], subjects: AbstractSet[str]
 ) -> list[str]:
-    """A sentence for each entry that excused no case, though its case, family or the cause's subject was tested.
+    """Return a sentence for each entry that excused no case, though its case, family or the cause's subject was tested.
 
     `used` are the numbers of the entries that excused a case; `asked_cases` are the families and case ids that were
     tested, `subjects` the subjects of all tested families (causes.subject_of), none if only some families were tested.
     """
 
     def was_asked(entry: KnownFailure) -> bool:
+        """Return whether the run tested what the entry names."""
         about = {cause.subject for cause in excusable_causes().get(entry.cause or "", ())}
         return entry.case in asked_cases or entry.family in asked_cases or bool(about & subjects)
 
@@ -210,7 +226,7 @@ def no_longer_failing(
 _BY_UPDATE = "not explained yet; recorded by --update"
 
 _WITHIN_OCTAVE = 2
-"""The worst of a cause is known up to its octave: another of its answers may be off by nearly twice as much."""
+"""The worst error of a cause is known to within a factor of 2: another of its answers may be nearly twice as wrong."""
 
 
 def update(path: Path, record: Record) -> str:
@@ -245,12 +261,12 @@ def update(path: Path, record: Record) -> str:
 
 
 def _listed(path: Path) -> Iterator[KnownFailure]:
-    """The entries of the file, each subject once; none if there is no file yet."""
+    """Yield the entries of the file, each subject once; none if there is no file yet."""
     return iter({entry.subject: entry for entry in (read_known_failures(path) if path.exists() else ())}.values())
 
 
 def _stays(entry: KnownFailure, failing: Mapping[str, float], record: Record) -> bool:
-    """Whether an entry excused a case of some implementation in this run."""
+    """Return whether an entry excused a case of some implementation in this run."""
     if entry.family is not None:
         return entry.family in failing
     obsolete = sum(f"the {entry.subject} no longer fails" in line.sentence for line in record.of(DriftLine))
@@ -258,4 +274,5 @@ def _stays(entry: KnownFailure, failing: Mapping[str, float], record: Record) ->
 
 
 def _rounded_up(error: float) -> float:
+    """Return a number a little above the error, with few digits."""
     return float(f"{error:.2e}") * 1.01

@@ -28,15 +28,18 @@ from hypcheck.vectors.double_roots import AXIAL_COLUMNS, RADIAL_COLUMNS
 Complexity = tuple[int, int, int]
 
 DIGITS = range(1, 17)
-"""Numbers of significant digits to which a number is rounded; 17 would be the number itself."""
+"""The numbers of significant digits to which a number is rounded; with 17 it would stay as it is."""
 
 LARGEST_SUM = 1e15
-"""Larger sums of sizes count as equal."""
+"""Two sums of sizes above this number count as equal."""
 
 
 @lru_cache(maxsize=1 << 16)
 def characters(value: float) -> int:
-    """The length of the shortest decimal text that reads back as `value` (2, 0.5, 1e-7, 3e6); 0 for a zero or inf."""
+    """Count the characters of the shortest decimal text that reads back as `value`, such as 2, 0.5, 1e-7 or 3e6.
+
+    The result is 0 for zero and for infinity.
+    """
     if value == 0 or math.isinf(value):
         return 0
     number = Decimal(repr(value)).normalize()
@@ -49,13 +52,16 @@ def characters(value: float) -> int:
 
 @lru_cache(maxsize=1 << 17)
 def complexity(row: Row) -> Complexity:
-    """A key that is less for a simpler row: the characters of all numbers, of the longest number, the sum of sizes."""
+    """Return a key that is less for a simpler row.
+
+    It has the number of characters of all numbers, that of the longest number, and the sum of all absolute values.
+    """
     lengths = [characters(value) for value in row]
     return sum(lengths), max(lengths), int(min(sum(map(abs, row)), LARGEST_SUM))
 
 
 def simpler_than(rows: Iterable[Row], limit: Complexity, layout: Layout = PAIRS) -> Rows:
-    """The distinct valid rows of a layout below a complexity, float64 (n, its columns), the simplest first."""
+    """Return the distinct valid rows of a layout below a complexity, float64 (n, its columns), the simplest first."""
     complexities = {row: complexity(row) for row in set(rows) if _valid(row, layout)}
     chosen = sorted(
         (row for row in complexities if complexities[row] < limit), key=lambda row: (complexities[row], row)
@@ -74,7 +80,10 @@ def rounded(value: float) -> Iterator[float]:
 
 @cache
 def small_pairs() -> tuple[Row, ...]:
-    """Rows of small whole numbers and halves; in each group of lengths with a common unit one length is 1."""
+    """Return rows of small whole numbers and halves.
+
+    Radial lengths (α, b, x, y) and axial lengths (γ, d, z) have units of their own, in which α or b is 1, and γ or d.
+    """
     sizes = [(1.0, 1.0), *((float(size), 1.0) for size in range(2, 7)), *((1.0, float(size)) for size in range(2, 7))]
     far, near = [half / 2 for half in range(17)], [0.0, 0.5, 1.0, 1.5, 2.0, 3.0]
     return tuple(
@@ -86,7 +95,7 @@ def small_pairs() -> tuple[Row, ...]:
 
 @cache
 def small_sweeps() -> tuple[Row, ...]:
-    """Sweeps of upright spheroids in the plane y = 0, in small whole numbers."""
+    """Return sweeps of upright spheroids in the plane y = 0, in small whole numbers."""
     sizes = [(alpha, gamma, 1.0, 1.0) for alpha in (1.0, 2.0, 3.0) for gamma in (1.0, 2.0, 3.0)]
     starts, ends = product((0.0, 1.0, 2.0, 3.0, 4.0), (0.0, 1.0, 2.0)), product(range(-4, 5), range(-2, 3))
     return tuple(
@@ -96,6 +105,7 @@ def small_sweeps() -> tuple[Row, ...]:
 
 
 def _valid(row: Row, layout: Layout) -> bool:
+    """Return whether the row is valid."""
     return trouble_with_row(row, layout.upright) is None
 
 
@@ -109,9 +119,10 @@ _SMALL = tuple(map(float, range(1, 7)))
 
 
 def same_query(row: Row, layout: Layout) -> Iterator[Row]:
-    """The row in other coordinates: fewer minus signs, x and y exchanged, a reversed sweep, other units.
+    """Yield rows that mean the same as this one in other coordinates.
 
-    An upright pair is also turned so that y is 0.
+    They have fewer minus signs, x and y exchanged, a reversed sweep, or other units. An upright pair is also turned so
+    that y is 0.
     """
     width = len(layout.upright)
     sizes, axis = row[: len(SIZES)], row[width:]
@@ -130,11 +141,12 @@ def same_query(row: Row, layout: Layout) -> Iterator[Row]:
 
 
 def _times(signs: Sequence[float], vector: Sequence[float]) -> list[float]:
+    """Return the vector with each number multiplied by its sign."""
     return [sign * number for sign, number in zip(signs, vector, strict=True)]
 
 
 def _units(lengths: list[float]) -> set[float]:
-    """Units of length to try: each length, and the greatest common divisor of all lengths if float64 holds it."""
+    """Return units of length to try: each length, and the greatest common divisor of all if float64 can hold it."""
     numerators, denominators = zip(*(length.as_integer_ratio() for length in lengths), strict=True)
     shared = math.lcm(*denominators)
     whole = [
@@ -147,14 +159,14 @@ def _units(lengths: list[float]) -> set[float]:
 
 
 def one_changed(row: Row, layout: Layout) -> Iterator[Row]:
-    """Rows in which one number is 0, 1 or shorter, or equals another number of the same unit."""
+    """Yield rows in which one number is changed: to 0, 1 or another simple one, a shorter one, or one of its unit."""
     for column in range(len(row)):
         for value in {*_simple_values(row, column, layout), *rounded(row[column])}:
             yield _with(row, {column: value})
 
 
 def one_changed_between_ends(row: Row, _layout: Layout) -> Iterator[Row]:
-    """Rows with heights in which one number is 0, 1 or shorter, or equals another number, or an end is removed."""
+    """Yield rows with heights in which one number is changed: to a simple or shorter one, another one, or no end."""
     numbers = [value for value in row[:-1] if math.isfinite(value)]
     for column, number in enumerate(row):
         simple = {0.0, 1.0, 2.0, 3.0, *numbers}
@@ -167,7 +179,10 @@ def one_changed_between_ends(row: Row, _layout: Layout) -> Iterator[Row]:
 
 
 def brought_back(row: Row, layout: Layout) -> Iterator[Row]:
-    """Pairs in which one number is simple, and another is at the border of contact, rounded to more and more digits."""
+    """Yield pairs in which one number is simple, and another is moved to the border of contact.
+
+    That number is rounded to more and more digits. All numbers may also be replaced by those of a simple pair.
+    """
     simple = ((column, value) for column in range(7) for value in _simple_values(row, column, layout))
     changed = {row, *(_with(row, {column: value}) for column, value in simple)}
     for alpha, gamma, height in product(_SMALL, _SMALL, {0.0, 1.0, row[6]}):
@@ -189,6 +204,7 @@ def brought_back(row: Row, layout: Layout) -> Iterator[Row]:
 
 
 def _simple_values(row: Row, column: int, layout: Layout) -> set[float]:
+    """Return the values to try in a column: 1, 2, 3, those of its unit, the whole numbers beside it; 0 if allowed."""
     group = next(columns for columns in GROUPS[layout] if column in columns)
     values = {1.0, 2.0, 3.0, *(row[other] for other in group if other != column)}
     values |= {float(math.floor(row[column])), float(math.ceil(row[column]))}
@@ -196,18 +212,19 @@ def _simple_values(row: Row, column: int, layout: Layout) -> set[float]:
 
 
 def _with(row: Row, values: dict[int, float]) -> Row:
+    """Return the row with other values in some columns."""
     return tuple(values.get(column, number) for column, number in enumerate(row))
 
 
 PIECE = {PAIRS: 2048, SWEEPS: 64}
-"""Rows of a question. What happens on a sweep takes milliseconds to decide."""
+"""The number of rows that are tested at a time. There are fewer sweeps, because one takes milliseconds to decide."""
 
 MAX_ROWS = 30_000
 """The most rows that one step tests; the simplest ones come first."""
 
 
 Variants = Callable[[Row, Layout], Iterable[Row]]
-"""From a row to rows that could replace it."""
+"""A function from a row to rows that could replace it."""
 
 _VARIANTS: dict[Groups, tuple[Variants, ...]] = {
     frozenset(): (same_query, one_changed, lambda *_: small_pairs(), brought_back),
@@ -257,7 +274,7 @@ def minimise(target: hunt.HuntTarget, case: ReplayCase) -> Minimised:
 
 
 def _row_of(target: hunt.HuntTarget, case: ReplayCase) -> Row:
-    """The row of a case; if its axis is vertical, without the axis."""
+    """Return the row of a case, without its axis if that is vertical. Raises InputError if the row is not valid."""
     case = of_question(case, target.implementation.description)
     trouble = trouble_with_row(case.row, target.layout.upright)
     if trouble is not None:
@@ -266,6 +283,7 @@ def _row_of(target: hunt.HuntTarget, case: ReplayCase) -> Row:
 
 
 def _start(run: Minimised, row: Row) -> hunt.HuntFinding:
+    """Test the given row, and return its finding. Raises InputError if the answer is not wrong."""
     rows, layout = np.array([row]), run.target.layout
     if not len(run.target.claimed(rows)):
         raise InputError("the implementation does not claim to answer this row; --regimes any asks it anyway")
@@ -282,7 +300,7 @@ def _start(run: Minimised, row: Row) -> hunt.HuntFinding:
 
 
 def _improve(run: Minimised, variants: Variants) -> bool:
-    """Take the simplest of these variants that fails in the same way; False if there is none."""
+    """Test these variants, the simplest first, and keep the first that fails in the same way; False if none does."""
     row = run.last.case.row
     layout = run.target.layout
     candidates = simpler_than(variants(row, layout), complexity(row), layout)[:MAX_ROWS]
@@ -299,6 +317,7 @@ def _improve(run: Minimised, variants: Variants) -> bool:
 
 
 def _alike(case: WrongCase, first: WrongCase) -> bool:
+    """Return whether a case is wrong beyond the tolerance with the same mistake, truth and answer as the first one."""
     return case.status is Status.WRONG and (case.mistake, case.truth, case.answer) == (
         first.mistake,
         first.truth,
@@ -307,12 +326,13 @@ def _alike(case: WrongCase, first: WrongCase) -> bool:
 
 
 def _ask(run: Minimised, rows: Rows) -> Score:
+    """Test rows, and count them."""
     run.asked += len(rows)
     return run.target.ask(rows)
 
 
 def minimised_lines(run: Minimised) -> Iterator[str]:
-    """The report of a minimisation."""
+    """Yield the report of a minimisation."""
     steps = len(run.steps) - 1
     yield f"{hunt.name_of_target(run.target)}: {counted(steps, 'step')}, {counted(run.asked, 'row')} asked"
     yield hunt.titled("given", f"{decimals_of(run.first.case.row)}, {hunt.how_wrong(run.first)}")

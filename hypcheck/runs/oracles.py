@@ -37,7 +37,10 @@ from hypcheck.vectors.families import ENDED_FAMILIES, TILTED_FAMILIES
 
 @dataclass(frozen=True, slots=True)
 class Opinion:
-    """An oracle's opinion about one pair; None if undecided. `stage` names the part of the oracle that decided."""
+    """An oracle's opinion about one pair. `position` is None if undecided; `stage` names the part that decided.
+
+    `tangent` and `kind` are None if the oracle does not determine them.
+    """
 
     position: Position | None
     tangent: bool | None = None
@@ -57,7 +60,7 @@ class Oracle:
 
 
 def _each(opinion_of: Callable[[list[float]], Opinion]) -> Callable[[Rows], list[Opinion]]:
-    """A function of rows that calls the given function for one row at a time."""
+    """Return a function of rows that calls the given function for one row at a time."""
     return lambda rows: [opinion_of(row) for row in rows.tolist()]
 
 
@@ -65,7 +68,7 @@ _REFUSED = Opinion(None, stage="certificate refused")
 
 
 def _exact(row: list[float]) -> Opinion:
-    """The exact decision with a checked certificate; a decision without a valid proof counts as undecided."""
+    """Decide a row exactly, and check the certificate; a decision without a valid proof counts as undecided."""
     pair = Pair.from_row(row)
     decision = exact.decide(pair.lengths)
     certificate = prove(pair, decision)
@@ -80,9 +83,10 @@ def _name_of_kind(decision: Decision) -> str | None:
 
 
 def _nearest(rows: Rows) -> list[Opinion]:
-    """The sign of the clearance: floats with an error bound, then exact enclosures, narrowed until they decide.
+    """Decide rows by the sign of the clearance.
 
-    If the hyperboloid ends, the least value by branch and bound.
+    Floats with an error bound come first, then exact enclosures, narrowed until they decide. If the hyperboloid ends,
+    branch and bound finds the least value on the wall and the discs.
     """
     if PAIRS.has_heights(rows):
         return [Opinion(least.position(Pair.from_row(row)), stage="least value") for row in rows.tolist()]
@@ -92,7 +96,7 @@ def _nearest(rows: Rows) -> list[Opinion]:
 
 
 def _roots(row: list[float]) -> Opinion:
-    """The pattern of the pencil's roots and poles, re-derived after [10], whose text was not consulted.
+    """Decide a row by the pattern of the pencil's roots and poles, re-derived after [10], whose text was not consulted.
 
     For an upright pair the coefficient rule in exact rationals must give the same position.
     """
@@ -112,16 +116,17 @@ _RULE = "coefficient rule"
 
 @cache
 def _coefficient_rule() -> Callable[[Mapping[str, float]], int]:
+    """Return the repaired coefficient rule in exact rationals: a function from columns by name to the position."""
     return answering(FORMULAS["coefficients"], EXACT)
 
 
 def _heights(row: list[float]) -> Opinion:
-    """Whether both surfaces meet in some horizontal plane: by the real roots of a polynomial in the height."""
+    """Decide by the real roots of a polynomial in the height: whether the surfaces meet in some horizontal plane."""
     return Opinion(sections.position(Pair.from_row(row)), stage="rule in the height")
 
 
 def _mesh(row: list[float]) -> Opinion:
-    """FCL's distance to two meshes with the hyperboloid between them; undecided inside its band."""
+    """Decide a row by FCL's distances to two meshes with the hyperboloid between them; undecided between the meshes."""
     verdict = mesh_oracle.verdict(Pair.from_row(row))
     return Opinion(verdict.position, stage=verdict.outcome.value)
 
@@ -136,7 +141,7 @@ ORACLES = {
 
 
 def frozen_families(plan: SelfCheckPlan) -> tuple[Family, ...]:
-    """The families whose frozen vectors are tested: all with tilted spheroids or with hyperboloids that end.
+    """Return the families whose frozen vectors are tested: all with tilted spheroids or with hyperboloids that end.
 
     Extreme families are not among them; if the plan chooses families, the result is empty.
     """
@@ -145,14 +150,17 @@ def frozen_families(plan: SelfCheckPlan) -> tuple[Family, ...]:
 
 
 def frozen_batch(family: Family, count: int) -> Batch:
-    """The first `count` frozen vectors of such a family."""
+    """Return the first `count` frozen vectors of such a family."""
     cases = frozen.load(family.name).cases[:count]
     decisions = tuple(Decision(case.position, _limit_of(case)) for case in cases)
     return Batch(CaseChunk(family.name, None, 0, len(cases)), np.asarray([case.row for case in cases]), decisions)
 
 
 def _limit_of(case: Vector) -> Position | None:
-    """The clear position of which a tangency is the limit: by the sign of its double root, else by the exact rule."""
+    """Return the clear position of which a tangency is the limit; None if the case is no tangency.
+
+    The sign of the double root in its certificate decides; without a double root the exact rule does.
+    """
     root = case.witness.double_root
     if root is None:
         return exact.decide(Pair.from_row(case.row).lengths).limit_of if case.tangent else None
@@ -164,7 +172,7 @@ TILTED_ROOTS = 10
 
 
 def shares(plan: SelfCheckPlan, family: Family, families: Sequence[Family]) -> dict[str, int]:
-    """The number of a family's cases that each oracle of the plan decides in a run of `families`."""
+    """Return, for each oracle of the plan, the number of cases of `family` that it decides in a run of `families`."""
     tilted, ended = "axis" in family.groups, "heights" in family.groups
     with_roots = sum("heights" not in other.groups for other in families)
     roots = 0 if ended else -(-plan.roots // (with_roots * (TILTED_ROOTS if tilted else 1)))
@@ -179,13 +187,13 @@ def shares(plan: SelfCheckPlan, family: Family, families: Sequence[Family]) -> d
 
 
 def oracle_lines(batch: Batch, shares: Mapping[str, int]) -> list[OracleLine]:
-    """The record's lines about a batch, for each oracle: about its share of the family's first cases."""
+    """Ask each oracle about the first cases of a batch, up to its number in `shares`, and return the record's lines."""
     parts = ((oracle, batch.rows[: max(0, share - batch.chunk.start)]) for oracle, share in shares.items())
     return [_oracle_line(oracle, batch, rows) for oracle, rows in parts if len(rows)]
 
 
 def _oracle_line(oracle: str, batch: Batch, rows: Rows) -> OracleLine:
-    """The line that compares an oracle's opinions on the first rows of a batch with the exact decisions."""
+    """Ask an oracle about these rows of a batch, compare its opinions with the exact decisions, and return the line."""
     started = time.perf_counter()
     opinions = ORACLES[oracle].ask(rows)
     seconds = time.perf_counter() - started
@@ -214,7 +222,7 @@ def _oracle_line(oracle: str, batch: Batch, rows: Rows) -> OracleLine:
 
 
 def merged_lines(lines: Iterable[OracleLine]) -> list[OracleLine]:
-    """The sums of lines: one for each oracle and family, in that order, whatever the order of the lines."""
+    """Add the lines about the same oracle and family. The result is sorted by both, whatever the order of the lines."""
     parts: dict[tuple[str, str], list[OracleLine]] = {}
     for line in lines:
         parts.setdefault((line.oracle, line.family), []).append(line)
@@ -222,6 +230,7 @@ def merged_lines(lines: Iterable[OracleLine]) -> list[OracleLine]:
 
 
 def _sum(parts: Sequence[OracleLine]) -> OracleLine:
+    """Add lines about the same oracle and family."""
     stages: Counter[str] = Counter()
     for part in parts:
         stages.update(part.stages)
@@ -239,11 +248,11 @@ def _sum(parts: Sequence[OracleLine]) -> OracleLine:
 
 
 DISAGREEMENTS_KEPT = 20
-"""The record keeps so many disagreements of one oracle on one family."""
+"""The most disagreements of one oracle on one family that the record keeps."""
 
 
 def _difference(batch: Batch, index: int, opinion: Opinion) -> tuple[str, str] | None:
-    """The exact decision and the opinion, in words, if they contradict each other; else None."""
+    """Return the exact decision and the opinion, in words, if they contradict each other; else None."""
     decision = batch.decisions[index]
     kind = _name_of_kind(decision)
     exact_words = f"{decision.position.label}, tangent: {decision.tangent}{'' if kind is None else f', {kind}'}"

@@ -8,6 +8,10 @@ Code that computes the roots of g has causes of its own. The signs of some patte
 beyond a pole, a root exactly at a pole. These patterns are decided in integers. Rounding errors of the roots limit what
 code can decide: on which side of a pole a root lies, and whether two roots are a complex pair. These errors have a
 bound. A tolerance in the code, which is inferred from the answers, limits it too.
+
+A = (α/b)², B = (γ/d)², P, Q, c1, c2 and Δ are those of causes.Numbers; −A and B are the poles, a = √A and c = √B. Each
+function from AnsweredRows to Answers is a rule: it returns the answers of code with this fault, and SILENT (causes.py)
+at rows where the fault has no effect. A docstring that begins with "Answer" says what such code answers.
 """
 
 from __future__ import annotations
@@ -37,20 +41,20 @@ from hypcheck.truth.pencil import cubic
 
 
 def _ring(answered: AnsweredRows) -> Answers:
-    """Proposition 3 on the ring: Δ = 0 is contact."""
+    """Answer as Proposition 3 does on the ring: contact, because Δ = 0."""
     at = (answered.truth == Position.EXTERIOR) & (answered.rows[:, 6] == 0) & answered.numbers.near_the_ring(2.0**-30)
     return where_kind(at, answered, Kind.EXTERIOR_RING, Position.CONTACT)
 
 
 def _unless_rounded(answered: AnsweredRows, answers: Answers) -> Answers:
-    """The answers, but SILENT where the given answer is right and may be right by rounding."""
+    """Return these answers, but SILENT where the given answer is right and may be right by a lucky rounding."""
     luck = answered.numbers.possible(2 * max(unit_of(answered), FLOAT64), printed=True)[:, 1]
     right = answered.given == answered.answers_at(answered.truth)
     return np.where(right & luck, SILENT, answers).astype(np.int8)
 
 
 def _groove(answered: AnsweredRows) -> Answers:
-    """Proposition 3 where c² < a: three positive roots are exterior, though all are at B or beyond."""
+    """Answer as Proposition 3 does where c² < a: exterior, for three positive roots, though all are at B or beyond."""
     n = answered.numbers
     with np.errstate(all="ignore"):
         at = (answered.truth == Position.CONTACT) & (n.B**2 <= n.A * (1 + 2.0**-40)) & (n.c2 <= 0) & (n.c1 >= 0)
@@ -58,13 +62,13 @@ def _groove(answered: AnsweredRows) -> Answers:
 
 
 def _throat(answered: AnsweredRows) -> Answers:
-    """Proposition 5 where a < 1: two negative roots are interior, though both are at −A or below."""
+    """Answer as Proposition 5 does where a < 1: interior, for two negative roots, though both are at −A or below."""
     at = (answered.truth == Position.CONTACT) & (answered.numbers.A < 1)
     return _unless_rounded(answered, where_kind(at, answered, Kind.CROSSING_THROAT_TWO_CURVES, Position.INTERIOR))
 
 
 def _zero_coefficient(answered: AnsweredRows) -> Answers:
-    """Proposition 5 where c1 or c2 is 0: not interior."""
+    """Answer as Proposition 5 does where c1 or c2 is 0: contact instead of interior."""
     n = answered.numbers
     with np.errstate(all="ignore"):
         small = (np.abs(n.c1) <= 2.0**-40 * (1 + n.A * n.B + n.A + n.B + n.B * n.P + n.A * n.Q)) | (
@@ -80,7 +84,7 @@ def _zero_coefficient(answered: AnsweredRows) -> Answers:
 
 
 def _coefficients_are_exact(answered: AnsweredRows) -> Mask:
-    """The rows where c1 and c2 are computed without a rounding, whatever the order of operations (_on_a_grid)."""
+    """Mark the rows where any order of operations computes c1 and c2 without a rounding (_on_a_grid)."""
     n = answered.numbers
     with np.errstate(all="ignore"):
         size = n.A * n.B + n.A + n.B + n.B * n.P + n.A * n.Q
@@ -88,7 +92,7 @@ def _coefficients_are_exact(answered: AnsweredRows) -> Mask:
 
 
 def _delta_is_exact(answered: AnsweredRows) -> Mask:
-    """The rows where Δ is computed without a rounding, whatever the order of operations and the form of Δ."""
+    """Mark the rows where any form of Δ and any order of operations computes it without a rounding."""
     n = answered.numbers
     with np.errstate(all="ignore"):
         m0, m1, m2 = n.A * n.B, n.A * n.B + n.A + n.B + n.B * n.P + n.A * n.Q, 1 + n.A + n.B + n.P + n.Q
@@ -96,7 +100,7 @@ def _delta_is_exact(answered: AnsweredRows) -> Mask:
 
 
 def _on_a_grid(answered: AnsweredRows, size: Floats, power: int) -> Mask:
-    """A mask of the rows where the declared precision represents numbers up to this size exactly.
+    """Mark the rows where the declared precision represents numbers up to this size exactly.
 
     The numbers are polynomials of degree `power` in the lengths. After a division by powers of two, the lengths are
     multiples of 1, ½, ¼ or 1/64.
@@ -112,7 +116,7 @@ def _on_a_grid(answered: AnsweredRows, size: Floats, power: int) -> Mask:
 
 
 def _tangency(kind: Kind, clear: Position) -> Rule:
-    """The rule that answers a tangency of this kind with the clear position of which it is the limit."""
+    """Return the rule that answers a tangency of this kind with the clear position of which it is the limit."""
 
     def rule(answered: AnsweredRows) -> Answers:
         at = (answered.truth == Position.CONTACT) & answered.numbers.possible(2.0**-50)[:, 1]
@@ -126,14 +130,18 @@ FLOAT64 = 2.0**-53
 
 
 def unit_of(answered: AnsweredRows) -> float:
-    """The unit u of the declared precision; 0 if no rounding is tolerated."""
+    """Return the unit u of the declared precision; 0 if no rounding is tolerated."""
     return float(UNIT_ROUNDOFF[answered.criterion.precision])
 
 
 def rounded(
     answered: AnsweredRows, unit: float, at: Mask | bool = True, *, printed: bool = False, roots: bool = False
 ) -> Answers:
-    """The given answers, at those of the rows `at` where roundings of this unit can produce them (Numbers.possible)."""
+    """Return the given answers at those of the rows `at` where roundings of this unit can produce them.
+
+    The answer is SILENT elsewhere. Numbers.possible decides whether they can; `printed` and `roots` have their meaning
+    there.
+    """
     answers = judge.expected(np.array([-1, 0, 1], dtype=np.int8), answered.criterion.question)
     possible = answered.numbers.possible(unit, printed=printed, roots=roots)
     agrees = (possible & (answers[None, :] == answered.given[:, None])).any(axis=1)
@@ -141,19 +149,19 @@ def rounded(
 
 
 def _lost_beside_the_ring(answered: AnsweredRows) -> Answers:
-    """Beside the ring the rounded Δ has no reliable sign, and is taken for 0 or less."""
+    """Return the given answers beside the ring where roundings can produce them: Δ has no reliable sign there."""
     at = (answered.truth == Position.EXTERIOR) & answered.numbers.near_the_ring(2.0**-12)
     return rounded(answered, 2 * max(unit_of(answered), FLOAT64), at)
 
 
 def _lost(answered: AnsweredRows) -> Answers:
-    """A sign that the rounding errors of a plain evaluation can change."""
+    """Return the given answers where roundings of a plain evaluation can produce them, in float64 or less precise."""
     unit = unit_of(answered)
     return rounded(answered, 2 * unit) if unit >= FLOAT64 else silent(answered)
 
 
 def _lost_outside(answered: AnsweredRows) -> Answers:
-    """A sign that roundings can change in the printed rules, at contacts outside the regimes of these rules."""
+    """Return the given answers that roundings of the printed rules can produce, at contacts outside their regimes."""
     n = answered.numbers
     with np.errstate(all="ignore"):
         outside = (answered.truth == Position.CONTACT) & ((n.A < 1) | (n.B**2 < n.A))
@@ -161,12 +169,12 @@ def _lost_outside(answered: AnsweredRows) -> Answers:
 
 
 def _lost_in_float64(answered: AnsweredRows) -> Answers:
-    """A sign that float64 cannot determine, though the declared precision is higher."""
+    """Return the given answers that roundings of float64 can produce, if the declared precision is higher."""
     return rounded(answered, 2 * FLOAT64) if unit_of(answered) < FLOAT64 else silent(answered)
 
 
 def _half_lost(answered: AnsweredRows) -> Answers:
-    """A sign that half the digits of the precision cannot determine."""
+    """Return the given answers that roundings to half the digits of the precision can produce."""
     return rounded(answered, 2 * max(unit_of(answered), FLOAT64) ** 0.5)
 
 
@@ -175,7 +183,10 @@ _RANGES = {"float16": (-14, 16), "bfloat16": (-126, 128), "float32": (-126, 128)
 
 
 def _out_of_range(answered: AnsweredRows) -> Answers:
-    """A square or a product of the plain formula overflows or underflows in the format, so that Δ has no sign."""
+    """Return the given answers where a square or a product of the plain formula overflows or underflows in the format.
+
+    Δ has no reliable sign there, so any answer may come out.
+    """
     if answered.criterion.precision not in _RANGES:
         return silent(answered)
     least, greatest = _RANGES[answered.criterion.precision]
@@ -193,15 +204,16 @@ def _out_of_range(answered: AnsweredRows) -> Answers:
 
 
 CONTRADICTED = 0.02
-"""A tolerance is read from the answers only where this share of the answers within it, at most, contradicts it."""
+"""A tolerance is inferred only if the answers within it that contradict it are at most this share of those that
+agree."""
 
 
 LARGEST_TOLERANCE = 1e-2
-"""A larger distance between roots is no tolerance."""
+"""The largest tolerance of distances between roots that is inferred."""
 
 
 def _complex_pair_ignored(answered: AnsweredRows) -> Answers:
-    """A complex pair is ignored, and the one real root, which is positive, decides as if all roots were positive.
+    """Answer exterior at a complex pair of roots: the code ignores the pair, and the one real root is positive.
 
     A double root, or two roots close together, may be computed as a complex pair.
     """
@@ -223,7 +235,7 @@ _BEYOND = {
 
 
 def _repeated_beyond_a_pole(answered: AnsweredRows) -> Answers:
-    """A double root below −A or above B counts as two roots on the side of its sign."""
+    """Answer as code that counts a double root below −A or above B as two roots on the side of its sign."""
     at = (answered.truth == Position.CONTACT) & answered.numbers.possible(2.0**-50, printed=True)[:, (0, 2)].any(axis=1)
     answers = silent(answered)
     for kind, position in _BEYOND.items():
@@ -232,7 +244,7 @@ def _repeated_beyond_a_pole(answered: AnsweredRows) -> Answers:
 
 
 def _at_upper_pole(answered: AnsweredRows) -> Answers:
-    """If z = 0, B is a root: the open interval (0, B) does not contain it, so the code counts only one root.
+    """Answer contact at exterior rows with z = 0: B is a root that the open interval (0, B) does not contain.
 
     Rows beside the ring are left out, because there a root close to B is another cause.
     """
@@ -241,24 +253,25 @@ def _at_upper_pole(answered: AnsweredRows) -> Answers:
 
 
 def _at_lower_pole(answered: AnsweredRows) -> Answers:
-    """If x = y = 0, −A is a root: the open interval (−A, 0) does not contain it, so the code counts only one root."""
+    """Answer contact at interior rows on the axis: −A is a root that the open interval (−A, 0) does not contain."""
     at = (answered.truth == Position.INTERIOR) & (answered.rows[:, 4:6] == 0).all(axis=1)
     return _contact(answered, at)
 
 
 def _contact(answered: AnsweredRows, at: Mask) -> Answers:
+    """Answer contact at the rows `at`; SILENT elsewhere."""
     positions = silent(answered)
     positions[at] = Position.CONTACT
     return answered.answers_at(positions)
 
 
 def _computed_roots(answered: AnsweredRows) -> Answers:
-    """The given answers that rounding errors of computed roots can produce."""
+    """Return the given answers that rounding errors of computed roots can produce."""
     return rounded(answered, max(unit_of(answered), FLOAT64), roots=True)
 
 
 def _roots(n: Numbers) -> NDArray[np.complex128]:
-    """The three roots of g (n, 3) in float64, sorted by their real parts; NaN where g overflows."""
+    """Return the three roots of g (n, 3) in float64, sorted by their real parts; NaN where g overflows."""
     c2, c1, c0 = n.c2, n.c1, -n.A * n.B
     with np.errstate(all="ignore"):
         finite = np.isfinite(c2) & np.isfinite(c1) & np.isfinite(c0)
@@ -272,7 +285,11 @@ def _roots(n: Numbers) -> NDArray[np.complex128]:
 
 
 def _within(answered: AnsweredRows, sizes: Floats, answers: Answers) -> Answers:
-    """The answers where a size is within the code's tolerance, which is the largest size with such an answer."""
+    """Return these answers where a size is within the code's tolerance; SILENT elsewhere.
+
+    The tolerance is inferred: it is the largest size at which the given answer is one of these. It must be at most
+    LARGEST_TOLERANCE, and hardly any answer within it may contradict it (CONTRADICTED).
+    """
     with np.errstate(invalid="ignore"):
         candidates = (answers != SILENT) & (sizes <= LARGEST_TOLERANCE)
     agree = candidates & (answers == answered.given)
@@ -285,7 +302,7 @@ def _within(answered: AnsweredRows, sizes: Floats, answers: Answers) -> Answers:
 
 
 def _imaginary_part(answered: AnsweredRows) -> Answers:
-    """A complex pair with a small imaginary part is taken for two real roots on the side of their real part."""
+    """Answer as code that takes a complex pair with a small imaginary part for two real roots."""
     roots = _roots(answered.numbers)
     apart = np.abs(roots.imag).max(axis=1)
     pair = np.take_along_axis(roots, np.abs(roots.imag).argmax(axis=1)[:, None], axis=1)[:, 0].real
@@ -295,7 +312,7 @@ def _imaginary_part(answered: AnsweredRows) -> Answers:
 
 
 def _separation(answered: AnsweredRows) -> Answers:
-    """Two real roots that are close together are taken for one double root."""
+    """Answer contact, as code does that takes two real roots close together for one double root."""
     roots = _roots(answered.numbers)
     gaps = np.abs(np.diff(roots, axis=1))
     nearest = gaps.argmin(axis=1)[:, None]
@@ -305,7 +322,7 @@ def _separation(answered: AnsweredRows) -> Answers:
 
 
 def _of_either_size(answered: AnsweredRows, sizes: Floats, roots: Floats, answers: Answers) -> Answers:
-    """The answers for an absolute tolerance or for one relative to the root, whichever explains more."""
+    """Return these answers within an absolute tolerance or one relative to the root, whichever explains more."""
     with np.errstate(all="ignore"):
         either = [_within(answered, some, answers) for some in (sizes, sizes / np.abs(roots))]
     return max(either, key=lambda some: int((some == answered.given).sum()))

@@ -97,7 +97,7 @@ class ConformancePlan:
         return self.workers or (usable_processors() if planned_size(self) >= LARGE_RUN else None)
 
     def opener(self, number: int) -> ImplementationOpener:
-        """The opener of the implementation with this number."""
+        """Return the opener of the implementation with this number."""
         return ImplementationOpener(self.specs[number], self.limits, self.precision, self.question, self.domain)
 
     @property
@@ -115,7 +115,7 @@ def check_cluster_address(address: str) -> None:
 
 
 def planned_cases(plan: ConformancePlan, used: Description) -> dict[str, int]:
-    """The number of cases of each family for an implementation with this description, skipped cases included.
+    """Return the number of cases of each family for an implementation with this description, skipped cases included.
 
     A domain with fixed sizes has its own families. An implementation that refuses invalid rows is tested with them too.
     Raises InputError naming a family that does not exist.
@@ -129,12 +129,15 @@ def planned_cases(plan: ConformancePlan, used: Description) -> dict[str, int]:
 
 
 def _asks_everything(plan: ConformancePlan, used: Description) -> bool:
-    """Whether cases outside the families are tested too: the vectors that a search found, and those of fixed sizes."""
+    """Return whether cases outside the chosen families are tested too.
+
+    These are the vectors that a search found, those of fixed sizes, and the directed searches.
+    """
     return not (plan.filtered or used.asked.layout.has_end)
 
 
 def searches(plan: ConformancePlan, used: Description) -> tuple[SearchStep, ...]:
-    """The directed searches of a run of all families, by the seed of its fresh rows if there are any.
+    """Return the directed searches of a run of all families, by the seed of its fresh rows if there are any.
 
     There are none for sweeps, whose truth takes milliseconds a row, and none for fixed sizes.
     """
@@ -149,7 +152,7 @@ def searches(plan: ConformancePlan, used: Description) -> tuple[SearchStep, ...]
 
 
 def invalid_rows(used: Description) -> tuple[InvalidRows, ...]:
-    """The invalid rows for an implementation, with groups that it takes; none if it does not refuse them.
+    """Return the invalid rows for an implementation, with groups that it takes; none if it does not refuse them.
 
     Invalid rows with heights also have an axis, so they need an implementation that takes both.
     """
@@ -158,7 +161,7 @@ def invalid_rows(used: Description) -> tuple[InvalidRows, ...]:
 
 
 def chosen_families(plan: ConformancePlan, used: Description) -> tuple[Family, ...]:
-    """The families of the plan that an implementation with this description can answer.
+    """Return the families of the plan that an implementation with this description can answer.
 
     Raises InputError naming a family that does not exist.
     """
@@ -166,7 +169,7 @@ def chosen_families(plan: ConformancePlan, used: Description) -> tuple[Family, .
 
 
 def _lacking(used: Description, family: Family) -> str:
-    """The key of domain.FAMILIES for the reason why an implementation cannot answer a family; "" if it can."""
+    """Return the reason why an implementation cannot answer a family, a key of domain.FAMILIES; "" if it can."""
     if family.layout != used.asked.layout:
         return "question"
     more = family.groups - used.groups
@@ -174,7 +177,7 @@ def _lacking(used: Description, family: Family) -> str:
 
 
 def planned_size(plan: ConformancePlan) -> int:
-    """The number of cases for each implementation, skipped cases included.
+    """Return the number of cases for each implementation, skipped cases included.
 
     The number is for an implementation that answers about upright spheroids, or about all chosen families. Others have
     more or fewer cases, known after they send their descriptions.
@@ -185,18 +188,21 @@ def planned_size(plan: ConformancePlan) -> int:
 
 
 def _cases_of(plan: ConformancePlan, families: Iterable[Family]) -> dict[str, int]:
-    """The number of frozen vectors and of generated rows of each family, fresh ones included."""
+    """Return the number of frozen vectors and of generated rows of each family, fresh ones included."""
     seeds = 1 if plan.fresh is None else 2
     return {family.name: frozen_count(family.name) + plan.count * family.times * seeds for family in families}
 
 
 def known_failures_of(plan: ConformancePlan) -> tuple[KnownFailure, ...]:
-    """The known failures that the plan lists. Raises InputError as read_known_failures does."""
+    """Return the known failures that the plan lists. Raises InputError as read_known_failures does."""
     return read_known_failures(plan.known_failures) if plan.known_failures is not None else ()
 
 
 def families_not_asked(plan: ConformancePlan, used: Description) -> dict[str, dict[str, int]]:
-    """The families of which an implementation gets no row, with their numbers of rows, by key of domain.FAMILIES."""
+    """Return the families of which an implementation gets no row, with their numbers of rows.
+
+    They are grouped by the reason, a key of domain.FAMILIES.
+    """
     planned, by_reason = planned_cases(plan, used), {reason: dict[str, int]() for reason in domain.FAMILIES}
     chosen = {family.name for family in select(plan.families, None)}
     for name, cases in _cases_of(plan, ALL.values()).items():
@@ -245,11 +251,11 @@ _LACKING = {
     "tilt": ("tilted spheroids", '"tilt": true'),
     "heights": ("hyperboloids that end", '"takes": ["heights"], and "axis" besides where spheroids are tilted'),
 }
-"""The subjects of families that an implementation may not take, and what the description of one that does says."""
+"""For each reason of _lacking: what the families are about, and what the description of an implementation must have."""
 
 
 def _reasons_for(plan: ConformancePlan, family: Family, rules: JudgingRules) -> dict[str, int]:
-    """The reasons why none of a family's frozen vectors and first generated rows is tested; empty if one is."""
+    """Return the reasons why none of a family's frozen vectors and first generated rows is tested; empty if one is."""
     counts: Counter[str] = Counter()
     for rows in rows_of(plan, family, BLOCK):
         inside, reasons = rules.asked_of(family.name, rows)
@@ -260,7 +266,7 @@ def _reasons_for(plan: ConformancePlan, family: Family, rules: JudgingRules) -> 
 
 
 def rows_of(plan: ConformancePlan, family: Family, most: int) -> Iterator[Rows]:
-    """A family's frozen vectors, and at most so many of its rows of each seed, made only if they are looked at."""
+    """Yield a family's frozen vectors, then at most `most` of its rows of each seed, which are made when needed."""
     if frozen_count(family.name):
         yield frozen_vectors(family.name).rows
     for seed in (plan.seed, plan.fresh):
@@ -269,7 +275,7 @@ def rows_of(plan: ConformancePlan, family: Family, most: int) -> Iterator[Rows]:
 
 
 def steps_of(plan: ConformancePlan, used: Description) -> Iterator[Step]:
-    """The steps for an implementation that is judged by this description.
+    """Yield the steps for an implementation that is judged by this description.
 
     Raises InputError if the plan names only families that the implementation cannot answer: with tilted spheroids if it
     takes no tilt, or with the other layout.
@@ -289,14 +295,17 @@ def steps_of(plan: ConformancePlan, used: Description) -> Iterator[Step]:
 
 
 def rules_of(plan: ConformancePlan, used: Description) -> JudgingRules:
-    """The rules for judging an implementation with this description. Raises InputError as known_failures_of does."""
+    """Return the rules for judging an implementation with this description.
+
+    Raises InputError as known_failures_of does.
+    """
     criterion = Criterion(used.question, used.precision, plan.tolerance)
     named = frozenset(name for name in plan.families if name in ALL)
     return JudgingRules(criterion, used.domain, known_failures_of(plan), plan.seed, plan.fresh, named)
 
 
 def _chunks(plan: ConformancePlan, families: tuple[Family, ...], used: Description) -> Iterator[CaseChunk]:
-    """The chunks of a run; a domain with fixed sizes has its own families."""
+    """Yield the chunks of a run; a domain with fixed sizes has its own families."""
     yield from _chunks_of(plan, families)
     if _asks_everything(plan, used):
         yield from searched_chunks()
@@ -304,6 +313,7 @@ def _chunks(plan: ConformancePlan, families: tuple[Family, ...], used: Descripti
 
 
 def _chunks_of(plan: ConformancePlan, families: Iterable[Family]) -> Iterator[CaseChunk]:
+    """Yield the chunks of these families: frozen vectors, rows of the seed, fresh rows."""
     for family in families:
         yield from family_chunks(family, plan.seed, plan.count * family.times, plan.pace.chunk_rows)
         if plan.fresh is not None:

@@ -70,7 +70,7 @@ class ReplayCase:
 
 
 def case_of(text: str) -> ReplayCase:
-    """The case that `text` names: ring-0007, ring/1/42/7, "2,5,1,1,3,0,0" in decimals or 0x1p+1 …, or RECORD:N.
+    """Return the case that `text` names: ring-0007, ring/1/42/7, "2,5,1,1,3,0,0" in decimals or 0x1p+1 …, or RECORD:N.
 
     RECORD:N is the N-th case of a record.jsonl or of its folder, as reports number them (recorded_cases). The row is as
     it was asked: a zero keeps its sign. Raises InputError with the error in the text.
@@ -90,6 +90,7 @@ def case_of(text: str) -> ReplayCase:
 
 
 def _from_record(path: Path, number: int) -> ReplayCase:
+    """Return the case with this number in a record. Raises InputError if there is none."""
     cases = recorded_cases(read(file_of(path)))
     if not 1 <= number <= len(cases):
         there = f"they are 1 to {len(cases)}" if cases else "it has none"
@@ -103,7 +104,7 @@ def _from_record(path: Path, number: int) -> ReplayCase:
 
 
 def _given_row(text: str) -> Row:
-    """Seven, ten or thirteen numbers, decimal or hexadecimal; or ten, thirteen or sixteen of a sweep.
+    """Read a row: 7, 10 or 13 numbers of a pair, or 10, 13 or 16 of a sweep, decimal or hexadecimal.
 
     of_question checks them together. If one of thirteen numbers is infinite, the last three are heights.
     """
@@ -121,6 +122,7 @@ def _given_row(text: str) -> Row:
 
 
 def _number(name: str, text: str) -> float:
+    """Read a number, decimal or hexadecimal. Raises InputError that names the column."""
     try:
         return float.fromhex(text) if _HEXADECIMAL.match(text) else number_of_text(name, text)
     except OverflowError:
@@ -131,14 +133,15 @@ def _number(name: str, text: str) -> float:
 
 
 REPEATED_ROWS = 33
-"""So often the row is repeated in a batch, after it was answered alone; odd, so that vector loops have a tail."""
+"""The number of copies of the row in a batch, after a test of the row alone; odd, so that vector loops have a tail."""
 
 
 @dataclass(frozen=True, slots=True)
 class ProvedTruth:
-    """The exact decision about a pair, its proof, and its distance to each other position as a backward error.
+    """The exact decision about a pair, its proof, and the flip distance to each other position.
 
-    For a tilted spheroid a distance is given by two proved bounds.
+    A flip distance is the least relative change of the inputs that leads to that position. For a tilted spheroid it is
+    given by two proved bounds.
     """
 
     pair: Pair
@@ -197,7 +200,9 @@ class Replay:
 
 
 def replay(case: ReplayCase, implementation: Implementation, criterion: Criterion, formula: str | None) -> Replay:
-    """Test, judge and compare. Raises InputError if the row has not the question's layout, or no formula takes it.
+    """Test a case, judge the answer, and compare it with a formula.
+
+    Raises InputError if the row has not the question's layout, or no formula takes it.
 
     An invalid row is tested if it is a frozen vector, and the implementation promises to refuse invalid rows. Raises
     DisagreementError if the proof of the truth does not hold.
@@ -224,7 +229,10 @@ def replay(case: ReplayCase, implementation: Implementation, criterion: Criterio
 
 
 def of_question(case: ReplayCase, used: Description) -> ReplayCase:
-    """The case with the question's layout. Raises InputError if it has another layout, or a given row is invalid."""
+    """Return the case with the question's layout.
+
+    Raises InputError if it has another layout, or a given row is invalid.
+    """
     layout = used.asked.layout
     if case.layout not in (None, layout) or len(case.row) not in layout.widths:
         this = "a position" if layout.has_end else "a sweep between two positions"
@@ -251,7 +259,10 @@ def require_taken(case: ReplayCase, used: Description) -> None:
 
 
 def _causes(truth: ProvedTruth, judgement: ReplayJudgement, criterion: Criterion) -> tuple[Cause, ...]:
-    """The causes about places whose rules give this wrong answer: all in exact arithmetic, else one about rounding."""
+    """Return the causes about places whose rules give this wrong answer.
+
+    They are all those that are wrong in exact arithmetic; if there is none, the first one about rounding.
+    """
     if judgement.answer is None or judgement.mistake is None:
         return ()
     truths, answers = (np.array([value], dtype=np.int8) for value in (truth.decision.position, judgement.answer))
@@ -262,7 +273,7 @@ def _causes(truth: ProvedTruth, judgement: ReplayJudgement, criterion: Criterion
 
 
 def truth_of(pair: Pair) -> ProvedTruth:
-    """Decide, prove, and check the proof. Raises DisagreementError if it does not hold."""
+    """Decide a pair, prove the decision, and check the proof. Raises DisagreementError if the proof does not hold."""
     pair = pair.upright if pair.is_upright else pair
     decision = exact.decide(pair.lengths)
     others = [other for other in Position if other is not decision.position]
@@ -272,6 +283,7 @@ def truth_of(pair: Pair) -> ProvedTruth:
 
 
 def _flip(pair: Pair, decision: Decision, other: Position) -> float | tuple[float, float]:
+    """Return the flip distance to another position; for a tilted spheroid its two bounds."""
     ends = backward_error.quick_bracket(pair, decision, other)
     return ends.upper if pair.is_upright else (ends.lower, ends.upper)
 
@@ -279,7 +291,7 @@ def _flip(pair: Pair, decision: Decision, other: Position) -> float | tuple[floa
 def _judged(
     implementation: Implementation, row: Row, truth: ProvedTruth | Passage, criterion: Criterion
 ) -> ReplayJudgement:
-    """The judged answer to the row alone; NONDETERMINISTIC if the answer changes in a batch of many copies."""
+    """Test and judge the row alone; the status is NONDETERMINISTIC if the answer changes in a batch of copies."""
     rows = np.array([row])
     right = np.array([truth.decision.position if isinstance(truth, ProvedTruth) else truth.hit], dtype=np.int8)
     scored = score(rows, right, implementation.classify(rows, batch=1), criterion)
@@ -300,7 +312,7 @@ def _judged(
 
 
 def _alone(scored: Score, truth: ProvedTruth | Passage) -> ReplayJudgement:
-    """The judgement of the one row of a score."""
+    """Judge the one row of a score."""
     status, answer = STATUSES[scored.status[0]], int(scored.answers[0])
     if not scored.answered[0]:
         return ReplayJudgement(status, None, scored.reasons.get(0, ""))
@@ -316,7 +328,7 @@ def _alone(scored: Score, truth: ProvedTruth | Passage) -> ReplayJudgement:
 
 
 def _error(case: WrongCase, truth: ProvedTruth | Passage, criterion: Criterion) -> float:
-    """The error of an answer; for a tilted spheroid the bound that decides its status, as `flips` shows it."""
+    """Return the error of a wrong answer; for a tilted spheroid the bound in `truth.flips` that decides its status."""
     if isinstance(truth, ProvedTruth) and not truth.pair.is_upright:
         targets = judge.right_positions(Position(case.truth), case.answer, criterion.question)
         ends = [flip for target in targets if isinstance(flip := truth.flips[target], tuple)]
@@ -325,7 +337,10 @@ def _error(case: WrongCase, truth: ProvedTruth | Passage, criterion: Criterion) 
 
 
 def _refused(case: ReplayCase, implementation: Implementation) -> ReplayJudgement:
-    """The judgement of an invalid row. Raises InputError if the implementation does not promise to refuse such rows."""
+    """Test an invalid row, and judge whether it is refused.
+
+    Raises InputError if the implementation does not promise to refuse such rows.
+    """
     used = implementation.description
     if not used.refuses:
         raise InputError(
@@ -342,7 +357,7 @@ def _refused(case: ReplayCase, implementation: Implementation) -> ReplayJudgemen
 
 
 def _skipped(case: ReplayCase, used: Description, criterion: Criterion) -> str | None:
-    """The reason why a conformance run would skip the row; None if it would test it."""
+    """Return the reason why a conformance run would skip the row; None if it would test it."""
     rows = np.array([case.row])
     if not representable(rows, criterion.precision)[0]:
         return f"a number of the row is neither zero nor normal in {criterion.precision}"

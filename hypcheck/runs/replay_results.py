@@ -26,7 +26,7 @@ DIGITS = 17
 
 
 def replay_as_json(replay: Replay) -> str:
-    """The object on one line; numbers that JSON cannot express are the strings "inf", "-inf" and "nan".
+    """Return a replay as one JSON object on one line; numbers that JSON cannot express are "inf", "-inf" and "nan".
 
     For a sweep it has the time of the answer in place of causes and values of a formula.
     """
@@ -86,10 +86,12 @@ def _truth_json(truth: ProvedTruth | Passage) -> dict[str, Any]:
 
 
 def _claims_json(description: Description) -> dict[str, Any]:
+    """Return the name, question and precision of an implementation, for JSON."""
     return {"name": description.name, "question": description.question, "precision": description.precision}
 
 
 def _choice_json(choice: FormulaChoice) -> dict[str, Any]:
+    """Return the values of a formula on the row, for JSON."""
     compared, content = choice.comparison, {"why": choice.why, "own": choice.own}
     if compared is None:
         return content
@@ -107,6 +109,7 @@ def _choice_json(choice: FormulaChoice) -> dict[str, Any]:
 
 
 def _value(intermediate: Intermediate) -> dict[str, Any]:
+    """Return one value of a formula, for JSON."""
     return {
         "name": intermediate.name,
         "operation": intermediate.operation,
@@ -127,7 +130,7 @@ _FIRST, _CULPRIT, _OTHER = ">>", " >", " !"
 def replay_lines(
     replay: Replay, ledger: Callable[[str], tuple[str, str, str]], *, values: bool = True
 ) -> Iterator[str]:
-    """The whole replay, line by line; without `values`, only a formula that SPEC itself evaluates is shown.
+    """Yield the whole replay, line by line; without `values`, only a formula that SPEC itself evaluates is shown.
 
     `ledger` gives the verdict on a claim of the paper, the claim in words, and its correction, by the claim's number.
     """
@@ -180,7 +183,7 @@ def _truth_lines(truth: ProvedTruth) -> Iterator[str]:
 
 
 def _regime(pair: Pair) -> str:
-    """The text that says which of the two conditions of the paper's statements the pair meets, decided exactly."""
+    """Return a sentence about the conditions of Propositions 3 and 5 that the pair meets, decided exactly."""
     alpha, gamma, b, d = map(Fraction, pair.row[:4])
     wide = f"α/b = {float(alpha / b):.4g} {'≥' if alpha >= b else '<'} 1"
     ratio, square = alpha / b, (gamma / d) ** 2
@@ -190,7 +193,7 @@ def _regime(pair: Pair) -> str:
 
 
 def _cause_lines(cause: Cause, language: str, ledger: Callable[[str], tuple[str, str, str]]) -> Iterator[str]:
-    """The lines about a cause: the reason, the paper's claim behind it, the ledger's verdict, and the right code."""
+    """Yield the lines about a cause: its sentence, the claim of the paper with the ledger's verdict, the remedy."""
     yield from _titled("cause", cause.sentence)
     if cause.claim:
         verdict, claim, correction = ledger(cause.claim)
@@ -213,11 +216,15 @@ def _judgement_lines(replay: Replay) -> Iterator[str]:
 
 
 def _claim_lines(description: Description) -> str:
+    """Return the question and the precision of an implementation, as text."""
     return f"{description.question}, {description.precision}"
 
 
 def _mistake(replay: Replay) -> str:
-    """The error of an answer in words; for a sweep the change of size, or the part between its time and the contact."""
+    """Return the error of an answer in words; "" if the answer is right.
+
+    For a sweep the error is the change of size, or the part of the sweep between its time and the first contact.
+    """
     judgement, criterion = replay.judgement, replay.criterion
     if judgement.mistake is None:
         return ""
@@ -236,7 +243,7 @@ def _mistake(replay: Replay) -> str:
 
 
 def answer_said(answer: int, question: str) -> str:
-    """An answer to a question, as its number and in words."""
+    """Return an answer to a question, as its number and in words."""
     if answer in (CANNOT_SAY, REFUSED):
         return f"{answer}, {'refused' if answer == REFUSED else 'cannot say'}"
     if question == "passage":
@@ -262,6 +269,7 @@ def _choice_lines(choice: FormulaChoice, truth: Position, question: str) -> Iter
 
 
 def _table(compared: FormulaComparison) -> Iterator[str]:
+    """Yield the lines of the table of values."""
     head = ("", "name", "computed as", compared.format, "exact", "error in u")
     rows = [head, *(_row(compared, intermediate) for intermediate in compared.values.values())]
     widths = [max(len(row[column]) for row in rows) for column in range(len(head))]
@@ -271,6 +279,7 @@ def _table(compared: FormulaComparison) -> Iterator[str]:
 
 
 def _row(compared: FormulaComparison, intermediate: Intermediate) -> Sequence[str]:
+    """Return the cells of one value in the table."""
     error = "" if intermediate.error_u is None else f"{intermediate.error_u:.3g}"
     return (
         _mark(compared, intermediate),
@@ -283,6 +292,7 @@ def _row(compared: FormulaComparison, intermediate: Intermediate) -> Sequence[st
 
 
 def _mark(compared: FormulaComparison, intermediate: Intermediate) -> str:
+    """Return the mark of a value: the first wrong decision, the number that caused it, or another wrong decision."""
     if intermediate.name == compared.first_wrong:
         return _FIRST
     if intermediate.name == compared.culprit:
@@ -291,7 +301,7 @@ def _mark(compared: FormulaComparison, intermediate: Intermediate) -> str:
 
 
 def finding(compared: FormulaComparison, truth: Position) -> Iterator[str]:
-    """The difference between the columns of float and exact values, in a few sentences."""
+    """Yield sentences about the first decision in which floats and exact arithmetic differ, and about both answers."""
     question = compared.formula.question
     if compared.first_wrong is None:
         yield f"every decision of {compared.formula.name} in {compared.format} is the same in exact arithmetic"
@@ -313,6 +323,7 @@ def finding(compared: FormulaComparison, truth: Position) -> Iterator[str]:
 
 
 def _change(distance: float | tuple[float, float]) -> str:
+    """Return the words for a flip distance, or for its two bounds."""
     if isinstance(distance, tuple):
         low, high = distance
         return _change(low) if low == high else f"{_change(high)}, and not if by {low:.4g} or less"
@@ -324,6 +335,6 @@ def _change(distance: float | tuple[float, float]) -> str:
 
 
 def _titled(title: str, *lines: str) -> Iterator[str]:
-    """The lines, the title before the first."""
+    """Yield the lines, indented; the title stands before the first."""
     for index, line in enumerate(lines):
         yield f"{'' if index else title:{_LABEL}}{line}"

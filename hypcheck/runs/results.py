@@ -79,7 +79,7 @@ class CasesResult:
 
 
 def merged_result(results: Iterable[CasesResult]) -> CasesResult:
-    """The result of all cases of these results. Their order matters only for the order of the pending cases."""
+    """Merge results into one. Their order has an effect only on the order of the pending cases."""
     parts = tuple(results)
     tallies: dict[str, list[Tally]] = {}
     for part in parts:
@@ -100,7 +100,7 @@ def merged_result(results: Iterable[CasesResult]) -> CasesResult:
 
 
 RETESTED_CASES = 32
-"""The least number of cases of each chunk that are tested again; of large chunks, one in a hundred."""
+"""The least number of cases of each chunk that are tested again; of large chunks it is one in a hundred."""
 
 RETESTED_OF_SCENE = 2048
 """The least number of retested cases of a family's first chunk that has one scene, if a function for scenes exists."""
@@ -125,11 +125,11 @@ class JudgingRules:
     named: frozenset[str] = frozenset()
 
     def asked_of(self, family: str, rows: Rows) -> tuple[Indices, dict[str, int]]:
-        """The ascending indices of the rows of a family to test, and the numbers of the other rows by reason."""
+        """Return the ascending indices of the rows to test, and how many of the others are left out for each reason."""
         return rows_asked(rows, family, self.criterion, self.domain, subnormal=family in self.named)
 
     def are_fresh(self, chunk: CaseChunk) -> bool:
-        """Whether the cases of a chunk are rows that were not known before the run."""
+        """Return whether the cases of a chunk are rows that were not known before the run."""
         return chunk.seed is not None and chunk.seed == self.fresh
 
 
@@ -148,11 +148,11 @@ class InvalidRows:
         return frozen.load(self.family)
 
     def name(self, index: int) -> str:
-        """The id of a case."""
+        """Return the id of a case."""
         return self.file.ids[index]
 
     def place(self, index: int) -> Place:
-        """The place of a case among the invalid rows."""
+        """Return the place of a case among the invalid rows."""
         return 0, index
 
 
@@ -202,7 +202,7 @@ def result_of_final(
     *,
     left_out: Mapping[str, int] = MappingProxyType({}),
 ) -> CasesResult:
-    """The result of the cases `indices` (n,) of a chunk, whose answers are final. Known failures are excused.
+    """Judge and tally the cases `indices` (n,) of a chunk, whose answers are final; excuse known failures.
 
     `left_out` counts the rows of the chunk that were not tested, by reason.
     """
@@ -223,7 +223,10 @@ def result_of_final(
 
 
 def _first_pending(chunk: CaseChunk, indices: Indices, least: int) -> int:
-    """The first tested case that stays pending. From there on are the tail of a vector loop and whole movements."""
+    """Return the place, in `indices`, of the first tested case that stays pending: all from there on do.
+
+    They have the tail of a vector loop, and whole movements.
+    """
     wanted = max(least, len(indices) // 100 + 1)
     if chunk.movement > 1:
         wanted = max(wanted, RETESTED_MOVEMENTS * chunk.movement)
@@ -235,6 +238,7 @@ def _first_pending(chunk: CaseChunk, indices: Indices, least: int) -> int:
 
 
 def _pending(chunk: CaseChunk, indices: Indices, scored: Score) -> tuple[PendingRetest, ...]:
+    """Return these cases as pending, with their first answers; an empty tuple if there are none."""
     if not len(indices):
         return ()
     first, last = int(indices[0]), int(indices[-1]) + 1
@@ -244,7 +248,7 @@ def _pending(chunk: CaseChunk, indices: Indices, scored: Score) -> tuple[Pending
 def _excused(
     wrong: list[WrongCase], chunk: CaseChunk, indices: Indices, answered: AnsweredRows, rules: JudgingRules
 ) -> tuple[list[WrongCase], set[int]]:
-    """The wrong cases, with status EXCUSED where a known failure covers them; and the numbers of these failures."""
+    """Return the wrong cases, EXCUSED where a known failure covers them; and the numbers of these known failures."""
     places = [place for place, case in enumerate(wrong) if case.status is Status.WRONG and rules.known]
     cases = [(wrong[place].index, chunk.name(int(indices[wrong[place].index]))) for place in places]
     judged, excusing = list(wrong), set[int]()
@@ -262,7 +266,7 @@ def _excused(
 
 
 def _named_cases(chunk: CaseChunk, indices: Indices, known: Sequence[KnownFailure]) -> Iterator[str]:
-    """The ids of those of these cases that known failures name."""
+    """Yield the ids of those of these cases that known failures name."""
     for entry in known:
         if entry.case is not None:
             index = chunk.find(entry.case)

@@ -44,7 +44,7 @@ Json = dict[str, Any]
 
 
 def recorded_description(description: Description) -> DescriptionPart:
-    """An implementation's description as the record has it."""
+    """Return an implementation's description as the record has it."""
     content = asdict(description)
     for name in ("tilt", "times", "heights"):
         if not content[name]:  # older records lack this key
@@ -96,7 +96,7 @@ class ResumedRun:
     state: RunState | None = None
 
     def done(self, cases: int) -> int:
-        """The number of tested cases, if each implementation has `cases` cases."""
+        """Return the number of tested cases, if each implementation has `cases` cases."""
         finished = [line for line in self.carried if isinstance(line, (ImplementationLine, NotStartedLine))]
         return len(finished) * cases + (self.state.total.cases if self.state else 0)
 
@@ -122,7 +122,7 @@ def require_same_run(
 
 
 def resume(record: Record, file: Path, plan: ConformancePlan, cases: int) -> ResumedRun:
-    """The state from which the run of the plan continues; each implementation has `cases` cases.
+    """Return the part of the run that the record holds, from which it continues. Each implementation has `cases` cases.
 
     Raises InputError if the unfinished implementation has another description now, or the record contradicts itself;
     StartError if the implementation does not start.
@@ -149,7 +149,7 @@ def resume(record: Record, file: Path, plan: ConformancePlan, cases: int) -> Res
 
 @contextmanager
 def _contradictions_of(file: Path) -> Iterator[None]:
-    """Turns a ValueError about a contradiction in the record into an InputError that names the file."""
+    """Turn a ValueError about a contradiction in the record into an InputError that names the file."""
     try:
         yield
     except ValueError as error:
@@ -168,7 +168,7 @@ def _require_carried(carried: Sequence[RecordLine], plan: ConformancePlan) -> No
 
 
 def finished_part(record: Record) -> tuple[tuple[RecordLine, ...], ProgressLine | None]:
-    """The lines of finished implementations, and the last progress line of the next one, if there is one.
+    """Return the lines of finished implementations, and the last progress line of the next one, if there is one.
 
     A record is written in order, so all lines up to the end of the last finished implementation belong to finished
     ones. Lines of an unfinished implementation may follow; of these only the progress counts.
@@ -184,7 +184,7 @@ def finished_part(record: Record) -> tuple[tuple[RecordLine, ...], ProgressLine 
 
 
 def _compared(header: HeaderLine) -> Json:
-    """The values of a header that a resumed run must share, by their names in messages."""
+    """Return the values of a header that must be equal in a resumed run, by their names in messages."""
     options = {name: value for name, value in plain(header.options).items() if name not in FREE_OPTIONS}
     return {
         **{name: getattr(header, name) for name in ("schema", "hypcheck", "python")},
@@ -197,23 +197,25 @@ def _compared(header: HeaderLine) -> Json:
 
 
 def _require_same(before: object, now: object, what: str, file: Path) -> None:
+    """Raise InputError if a value was another one when the run began."""
     if before != now:
         raise InputError(f"{file} cannot be resumed: {what} was {_shown(before)}, and is {_shown(now)} now")
 
 
 def _shown(value: object) -> str:
+    """Return a value as text for a message."""
     return "missing" if value is None else json.dumps(value, ensure_ascii=False)
 
 
 def saved_state(state: RunState) -> SavedState:
-    """The state in the form of a progress line."""
+    """Return the state in the form of a progress line."""
     left = state.left
     allowance = SavedAllowance(restarts=left.restarts, faults=left.faults, over=left.over, hangs=left.hangs)
     return SavedState(done=state.done, left=allowance, total=saved_result(state.total))
 
 
 def restored_state(content: SavedState) -> RunState:
-    """The state in a line of progress. Raises ValueError if pending cases have more answers than cases, or fewer.
+    """Restore the state from a line of progress. Raises ValueError if some pending cases do not have one answer each.
 
     No array is larger than the data that was read. consistency.require_state checks whether the numbers agree.
     """
@@ -221,7 +223,7 @@ def restored_state(content: SavedState) -> RunState:
 
 
 def saved_result(result: CasesResult) -> SavedResult:
-    """The result in the form of a progress line."""
+    """Return the result in the form of a progress line."""
     return SavedResult(
         tallies=dict(result.tallies),
         pending=[_saved_pending(pending) for pending in result.pending],
@@ -233,7 +235,7 @@ def saved_result(result: CasesResult) -> SavedResult:
 
 
 def restored_result(content: SavedResult) -> CasesResult:
-    """The result in a line of progress. Raises as restored_state does."""
+    """Return the result in a line of progress. Raises as restored_state does."""
     return CasesResult(
         tallies=content.tallies,
         pending=tuple(map(_restored_pending, content.pending)),
@@ -245,6 +247,7 @@ def restored_result(content: SavedResult) -> CasesResult:
 
 
 def _saved_pending(pending: PendingRetest) -> PendingCases:
+    """Return pending cases in the form of a progress line."""
     return PendingCases(
         chunk=astuple(pending.chunk),
         indices=_runs(pending.indices),
@@ -254,7 +257,7 @@ def _saved_pending(pending: PendingRetest) -> PendingCases:
 
 
 def _restored_pending(content: PendingCases) -> PendingRetest:
-    """Pending cases; their indices are made only if there are as many answers."""
+    """Return pending cases; their indices are made only if there are as many answers."""
     chunk = CaseChunk(*content.chunk)
     answers = np.frombuffer(bytes.fromhex(content.answers), dtype=np.int8)
     ends = [0, *chain.from_iterable(content.indices), len(chunk)]
@@ -268,6 +271,6 @@ def _restored_pending(content: PendingCases) -> PendingRetest:
 
 
 def _runs(indices: NDArray[np.intp]) -> list[tuple[int, int]]:
-    """Ascending indices as ranges [first, last + 1)."""
+    """Divide ascending indices into ranges [first, last + 1)."""
     breaks = np.flatnonzero(np.diff(indices) != 1) + 1
     return [(int(part[0]), int(part[-1]) + 1) for part in np.split(indices, breaks)]

@@ -30,7 +30,7 @@ from hypcheck.runs.score import as_slice, score, status_of
 from hypcheck.runs.tally import STATUSES
 
 RetestQuestion = tuple[Indices, int | None]
-"""Indices of cases, and the size of the batches in which they are sent; None: the largest possible."""
+"""The indices of cases, and the number of rows of each batch in which they are sent; None: as many as possible."""
 
 SCENES = 256
 """The number of scenes of a round that are tested by the function for scenes: those with the most cases, and about as
@@ -40,31 +40,31 @@ LONG_SCENES = 3
 """The number of scenes of the first round with questions of FULL_QUESTION centres: those with the most cases."""
 
 ALONE, SINGLE_STEP = 32, 20
-"""The number of cases that are sent one by one, and of questions of one row between two readings of the clock."""
+"""The number of cases that are sent one by one, and the number of batches of one row between two looks at the clock."""
 
 LENGTHS = (7, 3, 11, 2, 5, 13, 9, 6, 15, 10, 4, 14, 12, 8, 17, 16, 31, 33, 63, 65, 129, 127)
-"""Rows of small batches: every remainder modulo 2, 4, 8 and 16, and the neighbours of powers of two."""
+"""The numbers of rows of small batches: every remainder modulo 2, 4, 8 and 16, and the neighbours of powers of two."""
 
 IN_LENGTHS = 1536
 """The most cases that are tested in batches of LENGTHS, unless they are tested more than once."""
 
 LENGTH_ROUNDS = 3
-"""Batches of each of LENGTHS for an implementation that answers LARGE_QUESTION rows at once; they are cheap."""
+"""The number of batches of each of LENGTHS for an implementation that answers LARGE_QUESTION rows at once."""
 
 TWINS = 64
 """The number of cases that occur four times in one batch, adjacent and apart: an implementation may cache answers."""
 
 LARGE_QUESTION = 4096
 FULL_QUESTION = LARGE_QUESTION + 128 + 1
-"""Rows of a full batch at least, if the implementation accepts so many. Cases are repeated, so that every thread, block
-and page has some if the implementation divides a batch."""
+"""The least number of rows of a full batch, if the implementation accepts so many. Cases are repeated, so that every
+thread, block and page has some if the implementation divides a batch."""
 
 PARTS = 3
 """A round has at most so many parts, each with its own order."""
 
 SHORTER = (0, 0, 2)
-"""Rows that full batches are shorter, so that the tail of a vector varies. Two have full length, so that an answer that
-is always the same in the last place is wrong in one of them."""
+"""The numbers of rows by which full batches are shorter, so that the tail of a vector varies. Two have full length, so
+that an answer that is always the same in the last place is wrong in one of them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,11 +82,11 @@ class RetestStep:
     pace: Pace = PACE
 
     def asks(self, chunk: CaseChunk) -> bool:
-        """Whether this part retests the pending cases of a chunk."""
+        """Return whether this part retests the pending cases of a chunk."""
         return chunk.part(self.pace.chunk_rows) == self.part
 
     def of(self, some: tuple[PendingRetest, ...]) -> RetestStep:
-        """The step with its part of all pending cases."""
+        """Return the step with its part of all pending cases."""
         return replace(self, pending=tuple(pending for pending in some if self.asks(pending.chunk)))
 
 
@@ -156,6 +156,7 @@ def result_without_retest(some: tuple[PendingRetest, ...], rules: JudgingRules) 
 
 
 def _sample(some: tuple[PendingRetest, ...], criterion: Criterion) -> _Sample:
+    """Put the pending cases of a round together, with their rows, truths and first answers."""
     cases = tuple(cases_of_chunk(pending.chunk) for pending in some)
     both = tuple(zip(cases, some, strict=True))
     return _Sample(
@@ -168,12 +169,13 @@ def _sample(some: tuple[PendingRetest, ...], criterion: Criterion) -> _Sample:
 
 
 def _first_answers(some: tuple[PendingRetest, ...]) -> Answered:
+    """Return the first answers of pending cases, and the times of their hits if there are any."""
     times = [pending.times for pending in some if pending.times is not None]
     return Answered.of(np.concatenate([pending.answers for pending in some]), np.concatenate(times) if times else None)
 
 
 def _differs(before: Answered, places: Indices, now: Answered) -> Mask:
-    """A mask of the answers or times of hits that differ from the earlier ones at these places."""
+    """Mark the answers that differ from the earlier ones at these places, and the hits whose times differ."""
     other = np.asarray(now.answers != before.answers[places])
     if now.times is not None and before.times is not None:
         other |= ~((now.times == before.times[places]) | (np.isnan(now.times) & np.isnan(before.times[places])))
@@ -181,11 +183,12 @@ def _differs(before: Answered, places: Indices, now: Answered) -> Mask:
 
 
 def _stacked(parts: list[Rows], layout: Layout) -> Rows:
-    """All rows; if some have an axis or heights, every row has them."""
+    """Put all rows together; if some have an axis or heights, every row gets them."""
     return np.concatenate(as_wide(parts, layout))
 
 
 def _moments(pending: PendingRetest) -> NDArray[np.int64]:
+    """Return the moments of cases that follow a moving object; −1 for all other cases."""
     if pending.chunk.movement == 1:
         return np.full(len(pending.indices), -1)
     return (pending.chunk.start + pending.indices) % pending.chunk.movement
@@ -198,7 +201,11 @@ _BY_SCENE = "when its function for scenes is asked"
 def _change(
     sample: _Sample, place: int, answered: Answered, offset: int, criterion: Criterion, now: str
 ) -> tuple[Status, str]:
-    """The status of a case whose answer, at an offset among others, differs from the first, and the reason."""
+    """Return the new status of a case whose answer has changed, and the reason ("" if it is tolerated).
+
+    The case is the one at `place` of the sample, and its new answer is at `offset` of `answered`. The status is
+    TOLERATED if both answers are right or within the tolerance, else NONDETERMINISTIC.
+    """
     before = sample.before
     pair = np.array([before.answers[place], answered.answers[offset]], dtype=np.int8)
     times = None
@@ -219,7 +226,7 @@ def _change(
 def _judged(
     some: tuple[PendingRetest, ...], sample: _Sample, changes: ChangedAnswers, rules: JudgingRules
 ) -> CasesResult:
-    """The result of all cases of the round, judged by their first answers unless a change makes these invalid."""
+    """Judge all cases of the round by their first answers, except for those whose answers changed."""
     results, start = [], 0
     lost = {place: change for place, change in changes.items() if change[0] is not Status.TOLERATED}
     for made, pending in zip(sample.made, some, strict=True):
@@ -243,21 +250,27 @@ def retest_questions(
     part: int = 0,
     pace: Pace = PACE,
 ) -> Iterator[RetestQuestion]:
-    """The batches for n cases with these positions; each case is in at least one.
+    """Yield what is sent in one part of a round that retests n cases; each case is sent at least once.
 
-    `moments` (n,) are −1 for cases that follow no object. The other cases are tested moment by moment, which reveals an
-    implementation that carries answers over from one batch to the next. `proven_batch` returns the size of the largest
-    batch that was answered well within the timeout so far. If it is LARGE_QUESTION rows, each case is tested many times
-    in the first part of the first round of a run (`number` and `part` are 0). Parts 1 and 2 share the small batches.
+    Each item is a RetestQuestion: indices of cases in the order in which they are sent, and the number of rows of a
+    batch (1: row by row; None: as many as possible).
+
+    `truth` (n,) are the positions or hits. `moments` (n,) are the moments of cases that follow a moving object, and −1
+    for all other cases. Cases with moments are sent moment by moment, which reveals an implementation that carries
+    answers over from one batch to the next. `proven_batch` returns the size of the largest batch that was answered well
+    within the timeout so far. If it is LARGE_QUESTION rows or more, each case is sent many times in part 0 of round 0.
+    `seed`, `number` (of the round) and `part` (0, 1 or 2, as in RetestStep) determine the order. Two processes can
+    perform parts 1 and 2: each sends half of the small batches. `pace` limits the time for batches of one row, and
+    decides whether the longest batches are sent.
     """
     random = np.random.Generator(np.random.Philox((seed, PARTS * number + part)))
     order = random.permutation(np.flatnonzero(moments < 0))
-    share = 2 if part else 1
-    alone = ALONE // share
+    parts = 2 if part else 1
+    alone = ALONE // parts
     yield order[:alone], 1
-    yield np.tile(np.repeat(order[: TWINS // share], 2), 2), None
+    yield np.tile(np.repeat(order[: TWINS // parts], 2), 2), None
     rest = order[alone:]
-    some = min(IN_LENGTHS // share, (len(rest) + 1) // 2)
+    some = min(IN_LENGTHS // parts, (len(rest) + 1) // 2)
     yield from _of_every_length(rest[:some])
     yield _filled(rest[some:], order, FULL_QUESTION if proven_batch() >= FULL_QUESTION else 0), None
     if number == part == 0 and proven_batch() >= LARGE_QUESTION and len(order):
@@ -273,7 +286,7 @@ def retest_questions(
 def scene_questions(
     rows: Rows, truth: NDArray[np.int8], proven_batch: Callable[[], int], seed: int
 ) -> Iterator[RetestQuestion]:
-    """The cases of each scene in one question, and some in small ones, for a function for scenes.
+    """Yield what is sent to a function for scenes: the cases of each scene in one question, and some in small ones.
 
     The cases of LONG_SCENES are repeated as in retest_questions, if `proven_batch` returns LARGE_QUESTION or more.
     """
@@ -289,6 +302,7 @@ def scene_questions(
 
 
 def _one_by_one(cases: Indices, seconds: float) -> Iterator[RetestQuestion]:
+    """Yield the cases in batches of one row, until `seconds` have passed."""
     began = time.monotonic()
     for start in range(0, len(cases), SINGLE_STEP):
         if time.monotonic() - began < seconds:
@@ -296,6 +310,7 @@ def _one_by_one(cases: Indices, seconds: float) -> Iterator[RetestQuestion]:
 
 
 def _of_every_length(cases: Indices) -> Iterator[RetestQuestion]:
+    """Yield all cases in batches whose lengths are LENGTHS in turn."""
     start = 0
     while start < len(cases):
         for length in LENGTHS:
@@ -306,7 +321,7 @@ def _of_every_length(cases: Indices) -> Iterator[RetestQuestion]:
 
 
 def _filled(cases: Indices, order: Indices, least: int) -> Indices:
-    """The cases, repeated until there are at least `least`."""
+    """Repeat the cases until there are at least `least`; if there are no cases, repeat those of `order`."""
     if len(order) and len(cases) < least:
         return np.resize(cases if len(cases) else order, least)
     return cases
@@ -315,7 +330,10 @@ def _filled(cases: Indices, order: Indices, least: int) -> Indices:
 def _in_every_place(
     order: Indices, truth: NDArray[np.int8], random: np.random.Generator, size: int
 ) -> Iterator[RetestQuestion]:
-    """Batches of about `size` rows, one for each position among the cases; no two hold the same position at a place."""
+    """Yield batches of about `size` rows, one for each position among the cases.
+
+    At each place of a batch, the cases in the different batches have different positions.
+    """
     parts = [part for position in Position if len(part := order[truth[order] == position])]
     which = random.integers(len(parts), size=size)
     for turn in range(len(parts)):
@@ -328,6 +346,7 @@ def _in_every_place(
 
 
 def _moment_by_moment(moments: NDArray[np.int64]) -> Iterator[RetestQuestion]:
+    """Yield the cases that follow a moving object: some one by one, then those of each moment in one batch."""
     moving = np.flatnonzero(moments >= 0)
     if len(moving):
         yield moving[: int(moments.max()) + 1], 1

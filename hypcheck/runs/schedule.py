@@ -29,7 +29,7 @@ Step = CaseChunk | RetestStep | SearchStep | results.InvalidRows
 
 @dataclass(frozen=True, slots=True)
 class ImplementationOpener:
-    """The data for opening an implementation: its SPEC, its limits, and values that replace its declarations.
+    """What is needed to open an implementation: its SPEC, its limits, and values that replace what it declares.
 
     `declared` is the description that it must declare, if it was opened before in another process.
     """
@@ -42,7 +42,7 @@ class ImplementationOpener:
     declared: Description | None = None
 
     def open(self) -> Implementation:
-        """The running implementation. Raises InputError and StartError as open_implementation does.
+        """Open the implementation, and return it. Raises InputError and StartError as open_implementation does.
 
         It also raises StartError if the description differs from the earlier one.
         """
@@ -80,13 +80,14 @@ def perform_task(
 
 
 STEPS_AHEAD = 32
-"""Results of so many steps for each worker may wait to be merged, so that no worker is idle during a retest."""
+"""The most results for each worker that may wait to be merged. With fewer, workers would be idle during a retest."""
 
 TASKS_PER_WORKER = 2
-"""Submitted tasks for each worker: the one that it performs, and the next. All others wait here in order."""
+"""The most submitted tasks for each worker: the one that it performs, and the next. All others wait here in order."""
 
 MAX_WORKERS_LOST = 3
-"""The number of workers that one task may kill, and of workers in a row that may die before they are ready."""
+"""A task that has killed this many workers is given up; so is a run in which so many in a row died before they
+began."""
 
 _TICK = 1.0
 
@@ -103,11 +104,11 @@ class RunState:
     total: results.CasesResult = field(default_factory=results.CasesResult)
 
     def allowance(self, limits: Allowance) -> Allowance:
-        """The allowance of the next task: the full limits, unless the implementation was given up."""
+        """Return the allowance of the next task: the full limits, unless the implementation was given up."""
         return replace(limits, over=self.left.over, hangs=self.left.hangs)
 
     def after(self, step: Step, result: TaskResult, limits: Allowance) -> RunState:
-        """The state after one more step, whose task started with the full limits."""
+        """Return the state after one more step, whose task started with the full limits."""
         before = self.total
         if isinstance(step, RetestStep):
             before = replace(
@@ -154,14 +155,14 @@ class TaskExecution:
     rules: results.JudgingRules
 
     def crashed(self, task: Step, allowance: Allowance, reason: str) -> TaskResult:
-        """The result of a task if all of its cases crash."""
+        """Return the result of a task if all of its cases crash."""
         return perform_task(task, Crashed(self.max_rows, reason, allowance), self.rules, allowance)
 
 
 def steps_of_chunks(
     chunks: Iterable[CaseChunk], last: Iterable[SearchStep | results.InvalidRows] = (), pace: Pace = PACE
 ) -> Iterator[Step]:
-    """The steps that test these chunks, with their retests, and then the steps `last`."""
+    """Yield the steps that test these chunks, with their retests, and then the steps `last`."""
     rows, rounds, parts = 0, 0, set[int]()
     for chunk in chunks:
         yield chunk
@@ -175,7 +176,10 @@ def steps_of_chunks(
 
 
 def _retest_steps(number: int, parts: set[int], pace: Pace) -> Iterator[RetestStep]:
-    """A round's retests. Part 0, the longest in the first round, comes last, so that the other parts run meanwhile."""
+    """Yield a round's retests.
+
+    Part 0, the longest in the first round, comes last, so that the other parts run meanwhile.
+    """
     return (RetestStep(number, part, pace=pace) for part in (1, 2, 0) if part in parts)
 
 
@@ -230,7 +234,7 @@ class _TaskQueue:
         self._unready = 0
 
     def take(self) -> tuple[Step, TaskResult] | None:
-        """The next step with its result, or None if there is no result yet. Raises what the task raised."""
+        """Return the next step with its result, or None if there is no result yet. Raises what the task raised."""
         future = self._entries[0].future
         if future is None or not future.done() or isinstance(future.exception(), WorkerLost):
             return None
@@ -259,7 +263,7 @@ class _TaskQueue:
         return bool(self._entries)
 
     def due(self, state: RunState) -> list[_QueuedStep]:
-        """The first entries whose tasks can be submitted now; a suspect is submitted only if no other task runs."""
+        """Return the entries whose tasks can be submitted now, in order; a suspect only if no other task runs."""
         suspects = [entry for entry in self._entries if entry.deaths]
         most = 1 if suspects or self._one_by_one(state) else self._execution.workers * TASKS_PER_WORKER
         ready = [entry for entry in suspects[:1] or self._entries if entry.future is None and entry.ready]
@@ -269,10 +273,12 @@ class _TaskQueue:
         return due
 
     def _one_by_one(self, state: RunState) -> bool:
+        """Return whether only one task may run at a time."""
         return not self._execution.workers or state.left.hangs is not None  # hangs are counted in order
 
     @property
     def _running(self) -> list[Future[TaskResult]]:
+        """The futures of tasks that are not done."""
         futures = (entry.future for entry in self._entries)
         return [future for future in futures if future is not None and not future.done()]
 
@@ -287,6 +293,7 @@ class _TaskQueue:
                     entry.deaths = self._unready = 0
 
     def _retry(self, entry: _QueuedStep, lost: WorkerLost, allowance: Allowance) -> None:
+        """Submit the task of a lost worker again later, or give it up if it has killed MAX_WORKERS_LOST workers."""
         entry.future = None
         if not lost.deaths:
             self._unready += 1

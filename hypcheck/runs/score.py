@@ -51,11 +51,11 @@ class CaseSource(Protocol):
     """The origin of rows: some cases of a family."""
 
     def name(self, index: int) -> str:
-        """The id of a case."""
+        """Return the id of a case."""
         ...
 
     def place(self, index: int) -> Place:
-        """The place of a case in the family."""
+        """Return the place of a case in the family."""
         ...
 
 
@@ -111,12 +111,12 @@ class Score:
         return counts
 
     def judged(self, wrong: Indices | None = None) -> Iterator[WrongCase]:
-        """The wrong answers, or those at the given indices, each with its backward error and whether it passes."""
+        """Judge the wrong answers, or those at these indices; yield each with its status and its error."""
         places = self.wrong if wrong is None else wrong
         return judge.judged(self.rows, self.answers, places, self.criterion, self.times)
 
     def part(self, places: Indices) -> Score:
-        """The score of the rows at these ascending indices."""
+        """Return the score of the rows at these ascending indices."""
         if len(places) == len(self.rows):
             return self
         chosen: slice | Indices = as_slice(places)
@@ -132,7 +132,7 @@ class Score:
         )
 
     def without(self, lost: Mapping[int, tuple[Status, str]]) -> Score:
-        """The score with the answers at these indices removed; `lost` gives each its new status and the reason."""
+        """Return the score without the answers at the indices in `lost`, which has their new statuses and reasons."""
         answers, status = self.answers.copy(), self.status.copy()
         for place, (ended, _) in lost.items():
             answers[place], status[place] = CANNOT_SAY, STATUS_CODES[ended]
@@ -148,7 +148,7 @@ class Score:
         left_out: Mapping[str, int] = MappingProxyType({}),
         wrong: Sequence[WrongCase] | None = None,
     ) -> Tally:
-        """The tally of these rows, which are the cases `indices` (n,) of a source.
+        """Count these rows, which are the cases `indices` (n,) of a source, in a tally.
 
         `exponents` are floor(log2) of the distances of the first rows to the nearest other position. `left_out` counts
         rows that were not tested, by reason. `wrong` are the judged cases if some of them are excused.
@@ -173,6 +173,7 @@ class Score:
         )
 
     def _worst(self, wrong: Iterable[WrongCase], source: CaseSource, indices: Indices) -> list[WorstCase]:
+        """Return the worst cases with their measured errors, at most WORST_KEPT."""
         ranked = sorted(wrong, key=lambda case: (_exponent_first(case), case.index))
         chosen = ranked[:WORST_KEPT]
         if chosen and math.isfinite(chosen[-1].exponent) and not chosen[-1].least:
@@ -189,7 +190,7 @@ class Score:
 
 
 def score(rows: Rows, truth: Positions, answered: Answered, criterion: Criterion) -> Score:
-    """The score of rows with these true positions or hits, int8 (n,)."""
+    """Judge the answers to rows with these true positions or hits, int8 (n,), as right, wrong or without an answer."""
     status, times = status_of(answered), answered.times
     wrong = judge.is_amiss(rows, truth, answered.answers, times, criterion)
     status[wrong] = STATUS_CODES[Status.WRONG]
@@ -197,7 +198,7 @@ def score(rows: Rows, truth: Positions, answered: Answered, criterion: Criterion
 
 
 def status_of(answered: Answered) -> StatusCodes:
-    """The status codes of rows before they are judged: RIGHT for each row with an answer."""
+    """Return the status codes of rows before they are judged: RIGHT for each row with an answer."""
     status = _ENDED.take(answered.status)
     status[(answered.answers == CANNOT_SAY) & answered.answered] = STATUS_CODES[Status.ABSTAINED]
     return status
@@ -206,7 +207,7 @@ def status_of(answered: Answered) -> StatusCodes:
 def unanswered_case(
     row: Sequence[float], status: int, reason: str, place: Place, name: str, layout: Layout
 ) -> UnansweredCase:
-    """The row at that place with that id, which ended with a status (of STATUS_CODES) other than a valid answer."""
+    """Make the record's struct of a row without a valid answer; `place` and `name` (its id) are those of the case."""
     return UnansweredCase(
         place=place, case=name, **row_fields(row, layout), status=STATUSES[status].value, reason=reason
     )
@@ -220,7 +221,7 @@ def unanswered_cases(
     indices: Indices,
     layout: Layout,
 ) -> list[UnansweredCase]:
-    """The first rows in `reasons` of each status, at most UNANSWERED_KEPT."""
+    """Return the first rows in `reasons` of each status, at most UNANSWERED_KEPT."""
     if not reasons:
         return []
     places = np.sort(np.fromiter(reasons, dtype=np.intp, count=len(reasons)))
@@ -235,11 +236,12 @@ def unanswered_cases(
 
 
 def as_slice(indices: Indices) -> slice | Indices:
-    """The indices as a slice, which copies nothing, if they are consecutive."""
+    """Return the indices as a slice, which copies nothing, if they are consecutive."""
     if not len(indices) or indices[-1] - indices[0] != len(indices) - 1:
         return indices
     return slice(int(indices[0]), int(indices[-1]) + 1)
 
 
 def _exponent_first(case: WrongCase) -> tuple[bool, float]:
+    """Return the key that orders wrong cases by their rough size: wrong before tolerated, large errors first."""
     return case.status is not Status.WRONG, -case.exponent

@@ -44,18 +44,18 @@ FAST, PLAIN = "fast path", "plain numpy formula"
 
 
 def timing_entry(method: Method, rows: Rows) -> TimingEntry:
-    """The entry that times a method on these rows, the first `max_rows` of them."""
+    """Return the entry that times a method on these rows, the first `max_rows` of them."""
     part = rows[: method.max_rows]
     return TimingEntry(method.name, len(part), clocked(lambda: method.answer(part)))
 
 
 def timed_rows(seed: int) -> Rows:
-    """Rows with uniform positions in the box around the cooling tower; all have the tower's sizes."""
+    """Return rows with uniform positions in the box around the cooling tower; all have the tower's sizes."""
     return FAMILIES[WORKLOAD].rows(seed, TIMED_ROWS)
 
 
 def timed_methods(*, meshes: bool) -> list[Method]:
-    """The methods to time, slow ones on fewer rows. FCL is loaded only with `meshes`."""
+    """Return the methods to time, slow ones on fewer rows. FCL is loaded only with `meshes`."""
     methods = [
         Method(FAST, "certified floats, integers where they cannot tell; exact", _fast),
         Method(PLAIN, "Table 2 as one writes it in numpy; not certified", _plain),
@@ -85,7 +85,7 @@ def timed_methods(*, meshes: bool) -> list[Method]:
 
 
 def timing_line(method: Method, timing: Samples) -> TimingLine:
-    """The record's line about one timed method."""
+    """Return the record's line about one timed method."""
     return TimingLine(
         workload=WORKLOAD,
         median_ns=timing.median_ns,
@@ -99,24 +99,26 @@ def timing_line(method: Method, timing: Samples) -> TimingLine:
 
 
 def _scene(rows: Rows) -> tuple[Sizes, Columns]:
-    """The sizes of rows that share them, and the columns of their centres."""
+    """Return the sizes of rows that share them, and the columns of their centres."""
     alpha, gamma, b, d = rows[0, :4].tolist()
     return (alpha, gamma, b, d), (rows[:, 4], rows[:, 5], rows[:, 6])
 
 
 def _fast(rows: Rows) -> Answers:
+    """Answer with the fast path, the kernel for one scene."""
     sizes, center = _scene(rows)
     return fast_scene(sizes, *center)
 
 
 def _plain(rows: Rows) -> Answers:
-    """Procedure 1 and the repaired interior condition: the paper's Table 2 in numpy."""
+    """Answer by the paper's Table 2 in numpy: Procedure 1 with the repaired interior condition."""
     sizes, center = _scene(rows)
     delta, c1, c2 = delta_with_powers(sizes, *center)
     return np.where(delta > 0, np.where((c2 < 0) & (c1 > 0), 1, -1), 0).astype(np.int8)
 
 
 def _mesh(rows: Rows) -> Answers:
+    """Answer with the mesh oracle; CANNOT_SAY where it is undecided."""
     opinions = ORACLES["mesh"].ask(rows)
     return np.array(
         [CANNOT_SAY if opinion.position is None else opinion.position for opinion in opinions], dtype=np.int8
@@ -131,7 +133,7 @@ MESH = "mesh"
 
 
 def _done(task: Callable[[], object]) -> Any:  # noqa: ANN401 - of each task another type
-    """The result of a task; a task is a unit of work that needs no other data of the run."""
+    """Perform a task, and return its result; a task needs no other data of the run."""
     return task()
 
 
@@ -139,14 +141,14 @@ Derivation = tuple[Sequence["EquationCheck"], Sequence["Proof"]]
 
 
 def derivation() -> Derivation:
-    """The checked equations of the paper, and the proofs of the formulas."""
+    """Check the equations of the paper and prove the formulas; return the checks and the proofs."""
     from hypcheck.derivation import printed_equations, proofs  # noqa: PLC0415 - loads sympy, in one process
 
     return printed_equations.check_equations(), proofs.prove_formulas()
 
 
 CASES = 400
-"""Cases of one task: few enough that processes end together, and enough to be worth a task."""
+"""The number of cases of one task: few enough that all processes end at about the same time."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -159,12 +161,15 @@ class FamilyLines:
 
 
 def frozen_lines(family: str, plan: SelfCheckPlan, shares: Mapping[str, int]) -> FamilyLines:
-    """The lines about the frozen vectors of a family of tilted spheroids, or of hyperboloids that end."""
+    """Return the lines about the frozen vectors of a family of tilted spheroids, or of hyperboloids that end."""
     return FamilyLines([], [], oracles.oracle_lines(oracles.frozen_batch(ALL[family], plan.count), shares))
 
 
 def upright_lines(family: str, start: int, stop: int, plan: SelfCheckPlan, shares: Mapping[str, int]) -> FamilyLines:
-    """The lines about a family's cases from `start` to `stop` − 1; formulas and methods answer only the first cases."""
+    """Test a family's cases `start` to `stop` − 1, and return the lines.
+
+    Formulas and methods are tested only if `start` is 0, on the first cases.
+    """
     batch = batch_of(FAMILIES[family], plan.seed, start, stop)
     opinions = oracles.oracle_lines(batch, shares)
     if start:
@@ -182,7 +187,7 @@ def upright_lines(family: str, start: int, stop: int, plan: SelfCheckPlan, share
 
 
 def family_tasks(plan: SelfCheckPlan) -> list[Callable[[], FamilyLines]]:
-    """The tasks of all families. Tasks of frozen vectors come first, because their rows take longest.
+    """Return the tasks of all families. Tasks of frozen vectors come first, because their rows take longest.
 
     Raises InputError naming a family that does not exist.
     """
@@ -202,7 +207,7 @@ def family_tasks(plan: SelfCheckPlan) -> list[Callable[[], FamilyLines]]:
 
 
 def methods_of(plan: SelfCheckPlan) -> tuple[Method, ...]:
-    """The built-in methods that are judged; those that measure meshes only if the plan asks the mesh oracle."""
+    """Return the built-in methods that are judged; those that measure meshes only if the plan asks the mesh oracle."""
     judged = (method for method in methods().values() if not method.measured)
     meshes = MESH in plan.oracles
     return tuple(method for method in judged if not method.needs or (meshes and trouble_with(method) is None))
@@ -222,7 +227,7 @@ class SelfCheck:
     known: Sequence[KnownFinding] = field(default_factory=findings.known_findings)
 
     def stages(self) -> tuple[Stage, ...]:
-        """The stages of the run in order; the record says which oracles are not available.
+        """Return the stages of the run in order; the record says which oracles are not available.
 
         Raises InputError naming a family that does not exist.
         """
@@ -234,6 +239,7 @@ class SelfCheck:
         )
 
     def _with_available_oracles(self) -> SelfCheckPlan:
+        """Return the plan without the oracles that cannot run here; record why they cannot."""
         reasons = {name: ORACLES[name].available() for name in self.plan.oracles}
         for name, reason in reasons.items():
             if reason is not None:
@@ -255,6 +261,7 @@ class SelfCheck:
         self._record_oracles(opinions)
 
     def _record_derivation(self, equations: Sequence[EquationCheck], proofs: Sequence[Proof]) -> None:
+        """Record the checked equations and the proofs; a proof that does not hold sets the exit code."""
         for equation in equations:
             self.recorder.add(lines.EquationLine(**asdict(equation)))
         for proof in proofs:
@@ -263,7 +270,7 @@ class SelfCheck:
                 self.outcome.codes.add(Exit.ORACLES_DISAGREE)
 
     def _record_family(self, made: FamilyLines) -> list[FindingLine]:
-        """Record a family's lines; returns its findings with the reasons of those that are known."""
+        """Record a family's lines; return its findings, those that are known with their reasons."""
         known = [msgspec.structs.replace(line, reason=findings.reason_for(line, self.known)) for line in made.findings]
         for line in (*known, *made.groups):
             self.recorder.add(line)
@@ -272,22 +279,26 @@ class SelfCheck:
         return known
 
     def _record_drift(self, recorded: Sequence[FindingLine]) -> None:
+        """Record how the findings differ from the known ones; a difference sets the exit code."""
         for sentence in findings.finding_drift(recorded, self.known, complete=self.plan.complete):
             self.recorder.add(lines.DriftLine(sentence=sentence))
             self.outcome.codes.add(Exit.WRONG)
 
     def _record_oracles(self, opinions: Iterable[OracleLine]) -> None:
+        """Record the lines about the oracles; a disagreement sets the exit code."""
         for line in oracles.merged_lines(opinions):
             self.recorder.add(line)
             if line.disagreeing:
                 self.outcome.codes.add(Exit.ORACLES_DISAGREE)
 
     def _draw(self, advance: Advance) -> None:
+        """Record the map of the cooling tower."""
         for panel in findings.tower_panels():
             self.recorder.add(findings.map_line(panel, builtin("table-2-float32")))
             advance(1)
 
     def _time(self, advance: Advance) -> None:
+        """Time the methods, and record the times."""
         rows, methods = timed_rows(self.plan.seed), timed_methods(meshes=MESH in self.plan.oracles)
         timings = measure([timing_entry(method, rows) for method in methods], TIMING_ROUNDS, advance=advance)
         for method, timing in zip(methods, timings, strict=True):
@@ -295,5 +306,5 @@ class SelfCheck:
 
 
 def options(plan: SelfCheckPlan) -> Mapping[str, Any]:
-    """The plan as the record's header has it."""
+    """Return the plan as the record's header has it."""
     return {**asdict(plan), "tolerance": float(plan.tolerance)}

@@ -1,4 +1,4 @@
-"""The evenness of a run's rows: the width of a fault near contact that it can miss, and the tested coincidences.
+"""The evenness of a run's rows: the width of a fault near contact that the run can miss, and the tested coincidences.
 
 A fault in a slice of one coordinate, such as |z|/γ between 0.50 and 0.51, is visible only in a row near contact within
 the slice. So a run reports the greatest width of a slice with fewer than three such rows, and of a slice of two
@@ -30,15 +30,16 @@ DISTANCE = "distance to contact"
 
 
 def _distance_octaves(rows: Rows) -> Floats:
-    """The octave of each spheroid's distance from contact, as a share of its size, (n,); NaN outside the range.
+    """Return log2 of each spheroid's distance from contact, (n,); NaN outside the range of the strata.
 
-    At a change of size by this share contact begins or ends; bisection finds the share.
+    The distance is the relative change of size at which contact begins or ends; bisection finds it.
     """
     low, high = np.full(len(rows), STRATA_NEAREST - 1.0), np.full(len(rows), STRATA_FARTHEST + 1.0)
     touching = np.asarray(classify(rows)) == Position.CONTACT
     grown = np.where(touching, -1.0, 1.0)
 
     def changes(octave: Floats) -> Mask:
+        """Return whether contact begins or ends at this change of size."""
         resized = rows.copy()
         resized[:, 2:4] *= (1 + grown * np.exp2(octave))[:, None]
         return np.asarray((np.asarray(classify(resized)) == Position.CONTACT) != touching)
@@ -65,7 +66,9 @@ COORDINATES: Mapping[str, Callable[[Rows], Floats]] = MappingProxyType(
         "heading": lambda rows: np.arctan2(rows[:, 8], rows[:, 7]) / np.pi % 1,
     }
 )
-"""What a narrow fault may depend on, from 0 to 1 in the range that is asked; upright rows have the first six.
+"""The coordinates on which a narrow fault may depend, as functions of rows; each is 0 to 1 in the tested range.
+
+Upright rows have the first six.
 
 |z|/γ is up to HIGHEST; c/a, where c = γ/d and a = α/b, and the other ratios are in octaves.
 """
@@ -76,19 +79,20 @@ ROWS_OF_ONE = 3
 """The number of tested rows in each slice of one coordinate that has the reported width."""
 
 MOST = 40_000
-"""Rows of a family and a seed that are looked at: more would make no slice wider."""
+"""The most rows of a family and a seed from which evenness is computed: more would not make a slice wider."""
 
 _HALVINGS = 13
+"""The number of steps of the bisection for a distance."""
 
 _FAMILIES = {"search": "strata", "tilted-search": "tilted-strata"}
-"""The families of lattices, by the searches near whose rows theirs lie."""
+"""The family of lattices near contact, for each directed search. The rows of both lie in the same region."""
 
 _FINEST = 256
-"""Parts of a range: a slice of two coordinates is not said to be narrower than two of these."""
+"""The most parts into which a range is divided: no slice of two coordinates is reported as narrower than two parts."""
 
 
 def slices_of(plan: ConformancePlan, used: Description, rules: JudgingRules) -> dict[str, SlicesPart]:
-    """The evenness of each family of lattices near contact, and of each search at all distances.
+    """Compute the evenness of each family of lattices near contact, and of each search at all distances.
 
     Rows that a search tests in any case count with the family. Families without a tested row are left out.
     """
@@ -112,11 +116,12 @@ def slices_of(plan: ConformancePlan, used: Description, rules: JudgingRules) -> 
 
 
 def _asked(rules: JudgingRules, family: str, rows: Rows) -> Rows:
+    """Return those of the rows that the run tests."""
     return rows[rules.asked_of(family, rows)[0]]
 
 
 def evenness(rows: Rows, names: tuple[str, ...]) -> SlicesPart:
-    """The evenness of the rows near contact in the ranges of these coordinates, which include `distance`."""
+    """Compute the evenness of the rows near contact in the ranges of these coordinates, which include DISTANCE."""
     places = np.stack([COORDINATES[name](rows) for name in names])
     places = places[:, np.isfinite(places[names.index(DISTANCE)])]
     one = max(_widest(np.sort(some[(some >= 0) & (some <= 1)])) for some in places)
@@ -124,7 +129,7 @@ def evenness(rows: Rows, names: tuple[str, ...]) -> SlicesPart:
 
 
 def _evenness_of_far(step: SearchStep, numbers: Indices) -> SlicesPart:
-    """The evenness of a search over all distances, on that side of contact which was tested less evenly."""
+    """Compute the evenness of a search over all distances, on the side of contact that was tested less evenly."""
     line, rung = np.divmod(numbers, RUNGS)
     octaves = octaves_of(step.family, step.seed, line, rung)
     sides = [octaves[(rung < RUNGS // 2) == clear] for clear in (True, False)]
@@ -133,11 +138,12 @@ def _evenness_of_far(step: SearchStep, numbers: Indices) -> SlicesPart:
 
 
 def _share_of_octaves(ratio: Floats, low: int = -RATIO_OCTAVES, high: int = RATIO_OCTAVES) -> Floats:
+    """Map log2 of a ratio linearly: `low` to 0, `high` to 1."""
     return np.asarray((np.log2(ratio) - low) / (high - low))
 
 
 def _widest(sorted_places: NDArray[np.float64]) -> float:
-    """The widest slice of [0, 1] with fewer than ROWS_OF_ONE of the places in it."""
+    """Return the width of the widest slice of [0, 1] with fewer than ROWS_OF_ONE of the places in it."""
     every = np.concatenate([[0.0], sorted_places, [1.0]])
     if len(every) <= ROWS_OF_ONE:
         return 1.0
@@ -145,7 +151,7 @@ def _widest(sorted_places: NDArray[np.float64]) -> float:
 
 
 def _side(places: NDArray[np.float64]) -> float:
-    """Twice the side of the smallest square cells, in a plane of two coordinates, that all hold a row.
+    """Return twice the side of the smallest square cells, in a plane of two coordinates, that all hold a row.
 
     A slice of this width contains a cell at any place.
     """
@@ -156,13 +162,14 @@ def _side(places: NDArray[np.float64]) -> float:
 
 
 def _is_full(a: NDArray[np.float64], b: NDArray[np.float64], parts: int) -> bool:
+    """Return whether each of parts × parts square cells of [0, 1)² holds a point (a, b)."""
     inside = (a >= 0) & (a < 1) & (b >= 0) & (b < 1)
     cells = np.floor(a[inside] * parts).astype(np.int64) * parts + np.floor(b[inside] * parts).astype(np.int64)
     return len(np.unique(cells)) == parts * parts
 
 
 def crossed_of(plan: ConformancePlan, used: Description) -> dict[str, tuple[int, int]]:
-    """For each family that crosses coincidences, the numbers of tested triples and of triples that are compatible."""
+    """Return, for each family that crosses coincidences, the numbers of tested and of compatible triples."""
     return {
         family.name: crossed.asked(family.name, max(frozen_count(family.name), plan.count * family.times), 3)
         for family in chosen_families(plan, used)

@@ -34,7 +34,7 @@ _DENSE = 1 << 16
 
 
 def by_size(rows: Rows, amiss: Mask) -> Histogram:
-    """Bins (⌊log2 α/b⌋, ⌊log2 γ/d⌋)."""
+    """Count the rows in bins by size, (⌊log2 α/b⌋, ⌊log2 γ/d⌋): all rows, and those that are amiss."""
     sizes = rows[:, :4]
     if len(rows) > 1 and (sizes == sizes[0]).all():  # rows of a scene
         (first, second, *_), *_ = by_size(rows[:1], amiss[:1]).as_lists()
@@ -45,14 +45,17 @@ def by_size(rows: Rows, amiss: Mask) -> Histogram:
 
 
 def by_place(rows: Rows, amiss: Mask) -> Histogram:
-    """Bins (⌊8 r/α⌋, ⌊8 |z|/γ⌋), both clipped to 0 … FAR; for sweeps, bins of their starts."""
+    """Count the rows in bins by place, (⌊8 r/α⌋, ⌊8 |z|/γ⌋), both limited to FAR: all rows, and those that are amiss.
+
+    r is the distance of the centre from the axis. A sweep is counted at its start.
+    """
     with np.errstate(all="ignore"):
         across, along = _eighths(_radius(rows), rows[:, 0]), _eighths(np.abs(rows[:, 6]), rows[:, 1])
     return _counted(across, along, amiss)
 
 
 def added(parts: Iterable[Histogram]) -> Histogram:
-    """The bins of all parts together."""
+    """Add the counts of all parts, bin by bin."""
     tables = [part.table for part in parts if len(part.table)]
     if not tables:
         return Histogram()
@@ -61,7 +64,7 @@ def added(parts: Iterable[Histogram]) -> Histogram:
 
 
 def _radius(rows: Rows) -> NDArray[np.float64]:
-    """√(x² + y²); if a square overflows or underflows float64, by the slower hypot."""
+    """Compute √(x² + y²); if a square overflows or underflows float64, by the slower hypot."""
     x, y = rows[:, 4], rows[:, 5]
     square = x * x + y * y
     if len(rows) and _LEAST < square.min() and square.max() < _GREATEST:
@@ -70,12 +73,14 @@ def _radius(rows: Rows) -> NDArray[np.float64]:
 
 
 def _eighths(lengths: NDArray[np.float64], units: NDArray[np.float64]) -> Integers:
+    """Return the lengths in eighths of their units, rounded down, at most FAR."""
     eighths = lengths / units
     eighths *= 8
     return np.minimum(eighths, FAR, out=eighths).astype(np.int64)
 
 
 def _counted(first: Integers, second: Integers, amiss: Mask) -> Histogram:
+    """Count the pairs of numbers: how often each occurs, and how often amiss."""
     if not len(first):
         return Histogram()
     low, origin = first.min(), second.min()
@@ -90,7 +95,7 @@ def _counted(first: Integers, second: Integers, amiss: Mask) -> Histogram:
 
 
 def _summed(first: Integers, second: Integers, counts: Integers) -> Integers:
-    """A row [first, second, …] for each distinct pair of numbers, ascending, with the sums of the pair's counts."""
+    """Add `counts` for each distinct pair of numbers; return rows [first, second, sums …], ascending."""
     keys = (first << 32) + second  # both numbers as one: sorting pairs is fifty times slower
     order = np.argsort(keys, kind="stable")
     keys = keys[order]
@@ -101,10 +106,13 @@ def _summed(first: Integers, second: Integers, counts: Integers) -> Integers:
 
 
 WORST_KEPT = 3
-"""A group keeps so many worst cases with their rows; its counts are always exact."""
+"""The number of worst cases that a group keeps with their rows; its counts include all cases."""
 
 UNANSWERED_KEPT = 5
-"""A group keeps so many cases without a valid answer, with their reasons; more if it has more different statuses."""
+"""The number of cases of each status without a valid answer that a tally keeps, with their reasons.
+
+The line of the record has as many in all, or one of each status if that is more.
+"""
 
 STATUSES = tuple(Status)
 STATUS_CODES: Mapping[Status, int] = {status: code for code, status in enumerate(STATUSES)}
@@ -114,12 +122,12 @@ StatusCodes = NDArray[np.int8]
 
 
 def worst_case(case: WrongCase, place: Place, name: str, criterion: Criterion) -> WorstCase:
-    """The case at that place with that id, with its measured error."""
+    """Make the record's struct of a wrong case at that place with that id, with its measured error."""
     return diagnosis.kept_case(case, place, name, criterion.layout, judge.measured(case, criterion.question))
 
 
 def rank_of(case: WorstCase) -> tuple[bool, float, Place]:
-    """The key that orders worst cases: wrong before tolerated, then the largest error, then the first place."""
+    """Return the key that orders worst cases: wrong before tolerated, then the largest error, then the first place."""
     return case.status != Status.WRONG, -case.error, case.place
 
 
@@ -138,7 +146,7 @@ EMPTY = Tally(
 
 
 def merged_tally(tallies: Iterable[Tally]) -> Tally:
-    """The tally of all cases of these tallies, which may come in any order."""
+    """Add tallies; their order has no effect."""
     parts = tuple(tallies)
     return Tally(
         asked=sum(part.asked for part in parts),
@@ -169,7 +177,10 @@ def group_line(
     spec: str | UnsetType = UNSET,
     failing: list[str] | UnsetType = UNSET,
 ) -> GroupLine:
-    """The record's line about a family; for an implementation under test with SPEC and the statuses that fail it."""
+    """Return the record's line about a family.
+
+    For an implementation under test, `spec` is its SPEC, and `failing` are the statuses that fail the run.
+    """
     return GroupLine(
         method=method,
         spec=spec,
@@ -196,7 +207,7 @@ def group_line(
 
 
 def _unanswered_lines(tallied: Tally) -> list[lines.FaultPart]:
-    """The unanswered cases of the record's line: the first of each status, then further ones up to UNANSWERED_KEPT."""
+    """Choose the unanswered cases for the record's line: the first of each status, then more up to UNANSWERED_KEPT."""
     first = {fault.status: fault for fault in reversed(tallied.faults)}.values()
     others = [fault for fault in tallied.faults if fault not in first]
     chosen = [*first, *others[: max(0, UNANSWERED_KEPT - len(first))]]
@@ -207,6 +218,7 @@ def _unanswered_lines(tallied: Tally) -> list[lines.FaultPart]:
 
 
 def _added(parts: Iterable[Mapping[str, int]]) -> dict[str, int]:
+    """Add counts by their keys."""
     total: Counter[str] = Counter()
     for part in parts:
         total.update(part)
@@ -214,6 +226,7 @@ def _added(parts: Iterable[Mapping[str, int]]) -> dict[str, int]:
 
 
 def _added_tables(parts: Iterable[Mapping[str, Mapping[str, int]]]) -> dict[str, dict[str, int]]:
+    """Add tables of counts by their keys."""
     total: dict[str, dict[str, int]] = {}
     for part in parts:
         for key, counts in part.items():
@@ -226,7 +239,7 @@ _ANSWERS = ("-1", "0", "1", "2", "none")
 
 
 def answer_counts(truth: Positions, answers: NDArray[np.int8], answered: Mask) -> dict[str, dict[str, int]]:
-    """The number of rows by truth (n,) and by answer (n,); the answer is "none" where `answered` (n,) is false."""
+    """Count rows by truth (n,), then by answer (n,); the answer is "none" where `answered` (n,) is false."""
     columns = np.where(answered, answers + 1, len(_ANSWERS) - 1)
     counts = np.bincount((truth.astype(np.int64) + 1) * len(_ANSWERS) + columns, minlength=3 * len(_ANSWERS))
     table = counts.reshape(3, len(_ANSWERS)).tolist()
@@ -238,7 +251,7 @@ def answer_counts(truth: Positions, answers: NDArray[np.int8], answered: Mask) -
 
 
 def counts_of(status: StatusCodes) -> dict[str, int]:
-    """The number of cases by status."""
+    """Count cases by status."""
     other = status[status != STATUS_CODES[Status.RIGHT]]  # usually few
     numbers = np.bincount(other, minlength=len(STATUSES)).tolist()
     numbers[STATUS_CODES[Status.RIGHT]] = len(status) - len(other)
@@ -246,7 +259,7 @@ def counts_of(status: StatusCodes) -> dict[str, int]:
 
 
 def by_octave(exponents: NDArray[np.float64], status: StatusCodes) -> dict[str, dict[str, int]]:
-    """The number of cases by floor(log2) of their distance to the nearest other position, ascending, and by status."""
+    """Count cases by floor(log2) of their distance to the nearest other position, ascending, then by status."""
     table = {}
     for exponent in sorted(set(exponents.tolist())):  # np.unique would load numpy.ma
         key = str(int(exponent)) if math.isfinite(exponent) else str(exponent)
@@ -255,7 +268,7 @@ def by_octave(exponents: NDArray[np.float64], status: StatusCodes) -> dict[str, 
 
 
 def kept_unanswered(faults: Iterable[UnansweredCase]) -> list[UnansweredCase]:
-    """The first cases of each status, at most UNANSWERED_KEPT."""
+    """Return the first cases of each status, at most UNANSWERED_KEPT."""
     kept: list[UnansweredCase] = []
     seen: Counter[str] = Counter()
     for fault in sorted(faults, key=lambda fault: fault.place):
@@ -266,7 +279,7 @@ def kept_unanswered(faults: Iterable[UnansweredCase]) -> list[UnansweredCase]:
 
 
 def worst_line(case: WorstCase, criterion: Criterion) -> lines.WrongAnswer:
-    """The worst case for a line of the record, its error in units of the precision too."""
+    """Return the worst case for a line of the record, its error in units of the precision too."""
     return lines.WrongAnswer(
         case=case.case,
         **row_parts(case),

@@ -28,19 +28,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 _LONGEST = 4
-"""A sample may last so many times its least duration, for more takes."""
+"""A sample may last this many times its least duration if that allows more takes."""
 
 Clocked = Callable[[int], tuple[int, int]]
-"""Does its work as often as asked; returns the nanoseconds and the sum of the answers of one time."""
+"""A function that does its work as often as asked; it returns the nanoseconds, and the sum of the answers of one
+time."""
 
 SHORTEST_S = 0.01
-"""The least duration of all takes of a sample, by repeating the work: 10⁵ ticks of the clock."""
+"""The least duration in seconds of all takes of a sample together; the work is repeated to reach it."""
 
 MOST_LOOPS = 1_000_000
 
 TAKES = 5
-"""A sample is the fastest of so many takes, each a part of its length. An interrupt only adds time, and seldom hits all
-of several short takes. Long work is taken less often."""
+"""The number of takes of a sample, which is the fastest of them. An interrupt only adds time, and seldom hits all of
+several short takes. Long work has fewer takes."""
 
 
 class TimingRefusedError(Exception):
@@ -101,7 +102,10 @@ def clocked_calls(
     centres: Sequence[Sequence[float]],
     clock: Callable[[], int] = time.perf_counter_ns,
 ) -> Clocked:
-    """A call for each centre in this process, timed by a clock in nanoseconds; the sum is of the last answers."""
+    """Return work that calls `answer` once for each centre, timed by a clock in nanoseconds.
+
+    Its sum is the sum of the last answers.
+    """
 
     def run(repeat: int) -> tuple[int, int]:
         total = 0
@@ -136,7 +140,7 @@ def measure(
     first: int = 0,
     advance: Callable[[int], object] = lambda _: None,
 ) -> list[Samples]:
-    """The samples of all entries, in rounds that run each entry once; `advance` is called after each round.
+    """Time all entries in rounds that run each entry once; `advance` is called after each round.
 
     `first` is the entry that starts the first round.
     """
@@ -151,7 +155,7 @@ def measure(
 
 
 def _calibrated(entry: TimingEntry, shortest_s: float) -> Samples:
-    """The entry after a warm-up, with enough loops for a sample of that duration."""
+    """Run the entry as a warm-up, and choose enough loops for a sample of that duration; return it without a sample."""
     samples = Samples(entry.name, entry.rows, entry.loops or 1, entry.checksum or 0, takes=entry.takes)
     with _refused(samples):
         took, checksum = entry.run(1)
@@ -204,7 +208,7 @@ def _refused(samples: Samples) -> Iterator[None]:
 
 @contextmanager
 def _undisturbed() -> Iterator[None]:
-    """A block without garbage collection, which runs before it."""
+    """Collect garbage, then enter a block in which none is collected."""
     gc.collect()
     enabled = gc.isenabled()
     gc.disable()
@@ -220,8 +224,8 @@ CONFIDENCE = 0.95
 _SEED = 20_230_917
 
 LEAST_NS = 0.01
-"""No sample can be shorter: to write a byte of an answer takes longer. A difference to an empty call may be shorter, if
-noise made the empty call longer; it says nothing about the work."""
+"""The least time in nanoseconds that a sample can have: to write a byte of an answer takes longer. A difference to an
+empty call may be shorter, if noise made the empty call longer; it says nothing about the work."""
 
 SampleTable = Sequence[Sequence[float]]
 """A number for each round, for each process."""
@@ -242,7 +246,7 @@ class Estimate:
 
 
 def estimate(samples: SampleTable) -> Estimate:
-    """The median of all samples with its bootstrap interval. Raises ValueError if there is no sample."""
+    """Compute the median of all samples and its bootstrap interval. Raises ValueError if there is no sample."""
     medians = resampled_medians(samples)
     tail = (1 - CONFIDENCE) / 2
     low, high = np.quantile(medians, (tail, 1 - tail))
@@ -251,7 +255,7 @@ def estimate(samples: SampleTable) -> Estimate:
 
 
 def ratios(samples: SampleTable, reference: SampleTable) -> list[list[float]]:
-    """The ratio to the reference in each round; processes and rounds of both are paired in order.
+    """Divide the samples by those of the reference, round by round; processes and rounds of both are paired in order.
 
     A round in which either has an impossible sample has no ratio.
     """
@@ -262,7 +266,7 @@ def ratios(samples: SampleTable, reference: SampleTable) -> list[list[float]]:
 
 
 def resampled_medians(samples: SampleTable, seed: int = _SEED) -> NDArray[np.float64]:
-    """The medians of DRAWS resamples: (DRAWS,). Raises ValueError if there is no sample."""
+    """Draw DRAWS resamples, and return their medians (DRAWS,). Raises ValueError if there is no sample."""
     parts = [np.asarray(part, dtype=np.float64) for part in samples if len(part)]
     if not parts:
         raise ValueError("there is no sample")
@@ -275,9 +279,10 @@ def resampled_medians(samples: SampleTable, seed: int = _SEED) -> NDArray[np.flo
 
 @lru_cache(maxsize=16)
 def _draws(lengths: tuple[int, ...], seed: int) -> tuple[NDArray[np.int64], NDArray[np.bool_] | None]:
-    """For each resample the places of its draws among all samples, and a mask of places that do not exist.
+    """Draw, for each resample, places among all samples; return them, and a mask of places that do not exist.
 
-    An interrupted process has fewer rounds. Samples of one run have the same numbers, and the same draws.
+    The mask is None if all exist: an interrupted process has fewer rounds. Samples of one run have the same numbers,
+    and the same draws.
     """
     generator = np.random.Generator(np.random.PCG64(seed))
     number, rounds, counts = len(lengths), max(lengths), np.array(lengths)
@@ -295,7 +300,7 @@ def thread_clocked(work: Callable[[], NDArray[np.signedinteger]]) -> Clocked:
 
 
 def measured_samples(entries: Sequence[TimingEntry], rounds: int) -> dict[str, Samples]:
-    """The samples of all entries by name. Raises AssertionError for one that was refused."""
+    """Time all entries, and return their samples by name. Raises AssertionError for one that was refused."""
     samples = measure(entries, rounds)
     for sample in samples:
         if sample.refused is not None:
@@ -304,15 +309,15 @@ def measured_samples(entries: Sequence[TimingEntry], rounds: int) -> dict[str, S
 
 
 def times_as_fast(mine: Samples, other: Samples) -> list[float]:
-    """The ratio of the time per row of `other` to that of `mine` in each round: above 1 if `mine` is faster."""
+    """Return the time a row of `other` divided by that of `mine`, in each round: above 1 if `mine` is faster."""
     return [theirs / own for own, theirs in zip(mine.samples_ns, other.samples_ns, strict=True)]
 
 
 def times_as_long(mine: Samples, other: Samples) -> list[float]:
-    """The ratio of the time per row of `mine` to that of `other` in each round: above 1 if `mine` is slower."""
+    """Return the time a row of `mine` divided by that of `other`, in each round: above 1 if `mine` is slower."""
     return times_as_fast(other, mine)
 
 
 def rate_text(samples: Samples) -> str:
-    """The median in nanoseconds a row and in millions of rows a second."""
+    """Return the text of the median, in nanoseconds a row and in millions of rows a second."""
     return f"{samples.median_ns:.3g} ns a row ({1e3 / samples.median_ns:.3g} million a second)"
