@@ -261,7 +261,7 @@ def test_the_exit_code_of_verify_is_that_of_the_step_and_an_output_of_the_action
     assert loaded(ACTION)["outputs"]["exit-code"]["value"] == "${{ steps.verify.outputs.exit-code }}"
 
 
-def test_each_output_of_the_action_is_of_an_input_or_of_a_step_that_has_it():
+def test_each_output_of_the_action_comes_from_an_existing_input_or_from_a_step_that_sets_it():
     steps = {step["id"]: step["run"] for step in loaded(ACTION)["runs"]["steps"] if "id" in step}
     for output in loaded(ACTION)["outputs"].values():
         for step, name in re.findall(r"steps\.(\w+)\.outputs\.([\w-]+)", output["value"]):

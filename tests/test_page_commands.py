@@ -204,7 +204,7 @@ def test_every_command_of_hypcheck_on_a_page_has_a_name_and_options_that_exist(p
         (["a…"], False),
     ],
 )
-def test_prints_finds_output_that_a_page_does_not_show(shown, found):
+def test_check_of_pages_finds_output_that_a_page_does_not_show(shown, found):
     assert prints("a b\nc\n", tuple(shown)) == found
 
 

@@ -146,7 +146,7 @@ def test_no_page_and_no_help_names_a_version_that_git_has_no_tag_of():
         ("- uses: OWNER/hypcheck@COMMIT, actions/cache@v4, hypcheck==VERSION, hypcheck-VERSION.whl", set()),
     ],
 )
-def test_versions_named_finds_tags_releases_and_files_of_hypcheck_alone(text, found):
+def test_versions_named_finds_only_tags_releases_and_files_of_hypcheck(text, found):
     assert versions_named(text) == found
 
 

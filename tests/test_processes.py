@@ -45,7 +45,7 @@ sys.exit("not interrupted")
 """
 
 
-def test_signals_are_not_deferred_in_another_thread_whose_work_none_interrupts():
+def test_signals_are_not_deferred_in_a_thread_other_than_the_main_one():
     def work():
         with interrupts_deferred():
             seen.append(signal.getsignal(signal.SIGINT))

@@ -198,7 +198,7 @@ def test_the_text_about_a_margin_says_what_is_proved(margin, says, capsys):
     ("center", "margin", "position"),
     [("2.5", "0.49", 1), ("2.5", "0.51", 0), ("0.5", "0.1", 0), ("2", "0", 0), ("2.5", "0", 1)],
 )
-def test_classify_with_a_margin_says_the_position_where_nearer_is_contact(center, margin, position, capsys):
+def test_classify_with_a_margin_gives_contact_if_the_distance_is_less(center, margin, position, capsys):
     """A ball of radius 1 beside a waist of radius 1: the distance at 2.5 is 0.5; at 2 and at 0.5 the surfaces meet."""
     sizes = ["--alpha", "1", "--gamma", "2", "--b", "1", "--d", "1", "--center", center, "0", "0"]
     assert main(["classify", *sizes, "--json", "--margin", margin]) == 0

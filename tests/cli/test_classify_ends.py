@@ -46,7 +46,7 @@ def proof_of(capsys, row):
     return json.loads(out)["proof"], shown
 
 
-def test_a_multiplier_of_a_pair_with_ends_misses_the_whole_surface(capsys):
+def test_multiplier_of_a_pair_with_ends_proves_that_the_spheroid_misses_the_whole_surface(capsys):
     """The row stands for an upright ball beside a hyperboloid that ends at the height 3."""
     row = (3.0, 4.0, 1.0, 1.0, 9.0, 0.0, 4.0, 0.0, 0.0, 1.0, -math.inf, 3.0)
     proof, shown = proof_of(capsys, row)
@@ -56,7 +56,7 @@ def test_a_multiplier_of_a_pair_with_ends_misses_the_whole_surface(capsys):
 
 
 @pytest.mark.parametrize(("center", "low"), [((3.75, 0.0, 4.5), -math.inf), ((4.0, 0.0, -3.5), -2.0)])
-def test_pieces_of_heights_reach_from_end_to_end_and_the_spheroid_misses_each(capsys, center, low):
+def test_pieces_of_heights_cover_all_from_end_to_end_and_prove_that_the_spheroid_misses_each(capsys, center, low):
     """S + λH + μZ > 0 and μ ≥ 0; on the wall H is 0, and Z, the product about the piece's ends, at most 0 in it."""
     row = (3.0, 4.0, 1.0, 1.0, *center, 0.0, 0.0, 1.0, low, 3.0)
     proof, shown = proof_of(capsys, row)
@@ -102,13 +102,13 @@ def test_a_contact_that_no_rational_point_shows_is_proved_by_the_rule_in_the_hei
         (["--solid"], "--solid says that flat ends belong to the hyperboloid; give --z-min, --z-max or both"),
     ],
 )
-def test_heights_that_are_none_are_refused_in_a_sentence(capsys, words, sentence):
+def test_impossible_heights_are_refused_in_one_sentence(capsys, words, sentence):
     code, out, err = said(capsys, *PAIR, *words)
     assert (code, out) == (2, "")
     assert sentence in err
 
 
-def test_a_sweep_beside_ends_says_when_it_first_touches(capsys):
+def test_classify_gives_bounds_of_the_first_contact_of_a_sweep_beside_ends(capsys):
     code, out, _ = said(capsys, *PAIR[:-3], "3.75", "0", "9", "--end", "3.75", "0", "3.5", "--z-max", "3", "--json")
     found = json.loads(out)
     assert (code, found["hit"]) == (0, 1)
@@ -116,7 +116,7 @@ def test_a_sweep_beside_ends_says_when_it_first_touches(capsys):
 
 
 @pytest.mark.parametrize("ending", ["csv", "jsonl", "npy"])
-def test_tables_with_heights_are_classified_as_their_rows_alone(tmp_path, ending):
+def test_row_of_a_table_with_heights_is_answered_as_the_same_single_row(tmp_path, ending):
     rows = [COLUMNS | {"z_min": -1, "z_max": high, "solid": solid} for high in (3, 3.25, 9) for solid in (0, 1)]
     source, target = tmp_path / f"in.{ending}", tmp_path / f"out.{ending}"
     if ending == "csv":
@@ -138,7 +138,7 @@ def test_tables_with_heights_are_classified_as_their_rows_alone(tmp_path, ending
     assert found == alone
 
 
-def test_one_end_of_a_table_is_enough_and_infinity_is_a_word(tmp_path):
+def test_table_may_lack_the_column_of_an_end_and_an_end_may_be_the_word_inf(tmp_path):
     source, target = tmp_path / "in.csv", tmp_path / "out.csv"
     head, row = ",".join(COLUMNS), ",".join(map(str, COLUMNS.values()))
     source.write_text(f"{head},z_max,solid\n{row},3,true\n{row},inf,0\n{row},-Infinity,1\n")
@@ -146,7 +146,7 @@ def test_one_end_of_a_table_is_enough_and_infinity_is_a_word(tmp_path):
     assert [line.split(",")[9] for line in target.read_text().splitlines()[1:]] == ["0", "-1", "127"]
 
 
-def test_columns_by_name_are_broadcast_and_what_is_missing_of_heights_is_filled_in():
+def test_columns_by_name_are_broadcast_and_missing_heights_have_their_defaults():
     found = hypcheck.classify(COLUMNS | {"z_max": [3.0, 3.25, np.inf], "solid": [False, True, True]})
     assert found.tolist() == [1, 0, -1]
     assert hypcheck.classify(COLUMNS | {"z_min": 3.5}, question="interior") == 1

@@ -111,7 +111,7 @@ print(json.dumps([name for name in {heavy!r} if name in sys.modules]), file=sys.
         assert json.loads(done.stderr) == [], line
 
 
-def test_a_place_in_the_line_that_is_no_number_is_refused(monkeypatch, capsys):
+def test_completion_refuses_a_place_in_the_line_that_is_not_a_number(monkeypatch, capsys):
     for name, value in (asked("bash", "hypcheck verify", {}) | {"COMP_CWORD": "second"}).items():
         monkeypatch.setenv(name, value)
     assert main([]) == 2

@@ -222,7 +222,7 @@ def test_any_toml_value_of_a_setting_is_accepted_or_refused_in_one_sentence(valu
         ('see = "vendor"', 'a list of paths, such as ["vendor/lib"]'),
     ],
 )
-def test_a_value_that_is_no_list_is_refused_with_an_example_for_its_own_key(project, capsys, text, wanted):
+def test_setting_that_is_not_a_list_is_refused_with_an_example_for_its_key(project, capsys, text, wanted):
     project(text)
     assert main(["verify", "builtin:fast"]) == 2
     assert f"it must be {wanted}" in capsys.readouterr().err

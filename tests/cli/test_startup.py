@@ -87,7 +87,7 @@ def test_importing_the_package_loads_no_large_modules():
     assert loaded("import hypcheck; hypcheck.__version__") == set()
 
 
-def test_calling_classify_from_python_loads_numpy_alone():
+def test_calling_classify_from_python_loads_numpy_and_no_other_large_module():
     assert loaded("import hypcheck; hypcheck.classify([[1, 2, 1, 1, 2.5, 0, 0]])") <= {"numpy", "importlib.metadata"}
 
 

@@ -81,7 +81,7 @@ def test_each_wrong_answer_of_the_plain_formula_in_float64_has_a_cause():
     assert sum(causes.values()) == wrong
 
 
-def test_table_2_in_its_regime_errs_on_the_ring_and_by_rounding_alone():
+def test_table_2_in_its_regime_errs_only_on_the_ring_and_by_rounding():
     table_2 = FORMULAS["table-2"]
 
     def implementation(rows):

@@ -69,7 +69,7 @@ def test_wrong_oracle_for_hyperboloids_that_end_is_reported_with_their_heights(m
     assert len(found.disagreements[0].heights) == 3
 
 
-def test_roots_oracle_gets_all_upright_rows_by_default_a_tenth_as_many_tilted_ones_and_none_of_ends():
+def test_roots_oracle_gets_all_upright_rows_a_tenth_as_many_tilted_rows_and_no_rows_with_ends():
     families = [*select(PLAN.families), *oracles.frozen_families(PLAN)]
 
     def share(name):

@@ -161,7 +161,7 @@ def test_the_distance_of_an_upright_spheroid_is_the_same_with_and_without_its_ax
     assert with_axis.tolist() == flip_exponents(np.array([upright])).tolist()
 
 
-def test_every_wrong_answer_about_tilted_rows_is_judged_where_some_are_proved_at_once():
+def test_every_wrong_answer_about_tilted_rows_is_judged_even_if_float64_proves_only_some_wrong():
     row = [1.0, 4.0, 0.125, 0.25, 2.0, 0.0, 0.0, 0.0, 1.0, 0.0]  # a needle across the x axis, at the waist
     near = [*row[:4], 1.125 + 1e-12, *row[5:]]
     rows = np.array([row, near, row, [*row[:7], 0.0, 0.0, 1.0]])
@@ -174,7 +174,7 @@ def test_every_wrong_answer_about_tilted_rows_is_judged_where_some_are_proved_at
     assert not found[1].least
 
 
-def test_exponent_of_a_wrong_answer_about_a_tilted_spheroid_is_minus_infinity_at_a_tangency_alone():
+def test_exponent_of_a_wrong_answer_about_a_tilted_spheroid_is_minus_infinity_only_at_a_tangency():
     needle = [1.0, 4.0, 0.125, 0.25, 1.125, 0.0, 0.0, 0.0, 1.0, 0.0]  # across the x axis, it touches the throat
     rows = np.array([needle, [*needle[:4], 1.25, *needle[5:]]])
     truth, answers = np.array([0, 1], dtype=np.int8), np.array([1, 0], dtype=np.int8)

@@ -96,13 +96,13 @@ def test_coefficient_form_for_all_regimes_is_right_on_all_rows_of_these_tests():
 
 
 @pytest.mark.parametrize("name", PLACES)
-def test_remedy_of_a_place_alone_leaves_no_wrong_answer_of_a_formula_with_that_fault(name):
+def test_remedy_of_a_place_leaves_no_wrong_answer_of_a_formula_with_only_that_fault(name):
     assert wrong(PLACES[name]).size > 0
     assert wrong(mended(PLACES[name], [BY_NAME[name]])).size == 0
 
 
 @pytest.mark.parametrize("name", PLACES)
-def test_remedy_of_a_place_is_right_beside_each_other_and_all_at_once(name):
+def test_remedies_of_places_are_right_in_pairs_and_all_together(name):
     own, others = BY_NAME[name], [BY_NAME[other] for other in PLACES if other != name]
     for other in others:
         for pair in ([own, other], [other, own]):
@@ -112,7 +112,7 @@ def test_remedy_of_a_place_is_right_beside_each_other_and_all_at_once(name):
 
 
 @pytest.mark.parametrize("base", [PRINTED, TABLE_2], ids=["printed", "signs alone"])
-def test_no_remedy_alone_or_in_pairs_makes_a_false_clear_answer_that_was_not_there(base):
+def test_no_remedy_and_no_pair_of_remedies_adds_a_false_clear_answer(base):
     before = false_clear(base)
     causes = [BY_NAME[name] for name in PLACES]
     for some in [[each] for each in causes] + [list(pair) for pair in combinations(causes, 2)]:
@@ -210,7 +210,7 @@ FORMULA_ERRORS |= dict(coefficient_errors())
 
 
 @pytest.mark.parametrize("name", FORMULA_ERRORS)
-def test_remedy_of_a_slip_leaves_no_wrong_answer_of_a_formula_with_that_slip(name):
+def test_remedy_of_a_formula_error_leaves_no_wrong_answer_of_a_formula_with_that_error(name):
     # Half of the rows: a formula that errs does so in every regime.
     assert wrong(FORMULA_ERRORS[name], 2).size > 0
     assert wrong(applied(FORMULA_ERRORS[name], BY_NAME[name].remedy), 2).size == 0

@@ -79,7 +79,7 @@ def test_causes_of_swapped_columns_do_not_apply_to_tilted_spheroids():
     assert RULES["only-the-start"](answered(HITS, rows=leaning)).tolist() == STARTS.tolist()
 
 
-def test_a_cause_does_not_explain_a_contact_at_another_time_than_its_own():
+def test_cause_does_not_explain_a_hit_at_a_time_that_its_rule_does_not_give():
     times = np.where(STARTS == 1, 0.0, np.nan)
     assert RULES["only-the-start"](answered(STARTS, times)).tolist() == STARTS.tolist()
     later = RULES["only-the-start"](answered(STARTS, times + 0.5))
@@ -94,7 +94,7 @@ def explained(name, times):
 
 
 @pytest.mark.slow
-def test_times_counted_from_the_end_explain_such_times_and_no_right_ones():
+def test_cause_times_from_the_end_explains_times_counted_from_the_end_and_no_right_time():
     assert explained("times-from-the-end", 1 - FIRST)[ON_THE_WAY].all()
     assert not explained("times-from-the-end", FIRST)[ON_THE_WAY].any()
 
@@ -108,7 +108,7 @@ def test_slightly_wrong_times_are_distinguished_by_direction(name, off):
 
 
 @pytest.mark.parametrize("later", [0.1, 0.3])
-def test_sampled_times_are_those_of_contact_that_are_much_later_than_the_first(later):
+def test_cause_sampled_times_explains_times_of_contact_much_later_than_the_first(later):
     times = FIRST + later
     centres = ROWS[:, 4:7] + times[:, None] * (ROWS[:, 7:] - ROWS[:, 4:7])
     touches = np.zeros(COUNT, dtype=np.bool_)

@@ -192,7 +192,7 @@ def test_places_are_eighths_of_the_hyperboloids_sizes(unit):
     assert found == [[0, 0, 1, 0], [4, 3, 2, 1], [tally.FAR, tally.FAR, 1, 0]]
 
 
-def test_sizes_are_binned_by_their_octaves_one_or_several():
+def test_rows_with_one_size_or_several_are_counted_in_bins_by_the_octaves_of_their_sizes():
     rows = np.array([[8.0, 1, 1, 3, 0, 0, 0], [8.0, 1, 1, 3, 9, 9, 9]])
     amiss = np.array([True, False])
     assert tally.by_size(rows, amiss).as_lists() == [[3, -2, 2, 1]]
@@ -221,7 +221,7 @@ def test_line_of_a_worst_answer_has_the_time_of_a_sweep_and_bounds_of_its_first_
     assert (found.case, found.row[4], found.time, found.first) == ("mine/1", (5.0).hex(), UNSET, UNSET)
 
 
-def test_a_line_has_the_answers_of_an_implementation_under_test_alone_and_only_where_it_gave_some():
+def test_record_line_has_counts_of_answers_only_for_an_implementation_under_test_that_was_asked():
     whole = tallied(rows_near_contact(30))
     assert line_of(whole).answers
     assert line_of(EMPTY).answers is UNSET

@@ -133,7 +133,7 @@ def sockets():
         yield listening(descendants(os.getpid())) - before, client.scheduler.address, client.security
 
 
-def test_local_cluster_listens_on_loopback_alone_and_on_no_more_than_dask_needs(sockets):
+def test_local_cluster_listens_only_on_loopback_and_on_no_more_ports_than_dask_needs(sockets):
     """A socket for the scheduler, and two for each worker: its own and that of the process that begins it again."""
     found, _, _ = sockets
     assert {address for address, _ in found} == {"0100007F"}

@@ -91,7 +91,7 @@ def test_case_of_a_search_is_replayed_by_its_id():
     assert within(np.array([far.family.row(far.seed, far.index)[:7]])).all()
 
 
-def test_search_begins_farther_out_for_a_coarser_precision_and_beside_contact_for_none():
+def test_search_begins_farther_out_for_a_coarser_precision_and_at_rung_0_for_exact_precision():
     rungs = [first_of(Criterion(precision=name)) for name in ("exact", "binary128", "float64", "float32", "float16")]
     assert rungs == sorted(rungs)
     assert rungs[0] == 0
@@ -163,6 +163,6 @@ def test_search_is_the_same_twice_and_left_out_where_families_are_named_or_sizes
     assert searches(plan, replace(used, domain=sizes)) == ()
 
 
-def test_lines_say_of_a_right_answer_that_it_is_right():
+def test_kernel_answers_rows_of_the_border_search_as_the_exact_decision_does():
     rows = rows_at("search", 2, np.arange(0, 900 * RUNGS, 31))
     assert np.array_equal(classify(rows), float_filter.positions(rows))

@@ -36,7 +36,7 @@ def line_of(tmp_path, monkeypatch, text_reports):
     return run
 
 
-def test_every_slice_as_wide_as_the_run_says_holds_three_rows_and_of_two_coordinates_one(rows):
+def test_slice_of_the_reported_width_holds_three_rows_and_a_slice_of_two_coordinates_one_row(rows):
     found = evenness(rows, UPRIGHT)
     places = {name: COORDINATES[name](rows) for name in UPRIGHT}
     for low in np.linspace(0, 1 - found.one, 997):
@@ -63,7 +63,7 @@ def test_distance_to_contact_is_that_at_which_a_row_was_made(rows):
         assert np.abs(found - (np.arange(256) + 0.5) / 256)[known].max() < 0.01
 
 
-def test_rows_that_are_deep_in_contact_are_not_near_it(rows):
+def test_rows_deep_in_contact_do_not_count_in_the_slices_near_contact(rows):
     deep = rows.copy()
     deep[:, 2:4] *= 2
     assert evenness(np.concatenate([rows, deep]), UPRIGHT) == evenness(rows, UPRIGHT)
@@ -78,7 +78,7 @@ def test_spread_of_rows_reports_the_width_of_the_widest_untested_slice(rows, nam
     assert evenness(rows, UPRIGHT).one < 0.02
 
 
-def test_few_rows_leave_everything_open(rows):
+def test_two_rows_leave_slices_as_wide_as_the_whole_range_untested(rows):
     assert (evenness(rows[:2], UPRIGHT).one, evenness(rows[:2], UPRIGHT).two) == (1.0, 1.0)
 
 
@@ -95,14 +95,14 @@ def test_a_run_reports_how_evenly_it_tested_and_a_thorough_run_tests_ten_times_a
     assert thorough.slices["strata"].two < usual.slices["strata"].two
 
 
-def test_rows_outside_the_domain_do_not_count(line_of):
+def test_rows_outside_the_domain_do_not_count_in_the_slices_of_a_run(line_of):
     everything = line_of("--count", "3").slices["strata"]
     some = line_of("--count", "3", "--domain", '{"ratio": [0.125, 8]}', families="strata,coincidences").slices["strata"]
     assert some.rows < everything.rows
     assert some.one > everything.one
 
 
-def test_a_run_that_gave_up_says_nothing_of_rows_that_it_did_not_ask(tmp_path, monkeypatch, text_reports):
+def test_run_that_gave_the_implementation_up_reports_no_slices_and_no_coincidences(tmp_path, monkeypatch, text_reports):
     (tmp_path / "ends.py").write_text("import os\n\n\ndef f(rows):\n    os._exit(0)\n")
     monkeypatch.chdir(tmp_path)
     words = (

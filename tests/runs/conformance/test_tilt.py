@@ -74,7 +74,7 @@ def test_a_right_implementation_of_tilted_spheroids_passes_on_upright_and_tilted
     assert line.retest.asked > 30
 
 
-def test_an_implementation_that_answers_an_axis_without_a_direction_is_wrong_on_the_tilted_invalid_rows_alone(
+def test_implementation_that_answers_an_axis_without_direction_is_wrong_only_on_tilted_invalid_rows(
     gate,
 ):
     code, record = gate(leaning.refuses_upright_rows_alone, "--families", "ring", count="0")
@@ -96,7 +96,7 @@ def test_tilted_invalid_rows_are_tested_only_if_refuses_and_tilt_are_declared():
     assert invalid_rows(Description("any", tilt=True)) == ()
 
 
-def test_an_implementation_that_ignores_the_axis_is_wrong_on_tilted_spheroids_alone_and_the_record_has_the_axis(
+def test_implementation_that_ignores_the_axis_is_wrong_only_on_tilted_spheroids_and_the_record_has_the_axis(
     gate, tmp_path
 ):
     code, record = gate(leaning.upright, "--families", f"ring,{LEANING}")

@@ -75,7 +75,7 @@ def test_a_hunt_tests_ends_if_the_implementation_takes_heights_and_keeps_its_fin
 
 
 @pytest.mark.thorough  # it takes 7,400 rows to get there
-def test_a_hunt_searches_beside_the_wrong_answers_of_what_takes_heights_and_no_axis(capsys, tmp_path):
+def test_hunt_continues_beside_wrong_answers_of_an_implementation_that_takes_heights_but_no_axis(capsys, tmp_path):
     spec = program(tmp_path, A_LITTLE_SMALLER)
     assert main(["hunt", spec, "--queries", "7500", "--show", "1", "--isolate", "off"]) == 1
     assert "7,500 rows asked" in capsys.readouterr().out

@@ -57,7 +57,7 @@ def test_hunt_options_replace_what_the_implementation_declares(capsys):
     assert "1e+06 u" in output
 
 
-def test_a_hunt_counts_answers_that_say_nothing(capsys, built_in):
+def test_hunt_prints_the_number_of_answers_cannot_say(capsys, built_in):
     code, output, _ = told(capsys, "hunt", built_in(cannot_say_above), "--queries", "300")
     abstained = [line for line in output.splitlines() if line.endswith(' "cannot say"')]
     assert code == Exit.HELD
@@ -66,7 +66,7 @@ def test_a_hunt_counts_answers_that_say_nothing(capsys, built_in):
     assert 0 < int(abstained[0].split()[0]) < 300
 
 
-def test_a_hunt_shows_the_row_at_which_an_implementation_ends_and_none_of_those_that_it_did_not_ask(capsys):
+def test_hunt_shows_the_row_that_ends_the_implementation_and_no_row_that_was_not_tested(capsys):
     dies = "python:tests.runs.replay.faulty:dies"
     code, output, _ = told(capsys, "hunt", dies, "--queries", "40", "--restarts", "0")
     assert code == Exit.WRONG

@@ -158,7 +158,7 @@ def test_characters_counts_those_of_the_shortest_decimal(value, count):
     assert characters(value) == count
 
 
-def test_roundings_of_a_value_are_ever_longer_numbers_around_it():
+def test_roundings_of_a_value_are_numbers_beside_it_with_more_and_more_digits():
     values = list(rounded(2.718281828459045))
     assert values[:6] == [3, 4, 2, 2.7, 2.8, 2.6]
     assert all(abs(value - 2.718281828459045) < 2 for value in values)

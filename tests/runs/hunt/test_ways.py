@@ -77,7 +77,7 @@ def test_neighbours_of_a_sweep_are_valid_and_brought_to_the_border_of_contact():
 
 
 @pytest.mark.slow
-def test_the_simplest_sweep_that_fails_alike_is_short_and_its_answer_is_proved(capsys):
+def test_minimised_sweep_is_short_and_its_right_answer_is_proved(capsys):
     assert main(["minimise", "builtin:passage-sampled-4", MISSED]) == 0
     said = capsys.readouterr().out
     (shown,) = re.findall(r"^   row +(\S+)  \(alpha, .*, x1, y1, z1\)$", said, flags=re.MULTILINE)

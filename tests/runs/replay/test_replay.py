@@ -143,7 +143,7 @@ def test_replay_judges_answers_to_invalid_rows(capsys):
     assert "does not declare" in capsys.readouterr().err
 
 
-def test_replay_of_an_invalid_row_shows_the_fault_of_what_promised_to_refuse_it(capsys, tmp_path):
+def test_replay_of_an_invalid_row_shows_the_fault_of_an_implementation_that_promised_to_refuse_it(capsys, tmp_path):
     (tmp_path / "dies.py").write_text(
         "hypcheck = {'refuses': True}\ndef f(rows):\n    raise ValueError('no such row')\n"
     )

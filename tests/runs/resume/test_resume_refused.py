@@ -180,7 +180,7 @@ def test_an_implementation_of_very_many_files_is_hashed_in_part(beside):
 
 
 @pytest.mark.parametrize("content", [b"", b"\x7fELF", b"\x7fELF\x02\x01\x01" + bytes(57), b"\x7fELF" + b"\xff" * 200])
-def test_a_file_that_only_begins_as_a_library_is_hashed_alone(content, beside):
+def test_file_that_only_begins_like_a_library_is_hashed_without_other_files(content, beside):
     Path("lib.so").write_bytes(content)
     assert list(fingerprints(["library:lib.so"]).values()) == [sha256(Path("lib.so"))]
     assert not_hashed(["library:lib.so"]) == []
