@@ -46,7 +46,7 @@ REPORTS = {
 
 
 def kept_formats() -> list[str]:
-    """The formats that every run writes."""
+    """Return the names of the formats that every run writes."""
     return [name for name, report in REPORTS.items() if report.kept]
 
 

@@ -36,13 +36,13 @@ BEYOND = "reliable beyond"
 """The beginning of a need that is about a distance."""
 
 NEARLY = 8.0
-"""Three octaves, as wide as a point of the curves: for less, a slower method is not advised."""
+"""A factor of distances: three octaves, the width of a point of the curves. Smaller differences are ignored."""
 
 IN_FLOATS = ("paper", "algebraic", "roots", "foreign")
 """Kinds of methods that promise no more than their floats allow."""
 
 EVERYWHERE, EVERYDAY = "all workloads", "everyday scenes"
-"""The workloads of a need: all, or those that were timed; the others exist because methods err on them."""
+"""The workloads of a need: all of them, or those that were timed. The others exist because methods err on them."""
 
 POSITION, CLEAR = "position", "clear or not"
 """The question: one of three positions, or whether the bodies are apart."""
@@ -50,7 +50,11 @@ POSITION, CLEAR = "position", "clear or not"
 
 @dataclass(frozen=True, slots=True)
 class Need:
-    """A user's need: the question, the workloads, and the `distance` from contact below which errors do not matter."""
+    """What a user needs of a method.
+
+    what: the need in words. where: the workloads that it covers. asked: the question. distance: the distance from
+    contact below which errors do not matter. mode: whether rows are sent in a batch or one by one.
+    """
 
     what: str
     where: str = EVERYWHERE
@@ -94,7 +98,10 @@ class Recommendations:
 
 
 def recommendations(record: Record) -> Recommendations:
-    """The advice of a record; none if it has no times. Among needs with the same advice only the strictest is kept."""
+    """Return the advice of a record; it is empty if the record has no times, or is about sweeps.
+
+    If several needs lead to the same advice, only that for the strictest need is kept.
+    """
     timed = timed_workloads(record)
     advice: list[Advice] = []
     unmet: list[Need] = []
@@ -113,7 +120,7 @@ def recommendations(record: Record) -> Recommendations:
 
 
 def _covers(old: Advice, new: Advice) -> bool:
-    """Whether the same method was advised for a stricter need, so that the new advice adds nothing."""
+    """Decide whether `old` advises the same method for a stricter need, so that `new` adds nothing."""
     questions, where = (old.need.asked, new.need.asked), (old.need.where, new.need.where)
     stricter = old.need.distance <= new.need.distance and questions in _COVERED and where in _COVERED
     wider = not old.errs or (old.errs, *where) == (new.errs, EVERYDAY, EVERYDAY)
@@ -125,10 +132,11 @@ _COVERED = (
     (EVERYWHERE, EVERYDAY),
     (POSITION, CLEAR),
 )
-"""Pairs of needs: advice for the first holds for the second."""
+"""Pairs of workloads, or of questions: advice for the first of a pair also holds for the second."""
 
 
 def _needs(methods: Sequence[MeasuredMethod], timed: Sequence[str]) -> Iterator[tuple[Need, list[MeasuredMethod]]]:
+    """Yield each need with the methods that meet it."""
     position = [method for method in methods if method.line.question == "position"]
     clear = [method for method in methods if method.line.question in ("position", "exterior")]
     exact = [method for method in position if method.never_wrong]
@@ -160,7 +168,10 @@ def _needs(methods: Sequence[MeasuredMethod], timed: Sequence[str]) -> Iterator[
 
 
 def _nearest(what: str, methods: Sequence[MeasuredMethod]) -> Iterator[tuple[Need, list[MeasuredMethod]]]:
-    """The methods that are reliable nearest to contact, or at most NEARLY times as far from it."""
+    """Yield one need: reliability at most NEARLY times as far from contact as the most reliable of these methods.
+
+    It comes with the methods that meet it. Yields nothing if no method is reliable at any distance.
+    """
     best = min((method.reliable_above for method in methods), default=math.inf)
     if best < math.inf:
         distance = NEARLY * best
@@ -171,7 +182,7 @@ def _nearest(what: str, methods: Sequence[MeasuredMethod]) -> Iterator[tuple[Nee
 def _reliable(
     methods: Iterable[MeasuredMethod], distance: float, names: Sequence[str] | None = None
 ) -> list[MeasuredMethod]:
-    """The methods that are reliable above the distance on all workloads, or on the named ones."""
+    """Return the methods that are reliable above the distance on all workloads, or on those of these `names`."""
 
     def is_reliable(method: MeasuredMethod) -> bool:
         lines = [line for name, line in method.accuracy.items() if names is None or name in names]
@@ -181,7 +192,7 @@ def _reliable(
 
 
 def _fastest(record: Record, methods: Iterable[MeasuredMethod], workload: str, mode: str) -> list[MeasuredMethod]:
-    """The fastest method, then the methods as fast within the noise, ordered by their ratios."""
+    """Return the fastest method, then those as fast within the noise, by their ratios; empty if none was timed."""
     ranked = by_ratio(methods, workload, mode)
     if not ranked:
         return []
@@ -198,7 +209,10 @@ def _fastest(record: Record, methods: Iterable[MeasuredMethod], workload: str, m
 
 
 def dominated_methods(record: Record) -> list[tuple[MeasuredMethod, MeasuredMethod]]:
-    """Methods that another method of the same tier and question beats: certainly faster, as reliable near contact."""
+    """Return each method that another one beats, with the fastest of those that beat it.
+
+    A method beats another of the same tier and question if it is certainly faster, and errs no farther from contact.
+    """
     methods = [method for method in measured_methods(record) if method.line.kind != "bounding"]
     timed = [name for name in workloads(record) if any((name, BATCH) in method.speed for method in methods)]
     pairs = []
@@ -210,6 +224,7 @@ def dominated_methods(record: Record) -> list[tuple[MeasuredMethod, MeasuredMeth
 
 
 def _beats(other: MeasuredMethod, method: MeasuredMethod, timed: Sequence[str]) -> bool:
+    """Decide whether `other` is certainly faster than `method` on these workloads, and errs no farther from contact."""
     if (other.tier, other.line.question) != (method.tier, method.line.question):
         return False
     if (method.exact and not other.exact) or method.accuracy.keys() != other.accuracy.keys():
@@ -231,7 +246,7 @@ _HOW = document.prose(
 
 
 def advice_sections(record: Record) -> Iterator[document.Section]:
-    """The advice as a section; none if nothing was timed."""
+    """Yield the section that states the advice; nothing if there is no advice."""
     chosen = recommendations(record)
     if not chosen.advice:
         return
@@ -269,16 +284,16 @@ def advice_sections(record: Record) -> Iterator[document.Section]:
 
 
 def advice_facts(record: Record) -> Iterator[str]:
-    """The advice of a benchmark, a sentence without a full stop for each need."""
+    """Yield the advice of a benchmark: a sentence without a full stop for each need."""
     other = reference(record) or "the reference"
     for line in recommendations(record).advice:
         yield f"{line.need.words}: {line.use.name}, {pace(line.ratio, other)}"
 
 
 def _price_sentences(record: Record) -> Iterator[document.Text]:
-    """The price of exactness in a batch: the time of the fastest never-wrong method over the fastest other's time.
+    """Yield the price of exactness in a batch: the fastest never-wrong method's time, over the fastest other's.
 
-    Both are the fastest of their kind on the first timed workload; empty if a kind has no method.
+    Both are the fastest of their kind on the first timed workload. Yields nothing if a kind has no method.
     """
     timed, known = timed_workloads(record), workloads(record)
     ranked = by_ratio(measured_methods(record), timed[0]) if timed else []
@@ -302,7 +317,7 @@ def _price_sentences(record: Record) -> Iterator[document.Text]:
 
 
 def own_method_facts(record: Record) -> Iterator[str]:
-    """The user's methods of a benchmark: the distance from contact at which each errs, and its time."""
+    """Yield sentences about each of the user's methods: where its errors end, and its time on each workload."""
     methods, other, known = measured_methods(record), reference(record) or "the reference", workloads(record)
     for method in methods:
         if not method.foreign:
@@ -320,7 +335,7 @@ def own_method_facts(record: Record) -> Iterator[str]:
 
 
 def best_rival_facts(record: Record) -> Iterator[str]:
-    """Each of the user's methods, compared with the fastest method that errs no farther from contact."""
+    """Compare each of the user's methods with the fastest other method that errs no farther from contact."""
     methods, timed = measured_methods(record), timed_workloads(record)
     for method in methods:
         own = method.ratio(timed[0]) if timed else None
@@ -345,14 +360,14 @@ def best_rival_facts(record: Record) -> Iterator[str]:
 
 
 def own_method_sections(record: Record) -> Iterator[document.Section]:
-    """The user's methods: errors, times, a comparison with the best equally reliable one; none without such methods."""
+    """Yield the section about the user's methods: comparison, errors and times; nothing without such methods."""
     items = [f"{fact}." for fact in (*best_rival_facts(record), *own_method_facts(record))]
     if items:
         yield document.Section("Your methods", (document.bullets(items),))
 
 
 def advised_method_sections(record: Record) -> Iterator[document.Section]:
-    """A section that describes the advised methods."""
+    """Yield the section that describes the advised methods; nothing if there is no advice."""
     advised = {advice.use.name: advice.use for advice in recommendations(record).advice}
     if advised:
         items: list[document.Text] = [
@@ -368,6 +383,7 @@ def advised_method_sections(record: Record) -> Iterator[document.Section]:
 
 
 def _advice_table(advice: tuple[Advice, ...], reference: str | None) -> document.Block:
+    """Make the table of the advice; `reference` names the method that the ratios refer to."""
     before, after = (
         document.columns("you need | use | in | asked"),
         document.columns("# ns a query | # judged | as fast | not reliable on"),
@@ -377,6 +393,7 @@ def _advice_table(advice: tuple[Advice, ...], reference: str | None) -> document
 
 
 def _advice_row(advice: Advice) -> document.Row:
+    """Make the row of the table for one need and its advised method."""
     line = advice.use.speed[advice.workload, advice.need.mode]
     return (
         advice.need.what,

@@ -26,7 +26,7 @@ Timed = TypeVar(
 
 
 class TimedFacts(LineFacts[Timed]):
-    """A method on a workload in a mode."""
+    """The facts of a line about a method on a workload in a mode."""
 
     @property
     def name(self) -> str:
@@ -355,7 +355,7 @@ FACTS: Mapping[type[RecordLine], type[LineFacts[Any]]] = {
 
 
 def facts_of(record: Record, *kinds: type[RecordLine]) -> list[LineFacts[Any]]:
-    """The facts of all lines, or of the lines of these types, in the order of the record."""
+    """Return the facts of all lines, or of the lines of these types, in the order of the record."""
     context = RecordContext(record)
     return [
         FACTS[type(line)](line, context)
@@ -365,17 +365,17 @@ def facts_of(record: Record, *kinds: type[RecordLine]) -> list[LineFacts[Any]]:
 
 
 def failures_of(record: Record, *kinds: type[RecordLine]) -> list[Failure]:
-    """The failures of all lines of these types, in the order of the record."""
+    """Return the failures of all lines of these types, in the order of the record."""
     return [failure for line_facts in facts_of(record, *kinds) for failure in line_facts.failures()]
 
 
 def sentences_of(record: Record, *kinds: type[RecordLine]) -> Iterator[str]:
-    """The sentences of all lines of these types."""
+    """Return an iterator over the sentences of all lines of these types."""
     return (sentence for line_facts in facts_of(record, *kinds) for sentence in line_facts.sentences())
 
 
 def clauses_of(record: Record, *kinds: type[RecordLine]) -> Iterator[str]:
-    """A clause of the verdict on a passing run for each of these types of lines that the record has."""
+    """Yield a clause of the verdict on a passing run for each of these types of lines that the record has."""
     for kind in kinds:
         together = record.of(kind)
         clause = FACTS[kind].clause(together) if together else ""
@@ -384,7 +384,7 @@ def clauses_of(record: Record, *kinds: type[RecordLine]) -> Iterator[str]:
 
 
 def benchmark_failures(record: Record) -> Iterator[Failure]:
-    """A benchmark's failures: exact methods that erred, answers that changed during the timing, slowness, noise."""
+    """Yield a benchmark's failures: exact methods that erred, refused methods, wrong kernels, slowness, noise."""
     for line_facts in accuracy_facts(record):
         yield from line_facts.failures()
     for kind in (measurements.RefusedLine, measurements.ForestLine, measurements.SceneLine):
@@ -398,14 +398,14 @@ def benchmark_failures(record: Record) -> Iterator[Failure]:
 
 
 def accuracy_facts(record: Record) -> list[LineFacts[Any]]:
-    """The facts about answers, method by method."""
+    """Return the facts of all lines about answers, method by method."""
     context = RecordContext(record)
     methods = context.methods.values()
     return [AccuracyFacts(line, context) for method in methods for line in method.accuracy.values()]
 
 
 def _without_baseline(record: Record) -> Iterator[Failure]:
-    """The failure of a run with a baseline in which no speed could be compared with it."""
+    """Yield the failure of a run with a baseline in which no speed was compared with it."""
     if record.header.options.get("baseline") and not any(line.gates for line in record.of(measurements.ComparisonLine)):
         message = "nothing was compared with the baseline: no gated time was measured in both runs"
         yield Failure(MEASUREMENT, "baseline", "all workloads", INCONCLUSIVE, message)

@@ -80,13 +80,13 @@ class RatioChange:
 
 
 def _bad(group: GroupLine) -> float:
-    """The share of tested cases that are not right."""
+    """Return the share of tested cases that are not right."""
     tested = sum(cases for status, cases in group.counts.items() if status != "skipped")
     return 1 - group.counts.get("right", 0) / tested if tested else 0.0
 
 
 def status_changes(before: Record, after: Record) -> list[StatusChange]:
-    """The families of both records whose counts by status or worst errors differ; worse families come first."""
+    """Return the families of both records whose counts by status or worst errors differ, worse families first."""
     changed = []
     for (name, _), (old, new) in _shared(_groups(before), _groups(after)):
         all_right = set(old.counts) == set(new.counts) == {"right"}
@@ -96,6 +96,7 @@ def status_changes(before: Record, after: Record) -> list[StatusChange]:
 
 
 def _groups(record: Record) -> dict[tuple[str, str], GroupLine]:
+    """Return the group lines of a record by the implementation's name in reports and the family."""
     return {
         (implementation.name, group.family): group
         for implementation in implementations(record)
@@ -104,22 +105,24 @@ def _groups(record: Record) -> dict[tuple[str, str], GroupLine]:
 
 
 def accuracy_changes(before: Record, after: Record) -> list[AccuracyChange]:
-    """Methods of both records whose errors on a workload differ."""
+    """Return the methods of both records whose errors on a workload differ."""
     pairs = (pair for _, pair in _shared(_accuracies(before), _accuracies(after)))
     return [AccuracyChange(old, new) for old, new in pairs if _errors(old) != _errors(new)]
 
 
 def _errors(line: AccuracyLine) -> tuple[int, int, float]:
+    """Return what is compared about two lines: wrong answers, all answers, and where the errors end."""
     return line.wrong, line.asked, line.reliable_above
 
 
 def ratio_changes(before: Record, after: Record) -> list[RatioChange]:
-    """Every method that both records have timed against their reference; methods with a difference come first."""
+    """Return every ratio that both records have: slower methods first, then faster ones, then unclear ones."""
     ratios = [RatioChange(*key, *pair) for key, pair in _shared(_ratios(before), _ratios(after))]
     return sorted(ratios, key=lambda change: [SLOWER, FASTER, UNCLEAR].index(change.verdict))
 
 
 def _ratios(record: Record) -> dict[tuple[str, str, str], Ratio]:
+    """Return the ratios of a record by method, workload and mode: those of a benchmark, and those of a verification."""
     measured = {
         (line.method, line.workload, line.mode): (line.ratio, line.ratio_ci95)
         for line in record.of(SpeedLine)
@@ -134,11 +137,12 @@ def _ratios(record: Record) -> dict[tuple[str, str, str], Ratio]:
 
 
 def _accuracies(record: Record) -> dict[tuple[str, str], AccuracyLine]:
+    """Return the accuracy lines of a record by method and workload."""
     return {(line.method, line.workload): line for line in record.of(AccuracyLine)}
 
 
 def only_in_one(before: Record, after: Record) -> Iterator[str]:
-    """Sentences about implementations and methods that one record lacks, and about families lacking in shared ones."""
+    """Yield sentences about implementations and methods that one record lacks, and about families of shared ones."""
     old, new = _groups(before), _groups(after)
     measured = [{line.method for line in record.of(AccuracyLine)} for record in (before, after)]
     for mine, others, which in ((old, new, "the other record"), (new, old, "this record")):
@@ -152,7 +156,7 @@ def only_in_one(before: Record, after: Record) -> Iterator[str]:
 
 
 def conditions(before: Record, after: Record) -> Iterator[str]:
-    """Sentences about other differences of the runs, which may explain changes of the methods."""
+    """Yield sentences about other differences between the runs, which may explain changes of the methods."""
     for name in ("processor", "architecture", "system", "cores"):
         old, new = (getattr(record.header.machine, name) for record in (before, after))
         if old != new:
@@ -169,7 +173,7 @@ def conditions(before: Record, after: Record) -> Iterator[str]:
 
 
 def _differing(before: Mapping[str, Any], after: Mapping[str, Any]) -> Iterator[tuple[str, object, object]]:
-    """The keys whose values differ, with both values: "none" for a missing one."""
+    """Yield the keys whose values differ, with both values; "none" stands for a missing value."""
     for name in dict.fromkeys([*before, *after]):
         old, new = before.get(name), after.get(name)
         if old != new:
@@ -177,7 +181,7 @@ def _differing(before: Mapping[str, Any], after: Mapping[str, Any]) -> Iterator[
 
 
 def _shared(before: Mapping[Key, Value], after: Mapping[Key, Value]) -> list[tuple[Key, tuple[Value, Value]]]:
-    """The keys that both have, with their two values."""
+    """Return the keys that both have, each with its two values."""
     return [(key, (before[key], after[key])) for key in before if key in after]
 
 
@@ -186,7 +190,7 @@ MOST_CONDITIONS = 3
 
 
 def change_facts(record: Record, against: Record) -> Iterator[str]:
-    """The changes against another record, the most important of each kind by name."""
+    """Yield sentences about the changes against another record; they name the most important of each kind."""
     yield f"against the run of {against.header.started}, which ended: {verdict(against).sentence}"
     statuses, ratios = status_changes(against, record), ratio_changes(against, record)
     accuracies = accuracy_changes(against, record)
@@ -215,7 +219,7 @@ _RATIOS = document.prose(
 
 
 def change_section(record: Record, against: Record) -> document.Section:
-    """The section of the changes; a sentence if nothing changed."""
+    """Make the section about the changes; it has a sentence instead of tables if no case ended otherwise."""
     statuses, accuracies = status_changes(against, record), accuracy_changes(against, record)
     ratios = ratio_changes(against, record)
     began = against.header.started
@@ -237,6 +241,7 @@ def change_section(record: Record, against: Record) -> document.Section:
 
 
 def _counts(group: GroupLine) -> str:
+    """Return the counts of a family by status as a text; "nothing" if there are none."""
     return listed([f"{cases:,} {status}" for status, cases in group.counts.items()]) or "nothing"
 
 
@@ -260,6 +265,7 @@ _ERROR_CELLS: document.Cells[AccuracyChange] = {
 
 
 def _factor(change: RatioChange) -> document.TableCell:
+    """Make the cell with the new ratio divided by the old one."""
     factor = change.after[0] / change.before[0] if change.before[0] else 0.0
     return document.TableCell(f"× {figure(factor)}" if factor else document.MISSING, factor)
 

@@ -65,11 +65,11 @@ class PlacedFailure:
 
 
 UNKNOWN = CodePlace(FILE)
-"""The place of what no file of the code under test is known for: the record, since readers require a place."""
+"""The place of a failure if its file is not known: the record, since readers require a place."""
 
 
 def placed_failures(record: Record) -> list[PlacedFailure]:
-    """Every failure of a run, worst first; if the run ended badly, this is the first failure."""
+    """Return every failure of a run, the worst first; if the run ended badly, that is the first failure."""
     failed = failures(record)
     ended = ended_badly(record, failed)
     known = dict(_places(record))
@@ -84,7 +84,7 @@ def placed_failures(record: Record) -> list[PlacedFailure]:
 
 
 def _places(record: Record) -> Iterator[tuple[str, CodePlace]]:
-    """The known places of implementations under test, by their names in reports."""
+    """Yield the implementations under test whose place in the code is known: the name in reports, and the place."""
     hashes = record.header.files or {}
     for tested in under_test(record):
         try:
@@ -97,7 +97,10 @@ def _places(record: Record) -> Iterator[tuple[str, CodePlace]]:
 
 
 def _file(spec: Spec, hashes: Mapping[str, str]) -> str | None:
-    """The file of an implementation; of a command, the first argument that names a file, else the program's path."""
+    """Return an implementation's file, None if it is not known.
+
+    Of a command it is the first argument that names a file of the record, else the program's own path.
+    """
     first, *arguments = spec.words
     match spec.kind:
         case "library":
@@ -116,14 +119,14 @@ def _file(spec: Spec, hashes: Mapping[str, str]) -> str | None:
 
 
 def _relative(file: str) -> str:
-    """The file, relative to the working directory if it is inside, with forward slashes."""
+    """Return the path with forward slashes, relative to the working directory if it is inside."""
     here = Path.cwd()
     path = Path(file)
     return (path.relative_to(here) if path.is_relative_to(here) else path).as_posix()
 
 
 def _line(spec: Spec, file: str, recorded: str | None) -> int | None:
-    """The line of a Python function in its file; None if the file has changed, or does not define it by name."""
+    """Find the line of a Python function in its file; None if the file has changed, or does not define it by name."""
     if spec.kind != "python" or recorded is None or sha256(Path(file)) != recorded:
         return None
     name = re.escape(spec.words[1])
@@ -150,7 +153,7 @@ _SUBJECTS = {
 
 
 def render_sarif(record: Record) -> bytes:
-    """results.sarif, in SARIF 2.1.0, as JSON in UTF-8: a result for each failure, none if the run passed.
+    """Render results.sarif, in SARIF 2.1.0, as JSON in UTF-8: a result for each failure, none if the run passed.
 
     A note for each cause of wrong answers follows; its rule has the id that `hypcheck explain` takes.
     """
@@ -190,11 +193,13 @@ def render_sarif(record: Record) -> bytes:
 
 
 def _rule(rule: str) -> dict[str, Any]:
+    """Make the SARIF rule of a failure; its id is the subject and the kind."""
     subject, _, kind = rule.partition("/")
     return {"id": rule, "shortDescription": {"text": f"{_SUBJECTS[subject]}: {kind}."}}
 
 
 def _result(placed: PlacedFailure, rule: int) -> dict[str, Any]:
+    """Make the SARIF result of a failure; `rule` is the number of its rule in the list of rules."""
     return {
         "ruleId": placed.rule,
         "ruleIndex": rule,
@@ -206,6 +211,7 @@ def _result(placed: PlacedFailure, rule: int) -> dict[str, Any]:
 
 
 def _cause_rule(facts: CauseFacts) -> dict[str, Any]:
+    """Make the SARIF rule of a cause, with its remedy as help."""
     about = f"; {facts.command}" if facts.command else ""
     return {
         "id": sentence(facts.name),
@@ -215,7 +221,7 @@ def _cause_rule(facts: CauseFacts) -> dict[str, Any]:
 
 
 def _cause_result(facts: CauseFacts, rule: int, place: CodePlace) -> dict[str, Any]:
-    """A note about a cause; the failures that it explains are separate results."""
+    """Make a note about a cause; the failures that it explains are separate results."""
     digest = hashlib.sha256(f"cause\0{facts.line.spec}\0{facts.name}".encode("utf-8", "replace")).hexdigest()
     return {
         "ruleId": sentence(facts.name),
@@ -228,14 +234,14 @@ def _cause_result(facts: CauseFacts, rule: int, place: CodePlace) -> dict[str, A
 
 
 def _location(place: CodePlace) -> dict[str, Any]:
-    """The place as a URI reference; readers take a file without a line as its first one."""
+    """Make the SARIF location of a place; a place without a line is at the file's first line."""
     uri = quote(place.file.encode("utf-8", "replace"))
     absolute = {"uri": f"file://{uri}"} if uri.startswith("/") else {"uri": uri, "uriBaseId": "%SRCROOT%"}
     return {"artifactLocation": absolute, "region": {"startLine": place.line or 1}}
 
 
 def render_gitlab(record: Record) -> bytes:
-    """gl-code-quality-report.json as JSON in UTF-8: an issue for each failure; an empty list if the run passed.
+    """Render gl-code-quality-report.json as JSON in UTF-8: an issue for each failure, an empty list if the run passed.
 
     The format is GitLab's subset of the Code Climate report: a list of issues, each with a description, the name of its
     check, a fingerprint, a severity and a place.
@@ -254,14 +260,14 @@ def render_gitlab(record: Record) -> bytes:
 
 
 def render_badge(record: Record) -> bytes:
-    """badge.json: the result of the run, in the schema of shields.io's endpoint badge, version 1."""
+    """Render badge.json: the result of the run, in the schema of shields.io's endpoint badge, version 1."""
     message, color = _badge_text(record)
     badge = {"schemaVersion": 1, "label": "hypcheck", "message": message, "color": color}
     return (json.dumps(badge, ensure_ascii=False) + "\n").encode("utf-8")
 
 
 def _badge_text(record: Record) -> tuple[str, str]:
-    """The right half of the badge, and its colour."""
+    """Return the text of the badge's right half, and its colour."""
     if record.footer is None or record.footer.exit_code in EXITS_UNFINISHED:
         return "unfinished", "lightgrey"
     if verdict(record).passed:
@@ -286,12 +292,12 @@ _PROPERTY = {**_DATA, ":": "%3A", ",": "%2C"}
 
 
 def on_github(environment: Mapping[str, str]) -> bool:
-    """Whether these environment variables show a step of GitHub Actions."""
+    """Decide by these environment variables whether this is a step of GitHub Actions."""
     return environment.get("GITHUB_ACTIONS") == "true"
 
 
 def harmless(lines: Iterable[str]) -> Iterator[str]:
-    """The lines, between commands that suspend and resume the processing of commands."""
+    """Yield the lines between two commands, which suspend and resume the processing of commands."""
     token = secrets.token_hex(16)
     yield f"::stop-commands::{token}"
     yield from lines
@@ -299,7 +305,7 @@ def harmless(lines: Iterable[str]) -> Iterator[str]:
 
 
 def error_lines(record: Record) -> list[str]:
-    """GitHub's annotations: a line for each failure of the run, MOST_ANNOTATIONS at most."""
+    """Return GitHub's annotations: a line for each failure of the run, MOST_ANNOTATIONS at most."""
     failed = failures(record)
     shown = failed if len(failed) <= MOST_ANNOTATIONS else failed[: MOST_ANNOTATIONS - 1]
     rest = len(failed) - len(shown)
@@ -312,20 +318,26 @@ def error_lines(record: Record) -> list[str]:
 
 
 def _message(failure: Failure) -> list[str]:
+    """Return the lines of an annotation: the failure's message, and the command that shows it if there is one."""
     return [failure.message, *([f"replay: {failure.replay}"] if failure.replay else [])]
 
 
 def _annotation(title: str, lines: Iterable[str]) -> str:
+    """Make the workflow command that shows an error with this title and these lines of text."""
     message = "\n".join(map(escaped, lines))
     return f"::error title={_escaped(escaped(title), _PROPERTY)}::{_escaped(message, _DATA)}"
 
 
 def _escaped(text: str, escapes: Mapping[str, str]) -> str:
+    """Replace the characters that have an escape in `escapes`."""
     return "".join(escapes.get(character, character) for character in text)
 
 
 def append_summary(record: Record, path: Path) -> str | None:
-    """Append the report to a step's summary; returns the reason if this fails, which does not fail the run."""
+    """Append the report to a step's summary.
+
+    Returns None, or the reason why this failed; that does not fail the run.
+    """
     try:
         already = path.stat().st_size if path.exists() else 0
         with path.open("ab") as file:
@@ -336,7 +348,10 @@ def append_summary(record: Record, path: Path) -> str | None:
 
 
 def fitting(report: bytes, room: int) -> bytes:
-    """The report; if it has more than `room` bytes, it is cut at the end of a line, with a note."""
+    """Return the report; if it has more than `room` bytes, it is cut at the end of a line, with a note.
+
+    Returns b"" if not even one line and the note fit.
+    """
     if len(report) <= room:
         return report
     end = report.rfind(b"\n", 0, max(0, room - len(_CUT))) + 1

@@ -38,13 +38,13 @@ MISTAKES = {"c": ("false clear", "clear"), "w": ("false contact", "contact"), "s
 
 
 def colour_rules() -> str:
-    """The rules that give each role its colour, on light and on dark ground; paper is light."""
+    """Return the rules of a style sheet that give each role its colour, on light and on dark ground; paper is light."""
     light, dark = ("".join(f"--{role}:{both[ground]};" for role, both in ROLES.items()) for ground in (0, 1))
     rules = "".join(f".f-{role}{{fill:var(--{role})}}.s-{role}{{stroke:var(--{role})}}" for role in ROLES)
     return f":root{{{light}}}@media screen and (prefers-color-scheme:dark){{:root{{{dark}}}}}{rules}"
 
 
 def dark_rules() -> str:
-    """The rules for dark ground of a picture in a file; its marks carry their colours on light ground as attributes."""
+    """Return the rules for dark ground of a picture in a file; its marks carry their light colours as attributes."""
     rules = "".join(f".f-{role}{{fill:{dark}}}.s-{role}{{stroke:{dark}}}" for role, (_, dark) in ROLES.items())
     return f"@media screen and (prefers-color-scheme:dark){{{rules}}}"

@@ -18,7 +18,7 @@ HEAD = ("kind", "method", "workload", "detail", "quantity", "value", "low", "hig
 
 
 def render(record: Record) -> bytes:
-    """The measurements as CSV (RFC 4180) in UTF-8, in the order of the record."""
+    """Render the measurements as CSV (RFC 4180) in UTF-8, in the order of the record."""
     stream = io.StringIO()
     writer = csv.writer(stream)
     writer.writerow(HEAD)
@@ -31,10 +31,11 @@ def render(record: Record) -> bytes:
 
 
 def _harmless(text: str) -> str:
-    """Foreign text, changed so that no spreadsheet reads it as a formula."""
+    """Escape foreign text, so that no spreadsheet reads it as a formula."""
     shown = escaped(text)
     return f"'{shown}" if shown[:1] in ("=", "+", "-", "@") else shown
 
 
 def _number(value: object) -> str:
+    """Return a number as text; "" if there is none."""
     return "" if value is None else str(value)

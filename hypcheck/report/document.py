@@ -13,7 +13,7 @@ from typing import TypeVar, Union
 from hypcheck.report.messages import figure, pace, with_interval
 
 NONE, MISSING = "·", "–"
-"""The texts of a cell where nothing is wrong, and of one that has no value."""
+"""The text of a cell if nothing is wrong, and that of a cell without a value."""
 
 Value = TypeVar("Value")
 
@@ -59,16 +59,17 @@ _CODE_MARKS = re.compile(r"`([^`]+)`()()")
 
 
 def prose(words: str) -> Text:
-    """Text of hypcheck whose marks are parsed: `code`, **strong** and *emphasised*; never call it with foreign text."""
+    """Parse the marks in hypcheck's own text: `code`, **strong** and *emphasised*; never call it with foreign text."""
     return _marked(words, _MARKS)
 
 
 def with_code(words: str) -> Text:
-    """Text whose only marks are those of `code`, such as a remedy that a record holds."""
+    """Parse only the marks of `code`, in a text such as a remedy that a record holds."""
     return _marked(words, _CODE_MARKS)
 
 
 def _marked(words: str, marks: re.Pattern[str]) -> Text:
+    """Split a text at its marks; the groups of the pattern `marks` are code, strong and emphasised text."""
     parts: list[Text] = []
     end = 0
     for mark in marks.finditer(words):
@@ -80,12 +81,12 @@ def _marked(words: str, marks: re.Pattern[str]) -> Text:
 
 
 def bounded(foreign: str) -> str:
-    """The text; if it has more than LONGEST characters, it is cut and its length is added."""
+    """Return the text; if it has more than LONGEST characters, it is cut and its length is added."""
     return foreign if len(foreign) <= LONGEST else f"{foreign[:LONGEST]}… ({len(foreign):,} characters)"
 
 
 def joined(texts: Sequence[Text]) -> Text:
-    """The texts with commas between them."""
+    """Join the texts with commas between them."""
     parts: list[Text] = []
     for text in texts:
         parts += [", ", text] if parts else [text]
@@ -93,7 +94,7 @@ def joined(texts: Sequence[Text]) -> Text:
 
 
 def plain(text: Text) -> str:
-    """The text without its marks."""
+    """Return the text without its marks."""
     if isinstance(text, str):
         return text
     if isinstance(text, Code):
@@ -214,7 +215,7 @@ class Section:
 
 
 def table(name: str, heads: str | Iterable[Column], rows: Iterable[Row]) -> TableBlock:
-    """A table. `heads` are its columns, or their titles with bars between them: "method | # rows".
+    """Make a table. `heads` are its columns, or their titles with bars between them: "method | # rows".
 
     A # stands before the title of a column of numbers. Such titles are our own words; foreign text needs a Column.
     """
@@ -227,56 +228,56 @@ Cells = Mapping[str, Callable[[Value], TableCell | Text]]
 
 
 def table_of(name: str, values: Iterable[Value], cells: Cells[Value]) -> TableBlock:
-    """A table with a row for each value."""
+    """Make a table with a row for each value."""
     return table(name, " | ".join(cells), [tuple(cell(value) for cell in cells.values()) for value in values])
 
 
 def bullets(items: Sequence[Text | Item]) -> Bullets:
-    """A list of texts or items."""
+    """Make a list of texts or items."""
     return Bullets(tuple(item if isinstance(item, Item) else Item(item) for item in items))
 
 
 def terms(explained: Iterable[tuple[Text, Text]]) -> Bullets:
-    """A list of terms, each with the text that explains it."""
+    """Make a list of terms, each with the text that explains it."""
     return Bullets(tuple(Item(text, title=title) for title, text in explained))
 
 
 def count(number: int, *, bad: bool = False) -> TableCell:
-    """The cell of a count; with `bad`, a count above zero has the tone "bad"."""
+    """Make the cell of a count; with `bad`, a count above zero has the tone "bad"."""
     shown = f"{number:,}"
     return TableCell(Strong(shown), number, "bad") if bad and number else TableCell(shown, number)
 
 
 def measured(value: float | None, interval: Sequence[float] | None = None) -> TableCell:
-    """The cell of a value to three digits, with its interval if it has one; a dash without a value."""
+    """Make the cell of a value to three digits, with its interval if it has one; a dash without a value."""
     return TableCell(MISSING) if value is None else TableCell(with_interval(value, interval), value)
 
 
 def paced(ratio: float | None, interval: tuple[float, float] | None = None) -> TableCell:
-    """The cell of a time relative to the method that the column names: "24 times as fast"; a dash without a ratio."""
+    """Make the cell of a time relative to the column's method: "24 times as fast"; a dash without a ratio."""
     return TableCell(MISSING) if ratio is None else TableCell(pace(ratio, interval=interval), ratio)
 
 
 def share(part: float, whole: float) -> TableCell:
-    """The cell of a share in per cent; a dash if there is no whole."""
+    """Make the cell of a share in per cent; a dash if `whole` is 0."""
     return TableCell(f"{figure(100 * part / whole)} %", part / whole) if whole else TableCell(MISSING)
 
 
 def ratio_of(part: int, whole: int) -> TableCell:
-    """The cell of a part and its whole, sorted by the share: "3 of 40"."""
+    """Make the cell of a part and its whole, "3 of 40", which is sorted by the share."""
     return TableCell(f"{part:,} of {whole:,}", part / max(1, whole))
 
 
 def number(title: Text, hint: str = "") -> Column:
-    """A column of numbers."""
+    """Make a column of numbers."""
     return Column(title, number=True, hint=hint)
 
 
 def against(other: str | None, hint: str = "") -> Column:
-    """The column of times relative to another method; None: the reference, which has no name."""
+    """Make the column of times relative to another method; None means the reference, which has no name."""
     return number("against the reference" if other is None else ("against ", Code(other)), hint)
 
 
 def columns(titles: str) -> tuple[Column, ...]:
-    """The columns with these titles, which have bars between them: see table()."""
+    """Make the columns with these titles, which have bars between them: see table()."""
     return tuple(Column(title.removeprefix("# "), title.startswith("# ")) for title in titles.split(" | "))

@@ -20,7 +20,7 @@ from hypcheck.record import Record
 from hypcheck.record.measurements import AccuracyLine, PlacesLine, StabilityLine
 
 MANY = 100
-"""Lines with plots, at least, for which it is worth to start processes: starting one takes a second."""
+"""The least number of lines with plots for which processes are started: to start one takes a second."""
 
 
 class DrawnPlot(NamedTuple):
@@ -52,12 +52,15 @@ ALONE = ReportContext()
 
 
 def drawn_plots(name: str, record: Record, drawings: Drawings) -> tuple[DrawnPlot, ...]:
-    """The plots of that name, drawn now if they are not yet. Raises UnavailableError if matplotlib is missing."""
+    """Return the plots of that name; they are drawn now if `drawings` does not have them.
+
+    Raises UnavailableError if matplotlib is missing.
+    """
     return drawings[name] if name in drawings else _draw((name, record))
 
 
 def draw_ahead(record: Record, least: int = MANY, names: Collection[str] | None = None) -> Drawings:
-    """Draw all plots, or the plots of these names, if the record has at least `least` lines with plots.
+    """Draw all plots, or those of these `names`, if the record has at least `least` lines with plots.
 
     Returns no plots for a smaller record, if plots cannot be drawn here, or if a process was killed.
     """
@@ -75,11 +78,15 @@ def draw_ahead(record: Record, least: int = MANY, names: Collection[str] | None 
 
 
 def _draw(task: tuple[str, Record]) -> tuple[DrawnPlot, ...]:
+    """Draw the plots of a task, which is a name and a record."""
     return tuple(DrawnPlot(*plot) for plot in pictures().inline_plots(*task))
 
 
 def render_picture(name: str, record: Record, drawings: Drawings) -> bytes:
-    """The plots of that name as one file. Raises UnavailableError if there are none, or matplotlib is missing."""
+    """Render the plots of that name as one file.
+
+    Raises UnavailableError if there are none, or if matplotlib is missing.
+    """
     module = pictures()
     if name == "map":
         return bytes(module.render_map(record))
@@ -87,7 +94,10 @@ def render_picture(name: str, record: Record, drawings: Drawings) -> bytes:
 
 
 def pictures() -> ModuleType:
-    """The module that draws. Raises UnavailableError if matplotlib, which is an extra, is missing."""
+    """Import the module that draws.
+
+    Raises UnavailableError if matplotlib, which is an extra, is missing.
+    """
     with extra("matplotlib"):
         import matplotlib  # noqa: F401, PLC0415
 
@@ -97,7 +107,7 @@ def pictures() -> ModuleType:
 
 @contextmanager
 def extra(library: str) -> Iterator[None]:
-    """Within the block, a library of the extra [report] is imported. Raises UnavailableError if it is missing."""
+    """Turn a failed import within the block, of a library of the extra [report], into UnavailableError."""
     try:
         yield
     except ImportError as error:

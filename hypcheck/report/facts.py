@@ -23,7 +23,7 @@ from hypcheck.report.model import SubjectKey, explanation, in_order, names_in, s
 from hypcheck.runs.judge import UNANSWERED, Status, in_words, truth_in_words
 
 Measurement = tuple[Any, ...]
-"""Method, workload, detail, quantity and value, and the two ends of its interval if it has one."""
+"""A measurement: method, workload, detail, quantity and value, then the two ends of its interval if it has one."""
 
 HARMLESS = ("right", "skipped")
 """Statuses of cases that do not break the promise of an exact method."""
@@ -127,7 +127,7 @@ class LineFacts(Generic[Line]):
     def fields(
         self, method: str, workload: str, detail: str, *names: str, part: object = None
     ) -> Iterator[Measurement]:
-        """A measurement for each of these fields of the line, or of a part of it."""
+        """Yield a measurement for each of these fields (`names`) of the line, or of `part` of it."""
         for name in names:
             yield method, workload, detail, name, getattr(self.line if part is None else part, name)
 
@@ -189,6 +189,7 @@ class OracleFacts(LineFacts[lines.OracleLine]):
             yield Failure("oracle", line.oracle, line.family, "disagreement", message, count=rest)
 
     def _disagreement(self, case: lines.DisagreementPart) -> Failure:
+        """Make the failure about one case on which the oracle and the exact decision disagree."""
         message = f"{case.oracle}: {case.opinion}; exact decision: {case.exact}"
         row = messages.from_hex(numbers_of(case))
         where = self.line.oracle, self.line.family
@@ -274,10 +275,11 @@ class GroupFacts(LineFacts[lines.GroupLine]):
                 yield self._broken_promise(status, number)
 
     def _breaks_promise(self, status: str) -> bool:
-        """Whether a status fails a built-in method; for an implementation under test the line has the statuses."""
+        """Decide whether a status fails the method: any but HARMLESS if it is exact, else one without an answer."""
         return status not in HARMLESS if self.line.exact else status in UNANSWERED
 
     def _broken_promise(self, status: str, number: int) -> Failure:
+        """Make the failure about all cases of one status; it names the first such case that the record keeps."""
         line, name, replays = self.line, self.context.names[subject_of(self.line)], self.context.replays
         promise = " promises to be exact, but" if line.exact else ":"
         message = f"{name}{promise} {number:,} of {counted(line.asked, 'case')} ended as {status}"
@@ -347,7 +349,7 @@ class CauseFacts(LineFacts[lines.CauseLine]):
         return "under 1 %" if percent < 1 else f"{min(percent, 99 if line.cases < total else 100):.0f} %"
 
     def families(self, most: int = 3) -> str:
-        """The families of the wrong answers: "ring 140, osculation 15 and 2 more families"."""
+        """Return the families of the wrong answers, `most` by name: "ring 140, osculation 15 and 2 more families"."""
         ranked = sorted(self.line.families.items(), key=lambda counts: (-counts[1], counts[0]))
         shown = [f"{family} {number:,}" for family, number in ranked[:most]]
         rest = len(ranked) - most
@@ -361,7 +363,7 @@ class CauseFacts(LineFacts[lines.CauseLine]):
 
 
 def cause_facts(record: Record) -> list[CauseFacts]:
-    """The facts of all causes of wrong answers, in the order of the record."""
+    """Return the facts of all causes of wrong answers, in the order of the record."""
     context = RecordContext(record)
     return [CauseFacts(line, context) for line in record.of(lines.CauseLine)]
 
@@ -381,7 +383,7 @@ class ImplementationFacts(LineFacts[lines.ImplementationLine]):
             yield Failure("implementation", self.name, "all families", "behaviour", trouble)
 
     def _first_reply(self) -> str:
-        """Why the first reply that the record keeps breaks the protocol; "" if it keeps none."""
+        """Return why the first reply that the record keeps breaks the protocol; "" if it keeps none."""
         subject = subject_of(self.line)
         groups = [group for group in self.context.record.of(lines.GroupLine) if subject_of(group) == subject]
         faults = [fault for group in groups for fault in group.faults or () if fault.status == Status.PROTOCOL.value]

@@ -37,7 +37,7 @@ _TAGS = {document.Strong: "strong", document.Emphasis: "em"}
 
 
 def html_text(words: document.Text) -> markupsafe.Markup:
-    """Running text as the content of an element: foreign text is escaped, and cut if it is very long."""
+    """Convert running text to the content of an element: foreign text is escaped, and cut if it is very long."""
     if isinstance(words, str):
         edges = (" " * words[:1].isspace(), " " * words[-1:].isspace())
         return markupsafe.escape(edges[0] + escaped(document.bounded(words)) + edges[1])
@@ -75,20 +75,21 @@ class _TemplateBlock:
 
 
 def render(record: Record, context: ReportContext = ALONE) -> bytes:
-    """The page in UTF-8. Without matplotlib it has no plots."""
+    """Render the page in UTF-8. Without matplotlib it has no plots."""
     whole = content(record, context.against)
     sections = list(_sections(whole.sections, record, context.drawings))
     return _page(title=whole.title, verdict=whole.verdict, sections=sections, source="from the record alone")
 
 
 def explorer_page() -> bytes:
-    """The explorer as a separate page, in UTF-8; its first case is on the ring."""
+    """Render the explorer as a separate page, in UTF-8; its first case is on the ring."""
     block = _TemplateBlock("explorer", document.Explorer(ON_THE_RING))
     section = {"title": "Move the bodies", "level": 2, "anchor": "explorer", "blocks": [block]}
     return _page(title="Spheroid and hyperboloid", verdict=None, sections=[section], source="")
 
 
 def _page(**parts: Any) -> bytes:  # noqa: ANN401 - what the template shows
+    """Render page.html with these parts, its style and script, and their hashes."""
     style = colour_rules() + _template("style.css")
     script = "\n".join(map(_template, ("script.js", "ends.js", "explorer.js")))
     own = {"style": _trusted(style), "script": _trusted(script)}
@@ -98,11 +99,12 @@ def _page(**parts: Any) -> bytes:  # noqa: ANN401 - what the template shows
 
 
 def _template(name: str) -> str:
+    """Read a file of the folder templates."""
     return resources.files("hypcheck.report").joinpath("templates", name).read_text(encoding="utf-8").strip()
 
 
 def _hash(text: str) -> str:
-    """The hash of a text in the form of a content security policy."""
+    """Return the hash of a text in the form of a content security policy."""
     return "sha256-" + base64.b64encode(hashlib.sha256(text.encode()).digest()).decode("ascii")
 
 
@@ -112,6 +114,7 @@ def _trusted(text: str) -> markupsafe.Markup:
 
 
 def _environment() -> jinja2.Environment:
+    """Make the environment of jinja2: templates escape all text and may use no undefined name."""
     environment = jinja2.Environment(
         loader=jinja2.FunctionLoader(_template),
         autoescape=True,
@@ -125,6 +128,7 @@ def _environment() -> jinja2.Environment:
 
 
 def _sections(sections: tuple[document.Section, ...], record: Record, drawings: Drawings) -> Iterator[dict[str, Any]]:
+    """Yield each section as the template reads it: title, level, anchor and blocks."""
     for number, section in enumerate(sections):
         words = re.sub(r"[^a-z0-9]+", "-", document.plain(section.title).lower())[:40].strip("-")
         blocks = [_template_block(block, record, drawings) for block in section.blocks]
@@ -133,6 +137,7 @@ def _sections(sections: tuple[document.Section, ...], record: Record, drawings: 
 
 
 def _template_block(block: document.Block, record: Record, drawings: Drawings) -> _TemplateBlock:
+    """Convert a block for the templates; of two forms it takes the one for the page."""
     if isinstance(block, document.Either):
         return _template_block(block.page, record, drawings)
     if isinstance(block, document.Details):
@@ -145,6 +150,7 @@ def _template_block(block: document.Block, record: Record, drawings: Drawings) -
 
 
 def _figures(block: document.Figures, record: Record, drawings: Drawings) -> _TemplateBlock:
+    """Convert a block of plots, which it draws; without matplotlib the block has the reason."""
     try:
         drawn = drawn_plots(block.name, record, drawings)
     except UnavailableError as error:
@@ -162,7 +168,7 @@ _FINE = 500
 """The greatest exponent of a length after tiny ones are scaled, far from that at which products of two overflow."""
 
 _FILLED = 0.8
-"""The part of a small picture's width that the spheroid and the way to the wall fill where they lie far apart."""
+"""The part of a small picture's width that the spheroid, the wall and the gap fill if the gap is wide."""
 
 _DOT = 1.5
 """The least half width of a spheroid in a small picture."""
@@ -172,7 +178,7 @@ _POINTS = 16
 
 
 def small_picture(row: Sequence[float]) -> str:
-    """The SVG element with the spheroid of a row of seven numbers and the wall; it contains no foreign text.
+    """Draw the spheroid of a row of seven numbers and the wall, as an SVG element without foreign text.
 
     Heights have a different scale if the spheroid would be too thin to be seen. A spheroid whose centre is more than
     two radii from the wall is drawn smaller, at least as a dot, so that both are in the picture.
@@ -208,21 +214,25 @@ def small_picture(row: Sequence[float]) -> str:
 
 
 def _limited_gap(gap: float) -> float:
+    """Limit a distance to the wall to ±_STEEPEST, so that it stays finite."""
     return min(max(gap, -_STEEPEST), _STEEPEST)
 
 
 def _limited(place: float, size: float) -> float:
-    """The coordinate, limited to at most one picture width outside the picture."""
+    """Limit a coordinate to at most one picture width outside the picture."""
     return min(max(place, -size), 2 * size)
 
 
 def row_as_text(row: Sequence[float]) -> str:
-    """The numbers of a row as the script reads them, each the shortest text of the same float64."""
+    """Return the numbers of a row as the script reads them, each the shortest text of the same float64."""
     return " ".join(map(repr, row))
 
 
 def formulas_as_json() -> str:
-    """Every formula about a pair, Table 2 first: name, title, question, regimes, steps, and the step of the answer."""
+    """Return every formula about a pair as JSON, Table 2 first.
+
+    Each has its name, title, question, regimes and steps, and the name of the step that is the answer.
+    """
     listed = [
         {
             "name": formula.name,

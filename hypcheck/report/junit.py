@@ -63,13 +63,13 @@ class JunitSuite:
 
 
 def total(times: Iterable[int | None]) -> int | None:
-    """The sum of the times that were measured; None if none was."""
+    """Return the sum of the times that were measured; None if none was."""
     known = [time for time in times if time is not None]
     return sum(known) if known else None
 
 
 def details(failed: Iterable[Failure]) -> Iterator[str]:
-    """Each failure with its case, and the command that shows it."""
+    """Yield each failure with its case, and the command that shows it."""
     for failure in failed:
         place = f" ({failure.place})" if failure.place else ""
         yield f"case {failure.case}{place}: {failure.message}" if failure.case else failure.message
@@ -78,7 +78,7 @@ def details(failed: Iterable[Failure]) -> Iterator[str]:
 
 
 def _trouble(failed: Sequence[Failure], message: str = "") -> JunitTrouble | None:
-    """The trouble of a case with these failures, with the cases and commands that show them; None if there are none."""
+    """Make the trouble of a case with these failures, with what shows them; None if there is no failure."""
     if not failed:
         return None
     text = message or "; ".join(failure.message for failure in failed)
@@ -87,7 +87,7 @@ def _trouble(failed: Sequence[Failure], message: str = "") -> JunitTrouble | Non
 
 
 def _case(facts: LineFacts[Any]) -> JunitCase:
-    """The case of one line."""
+    """Make the test case of one line."""
     failed, not_judged, seconds = list(facts.failures()), facts.not_judged(), facts.seconds()
     trouble = _trouble(failed, facts.headline()) if failed else None
     if not failed and not_judged:
@@ -97,7 +97,7 @@ def _case(facts: LineFacts[Any]) -> JunitCase:
 
 
 def _cases(facts: Iterable[LineFacts[Any]]) -> tuple[JunitCase, ...]:
-    """The cases of these lines under distinct names: parsers merge cases with the same name."""
+    """Make the test cases of these lines under distinct names: parsers merge cases with the same name."""
     seen: Counter[str] = Counter()
     cases = []
     for case in map(_case, facts):
@@ -112,7 +112,7 @@ _LONGEST_MS = 1e15
 
 
 def junit_suites(record: Record) -> Iterator[JunitSuite]:
-    """All suites of a record; some may be empty."""
+    """Yield all suites of a record; some may be empty."""
     failed = failures(record)
     others = list(_others(record, failed))
     yield JunitSuite("run", (_ended(record, failed, total(suite.milliseconds for suite in others) or 0),))
@@ -120,7 +120,7 @@ def junit_suites(record: Record) -> Iterator[JunitSuite]:
 
 
 def _others(record: Record, failed: list[Failure]) -> Iterator[JunitSuite]:
-    """The suites that follow the run's suite."""
+    """Yield the suites that follow the run's suite."""
     yield JunitSuite("proofs", _cases(facts_of(record, lines.ProofLine)))
     yield JunitSuite("equations", _cases(facts_of(record, lines.EquationLine)))
     answers = facts_of(record, lines.OracleLine)
@@ -149,11 +149,12 @@ def _others(record: Record, failed: list[Failure]) -> Iterator[JunitSuite]:
 
 
 def _by_type(record: Record, *kinds: type[RecordLine]) -> Iterator[LineFacts[Any]]:
+    """Return an iterator over the facts of these types of lines, one type after the other."""
     return (facts for kind in kinds for facts in facts_of(record, kind))
 
 
 def _findings(record: Record, failed: list[Failure]) -> Iterator[JunitCase]:
-    """A case for each mathematical finding, and one case that checks that all are known."""
+    """Yield a case for each mathematical finding, and one about whether all of them are known."""
     cases = _cases(facts_of(record, lines.FindingLine))
     yield from cases
     drifted = [failure for failure in failed if failure.subject == "findings"]
@@ -164,7 +165,7 @@ def _findings(record: Record, failed: list[Failure]) -> Iterator[JunitCase]:
 
 
 def _ended(record: Record, failed: list[Failure], others: int) -> JunitCase:
-    """The case about the run's end: an error if it was not reached, or if the exit code contradicts the lines.
+    """Make the case about the run's end: an error if the run stopped early, or its exit code contradicts its lines.
 
     Its time is that of the run without the milliseconds of the `others`, if the run has an end and a time. Failures of
     other cases are not repeated here.
@@ -178,7 +179,7 @@ def _ended(record: Record, failed: list[Failure], others: int) -> JunitCase:
 
 
 def _milliseconds(seconds: float) -> int:
-    """Whole milliseconds; a time beyond _LONGEST_MS is cut."""
+    """Convert seconds to whole milliseconds; a time beyond _LONGEST_MS is cut."""
     return round(min(1000 * seconds, _LONGEST_MS))
 
 
@@ -187,7 +188,7 @@ TAGS = {"failure": "failures", "error": "errors", "skipped": "skipped"}
 
 
 def render(record: Record) -> bytes:
-    """The test suites as XML 1.0 in UTF-8."""
+    """Render the test suites as XML 1.0 in UTF-8."""
     suites = [suite for suite in junit_suites(record) if suite.cases]
     root = Xml.Element("testsuites", {"name": "hypcheck", **_attributes(suites)})
     # without its UTC offset, which the schema of most parsers does not allow
@@ -203,7 +204,7 @@ def render(record: Record) -> bytes:
 
 
 def _set_properties(element: Xml.Element, record: Record) -> None:
-    """The settings of the run, in each suite: the schema that most parsers use has properties only there."""
+    """Add the settings of the run to a suite: the schema that most parsers use has properties only there."""
     facts = list(settings_facts(record.header.settings))
     if facts:
         properties = Xml.SubElement(element, "properties")
@@ -212,6 +213,7 @@ def _set_properties(element: Xml.Element, record: Record) -> None:
 
 
 def _attributes(suites: Sequence[JunitSuite]) -> dict[str, str]:
+    """Return the attributes of these suites together: the counts and the time."""
     return {
         "tests": str(sum(len(suite.cases) for suite in suites)),
         **{attribute: str(sum(suite.count(tag) for suite in suites)) for tag, attribute in TAGS.items()},
@@ -220,6 +222,7 @@ def _attributes(suites: Sequence[JunitSuite]) -> dict[str, str]:
 
 
 def _element(suite: JunitSuite, case: JunitCase) -> Xml.Element:
+    """Make the XML element of a test case."""
     names = {"classname": escaped(f"hypcheck.{suite.name}"), "name": escaped(case.name)}
     element = Xml.Element("testcase", {**names, **_time(case.milliseconds)})
     if case.trouble is not None:
@@ -234,5 +237,5 @@ def _element(suite: JunitSuite, case: JunitCase) -> Xml.Element:
 
 
 def _time(milliseconds: int | None) -> dict[str, str]:
-    """The attribute in seconds; none if no time was measured, since 0.000 would be wrong."""
+    """Return the attribute in seconds; none if no time was measured, since 0.000 would be wrong."""
     return {} if milliseconds is None else {"time": f"{milliseconds // 1000}.{milliseconds % 1000:03d}"}

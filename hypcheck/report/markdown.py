@@ -21,13 +21,13 @@ _BLOCK_START = re.compile(r"^(?:[-+=#]|\d+(?=[.)](?:\s|$)))")
 
 
 def escape_text(foreign: object) -> str:
-    """The text, escaped, for running text and cells of tables."""
+    """Escape foreign text for running text and cells of tables."""
     safe = _SPECIAL.sub(lambda match: _ENTITIES.get(match[0], "\\" + match[0]), escaped(foreign))
     return _BLOCK_START.sub(lambda match: "".join(f"&#{ord(c)};" for c in match[0]), safe)
 
 
 def code_span(foreign: object) -> str:
-    """The text as code, for running text and cells of tables; empty for an empty text.
+    """Convert a text to a code span, for running text and cells of tables; empty for an empty text.
 
     A code span has no escapes, so a text with a bar or a backtick becomes an HTML element with entities.
     """
@@ -38,7 +38,7 @@ def code_span(foreign: object) -> str:
 
 
 def table_lines(head: Sequence[str], rows: Iterable[Sequence[str]], numbers: Iterable[int] = ()) -> list[str]:
-    """The lines of a table and an empty line; the columns `numbers` are aligned to the right.
+    """Return the lines of a table and an empty line; the columns `numbers` are aligned to the right.
 
     Cells are Markdown already, with foreign text escaped by escape_text() or code_span().
     """
@@ -48,28 +48,29 @@ def table_lines(head: Sequence[str], rows: Iterable[Sequence[str]], numbers: Ite
 
 
 def render(record: Record, context: ReportContext = ALONE) -> bytes:
-    """The report in UTF-8; it refers to the pictures among the files beside it."""
+    """Render the report in UTF-8; it refers to the pictures among the files beside it."""
     return _page(content(record, context.against), context.beside)
 
 
 def render_overview(record: Record, context: ReportContext = ALONE) -> bytes:
-    """The overview in UTF-8; it refers to the pictures among the files beside it."""
+    """Render the overview in UTF-8; it refers to the pictures among the files beside it."""
     return _page(overview(record, context.beside), context.beside)
 
 
 def _page(whole: ReportContent, beside: Collection[str]) -> bytes:
-    """A content in UTF-8; `beside` are the names of the files beside it."""
+    """Render a content in UTF-8; `beside` are the names of the files beside it."""
     head = [f"# {running_text(whole.title)}", "", f"**{running_text(whole.verdict.sentence)}**", ""]
     lines = [*head, *section_lines(whole.sections, beside)]
     return ("\n".join(lines).rstrip() + "\n").encode("utf-8", "replace")
 
 
 def running_text(words: document.Text) -> str:
-    """Running text as Markdown; foreign text is escaped, and cut if it is very long."""
+    """Convert running text to Markdown; foreign text is escaped, and cut if it is very long."""
     return _inline(words).strip()
 
 
 def _inline(words: document.Text) -> str:
+    """Convert running text to Markdown, and keep one space at each end that has white space."""
     if isinstance(words, str):
         return f"{' ' * words[:1].isspace()}{escape_text(document.bounded(words))}{' ' * words[-1:].isspace()}"
     if isinstance(words, document.Code):
@@ -84,7 +85,7 @@ def _inline(words: document.Text) -> str:
 
 
 def section_lines(sections: Iterable[document.Section], beside: Collection[str] = ()) -> Iterator[str]:
-    """The lines of the sections; a section that only the page has is left out."""
+    """Yield the lines of the sections; a section that only the page has is left out."""
     for section in sections:
         if not section.page:
             yield from (f"{'#' * section.level} {running_text(section.title)}", "")
@@ -93,7 +94,7 @@ def section_lines(sections: Iterable[document.Section], beside: Collection[str] 
 
 
 def _block(block: document.Block, beside: Collection[str]) -> Iterator[str]:
-    """The lines of a block; only the page has folded blocks and the explorer."""
+    """Yield the lines of a block; folded blocks and the explorer have none, since only the page shows them."""
     match block:
         case document.Paragraph(text):
             yield from (running_text(text), "")

@@ -88,12 +88,12 @@ class MeasuredMethod:
 
 
 def lost(line: measurements.SpeedLine) -> bool:
-    """Whether a speed line has no time, because a call took no longer than an empty one."""
+    """Decide whether a speed line has no time, because a call took no longer than an empty one."""
     return line.median_ns <= LEAST_NS
 
 
 def measured_methods(record: Record) -> list[MeasuredMethod]:
-    """Every method of a benchmark in the order of the record."""
+    """Return every method of a benchmark in the order of the record."""
     accuracy: dict[str, dict[str, measurements.AccuracyLine]] = {}
     speed: dict[str, dict[tuple[str, str], measurements.SpeedLine]] = {}
     for line in record.of(measurements.AccuracyLine):
@@ -135,7 +135,7 @@ class SweepTotal:
 
 
 def sweep_totals(record: Record) -> list[SweepTotal]:
-    """Every method that answers about sweeps and was judged, in the order of the record."""
+    """Return every method that answers about sweeps and was judged, in the order of the record."""
     where = principal(record), BATCH
     return [
         _sweep_total(method, method.speed.get(where))
@@ -145,6 +145,7 @@ def sweep_totals(record: Record) -> list[SweepTotal]:
 
 
 def _sweep_total(method: MeasuredMethod, speed: measurements.SpeedLine | None) -> SweepTotal:
+    """Add up the answers of a method for sweeps; `speed` is its line on the principal workload, if it was timed."""
     lines = method.accuracy.values()
     timed = speed if speed is not None and not lost(speed) else None
     return SweepTotal(
@@ -164,7 +165,10 @@ def _sweep_total(method: MeasuredMethod, speed: measurements.SpeedLine | None) -
 
 
 def _median_size(octaves: Sequence[measurements.Octave]) -> float:
-    """The lower end of the octave with the median of the wrong answers; 0 if there are none, or for tangencies."""
+    """Return the lower end of the octave with the median of the wrong answers.
+
+    It is 0 if no answer is wrong, or if the median is a tangency.
+    """
     wrong = sorted((float(exponent), number) for exponent, _, number in octaves if number)
     left = sum(number for _, number in wrong) / 2
     for exponent, number in wrong:
@@ -175,7 +179,7 @@ def _median_size(octaves: Sequence[measurements.Octave]) -> float:
 
 
 def workloads(record: Record) -> dict[str, measurements.WorkloadLine]:
-    """The workloads by name, in the order of the record, including measured workloads without a description."""
+    """Return the workloads by name, in the order of the record, with measured workloads that have no description."""
     known = {line.workload: line for line in record.of(measurements.WorkloadLine)}
     judged, timed = record.of(measurements.AccuracyLine), record.of(measurements.SpeedLine)
     for name in [*(line.workload for line in judged), *(line.workload for line in timed)]:
@@ -184,19 +188,22 @@ def workloads(record: Record) -> dict[str, measurements.WorkloadLine]:
 
 
 def timed_workloads(record: Record) -> list[str]:
-    """The names of the workloads that have times, in the order of the record."""
+    """Return the names of the workloads that have times, in the order of the record."""
     timed = {line.workload for line in record.of(measurements.SpeedLine)}
     return [name for name in workloads(record) if name in timed]
 
 
 def principal(record: Record) -> str:
-    """The workload that has cases at every distance from contact; the first one if it was not measured."""
+    """Return the name of the workload with cases at every distance; if it was not measured, of the first one.
+
+    Returns "" if the record has no workload.
+    """
     known = workloads(record)
     return PRINCIPAL if PRINCIPAL in known else next(iter(known), "")
 
 
 def reference(record: Record) -> str | None:
-    """The name of the reference method, if the record has one."""
+    """Return the name of the reference method; None if the record has none."""
     named = record.header.options.get("reference")
     return None if named is None else str(named)
 
@@ -210,18 +217,18 @@ REFERENCES = {
 
 
 def reference_in_words(name: str) -> str:
-    """The reference method in words: "the paper's Table 2 in numpy (table-2-float64)"; its name if it has no words."""
+    """Return the reference method in words: "the paper's Table 2 in numpy (table-2-float64)", else its name."""
     return REFERENCES.get(name, name)
 
 
 def by_ratio(methods: Iterable[MeasuredMethod], workload: str, mode: str = BATCH) -> list[MeasuredMethod]:
-    """The methods that have a ratio on this workload in this mode, the fastest first."""
+    """Return the methods that have a ratio on this workload in this mode, the fastest first."""
     ranked = [(ratio, method) for method in methods if (ratio := method.ratio(workload, mode)) is not None]
     return [method for _, method in sorted(ranked, key=lambda pair: pair[0])]
 
 
 def noise_floor(record: Record, workload: str, mode: str) -> float | None:
-    """The relative difference below which two times of this run count as equal."""
+    """Return the relative difference below which two times of this run count as equal; None if not measured."""
     floors = [
         line.floor for line in record.of(measurements.NoiseLine) if (line.workload, line.mode) == (workload, mode)
     ]
@@ -229,15 +236,15 @@ def noise_floor(record: Record, workload: str, mode: str) -> float | None:
 
 
 def stability_title(line: measurements.StabilityLine) -> str:
-    """The name of a method with the precision in which it was measured."""
+    """Return the name of a method with the precision in which it was measured."""
     return line.method if line.method.endswith(line.precision) else f"{line.method}, {line.precision}"
 
 
 def is_unstable(line: measurements.StabilityLine) -> bool:
-    """Whether a method was wrong at any of the sizes of a stability line."""
+    """Decide whether a method was wrong at any of the sizes of a stability line."""
     return any(wrong for *_, wrong in line.bins)
 
 
 def is_wrong_somewhere(line: measurements.PlacesLine) -> bool:
-    """Whether a method was wrong at any grid point of a places line, in which "." is right."""
+    """Decide whether a method was wrong at any grid point of a places line, in which "." is right."""
     return any(set(text) - {"."} for text in line.wrong)

@@ -26,17 +26,17 @@ from hypcheck.vectors.border_lines import NEAREST_OCTAVE, SEARCHED
 
 
 def as_sentence(fact: str) -> str:
-    """A sentence without a full stop, as one that begins with a capital letter and ends with a full stop."""
+    """Make a sentence of a fact: it begins with a capital letter and ends with a full stop."""
     return f"{fact[:1].upper()}{fact[1:]}."
 
 
 def listed(items: Sequence[str], last: str = "and") -> str:
-    """The items as in a sentence: "a, b and c"."""
+    """Join the items as in a sentence: "a, b and c"; `last` is the word before the last item."""
     return f" {last} ".join(part for part in (", ".join(items[:-1]), *items[-1:]) if part)
 
 
 def figure(value: float) -> str:
-    """A measured value to three digits: 0, 0.8, 12.3, 4,820, 3.1e7, ∞."""
+    """Return a measured value to three digits: 0, 0.8, 12.3, 4,820, 3.1e7, ∞."""
     if math.isinf(value):
         return "∞"
     if value == 0:
@@ -50,12 +50,12 @@ def figure(value: float) -> str:
 
 
 def with_interval(value: float, interval: Sequence[float] | None) -> str:
-    """A value with the ends of its interval, if it has one: "1.2 (1.1 to 1.3)"."""
+    """Return a value with the ends of its interval, if it has one: "1.2 (1.1 to 1.3)"."""
     return figure(value) if interval is None else f"{figure(value)} ({' to '.join(map(figure, interval))})"
 
 
 def pace(ratio: float, other: str = "", interval: tuple[float, float] | None = None) -> str:
-    """The words for a ratio of times: "24 times as fast as NAME", "takes 3 times as long as NAME (2 to 4)".
+    """Return a ratio of times in words: "24 times as fast as NAME", "takes 3 times as long as NAME (2 to 4)".
 
     Without a name, "24 times as fast". `interval` holds the ends of the ratio's interval.
     """
@@ -71,7 +71,7 @@ def pace(ratio: float, other: str = "", interval: tuple[float, float] | None = N
 
 
 def from_hex(row: Sequence[str]) -> tuple[float, ...]:
-    """The numbers of a row as a record keeps it. Raises InputError where one is beyond float64."""
+    """Return the numbers of a row as a record keeps it. Raises InputError if one is beyond float64."""
     try:
         return tuple(float.fromhex(value) for value in row)
     except OverflowError:
@@ -79,7 +79,7 @@ def from_hex(row: Sequence[str]) -> tuple[float, ...]:
 
 
 def short_row(row: Sequence[float]) -> str:
-    """A row to six digits: "alpha 2, gamma 17.8, b 0.25, d 0.15, centre (3, 0, 0)".
+    """Return a row to six digits: "alpha 2, gamma 17.8, b 0.25, d 0.15, centre (3, 0, 0)".
 
     The axis and the heights follow if it has them.
     """
@@ -92,7 +92,7 @@ def short_row(row: Sequence[float]) -> str:
 
 
 def classify_command(row: Sequence[float], layout: Layout = PAIRS) -> str:
-    """The command that decides a row exactly and proves it; the decimals read back as the same float64."""
+    """Return the command that decides a row exactly and proves it; its decimals read back as the same float64."""
     others, axis, heights = layout.split(row)
     options = [*zip(SIZES, ((value,) for value in others), strict=False), ("center", others[4:7])]
     options += [("end", others[7:]), ("axis", axis)]
@@ -102,9 +102,10 @@ def classify_command(row: Sequence[float], layout: Layout = PAIRS) -> str:
 
 
 def error_text(case: lines.WrongAnswer) -> str:
-    """The error of an answer, in the unit of the tolerance: "wrong by 12 u", "wrong at any distance".
+    """Return the error of an answer, in the unit of the tolerance: "wrong by 12 u", "wrong at any distance".
 
-    For a wrong time: the first contact, and the part of the sweep between them.
+    For a wrong time, it names the answered time, the first contact, and the distance between them in radii of the
+    spheroid along the sweep.
     """
     if case.time is UNSET or case.first is UNSET:
         if case.backward_error >= 1:
@@ -115,9 +116,9 @@ def error_text(case: lines.WrongAnswer) -> str:
 
 
 def settings_facts(settings: lines.SettingsPart | UnsetType | None) -> Iterator[str]:
-    """A sentence without a full stop about the settings of a run: their file, and each option that weakens the gate.
+    """Yield one sentence without a full stop about the settings: their file, and options that weaken the gate.
 
-    Empty if there is no settings file and every deciding option is as strict as its default.
+    Yields nothing if there is no settings file and every deciding option is as strict as its default.
     """
     if not settings:
         return
@@ -135,7 +136,7 @@ def implementation_claims(
     *,
     left_out: bool = True,
 ) -> Iterator[str]:
-    """Sentences without a full stop about an implementation.
+    """Yield sentences without a full stop about what an implementation declares and how it was tested.
 
     `rows` counts rows that were not tested, by reason. `left_out`: with the sentence about what was not tested.
     """
@@ -148,7 +149,7 @@ def implementation_claims(
 
 
 def how_tested(line: lines.ImplementationLine, rows: Mapping[str, int], *, left_out: bool = True) -> Iterator[str]:
-    """Sentences without a full stop: what was not tested, the evenness of the cases, and what was asked again."""
+    """Yield sentences without a full stop: what was not tested, the evenness of the cases, what was asked again."""
     not_asked = [text for text in (families_not_asked(line), rows_not_asked(rows)) if text]
     if not_asked and left_out:
         yield f"not asked: {'; '.join(not_asked)}"
@@ -162,7 +163,7 @@ def how_tested(line: lines.ImplementationLine, rows: Mapping[str, int], *, left_
 
 
 def _spread(line: lines.ImplementationLine) -> Iterator[str]:
-    """Sentences without a full stop: the width of a fault that the run could miss, and the tested coincidences."""
+    """Yield sentences about the width of a fault that the run could miss, and about the tested coincidences."""
     for family, slices in (line.slices or {}).items():
         if family in SEARCHED:
             yield from _searched(slices, tilted="axis" in SEARCHED[family].groups)
@@ -179,7 +180,7 @@ def _spread(line: lines.ImplementationLine) -> Iterator[str]:
 
 
 def _searched(slices: lines.SlicesPart, *, tilted: bool) -> Iterator[str]:
-    """The evenness of a directed search over all distances from contact."""
+    """Yield the sentence about the evenness of a directed search over all distances from contact."""
     yield (
         f"a directed search followed {'tilted' if tilted else 'upright'} spheroids from clear to contact, to where its "
         f"answers change; from {2.0**NEAREST_OCTAVE:.1g} of their size off contact to all of it, every slice of "
@@ -188,20 +189,20 @@ def _searched(slices: lines.SlicesPart, *, tilted: bool) -> Iterator[str]:
 
 
 def _percent(share: float) -> str:
-    """A share, rounded up to two digits: a statement about a slice holds for wider slices too."""
+    """Return a share in per cent, rounded up to two digits: a statement about a slice holds for wider slices too."""
     digits = 1 - math.floor(math.log10(100 * share)) if share else 2
     return f"{math.ceil(100 * share * 10**digits) / 10**digits:.{max(0, digits)}f} %"
 
 
 def rows_not_asked(counts: Mapping[str, int]) -> str:
-    """The rows that were not tested, by reason: "120 rows not zero or normal in its precision"; "" if none."""
+    """Return the rows that were not tested, by reason: "120 rows not zero or normal in its precision"; "" if none."""
     return listed(
         [f"{counted(counts[reason], 'row')} {text}" for reason, text in domain.ROWS.items() if counts.get(reason)]
     )
 
 
 def families_not_asked(line: lines.ImplementationLine, reasons: Collection[str] = domain.FAMILIES) -> str:
-    """The families that were not tested, by reason: "5 families left out by --families"; "" if there are none."""
+    """Return the families that were not tested, by reason: "5 families left out by --families"; "" if none."""
     left_out = {reason: (line.not_asked or {}).get(reason) for reason in reasons}
     return listed(
         [
@@ -213,7 +214,7 @@ def families_not_asked(line: lines.ImplementationLine, reasons: Collection[str] 
 
 
 def description_text(description: lines.DescriptionPart) -> str:
-    """A description in words: question, precision, domain and the rest."""
+    """Return a description in words: question, precision, domain and the rest."""
     parts = [_declared_value(description, name) for name in ("question", "precision", "domain")]
     parts += [text for text in (description.language, description.version) if text]
     if description.refuses:
@@ -228,6 +229,7 @@ def description_text(description: lines.DescriptionPart) -> str:
 
 
 def _declared_value(description: lines.DescriptionPart, name: str) -> str:
+    """Return the question, the precision or the domain of a description in words."""
     return domain_text(description.domain) if name == "domain" else str(getattr(description, name))
 
 
@@ -235,7 +237,7 @@ _SIZES_NAMED = 4
 
 
 def domain_text(value: lines.DomainPart) -> str:
-    """A domain: "every regime, ratios 0.001 to 1,000, magnitudes not declared"."""
+    """Return a domain in words: "every regime, ratios 0.001 to 1,000, magnitudes not declared"."""
     regimes = listed(value.regimes) if value.regimes else "every regime"
     ranges = [f"ratios {_range(value.ratio)}", f"magnitudes {_range(value.magnitude)}"]
     settings = value.settings or ()
@@ -247,6 +249,7 @@ def domain_text(value: lines.DomainPart) -> str:
 
 
 def _range(limits: tuple[float, float] | None) -> str:
+    """Return the least and the greatest in words; "not declared" for None."""
     return "not declared" if limits is None else " to ".join(figure(limit) for limit in limits)
 
 
@@ -266,33 +269,33 @@ class Replays:
 
     @classmethod
     def of(cls, record: Record) -> Replays:
-        """The commands for the cases of a record."""
+        """Collect the commands for the cases of a record."""
         numbers = {id(numbered.case): numbered.number for numbered in recorded_cases(record)}
         return cls(numbers, tuple(_options(record.header.options)))
 
     def place(self, case: lines.WrongAnswer | lines.FaultPart) -> str:
-        """The case as `hypcheck replay` reads it in the record's folder: record.jsonl:7."""
+        """Return the case as `hypcheck replay` reads it in the record's folder: record.jsonl:7."""
         return f"record.jsonl:{self.numbers[id(case)]}"
 
     def command(self, group: lines.GroupLine, case: lines.WrongAnswer | lines.FaultPart) -> str:
-        """The command that replays a gated implementation's case, or decides and proves a built-in method's case."""
+        """Return the command that shows a case: a replay if the implementation is gated, else an exact decision."""
         if not group.tested:
             return classify_command(from_hex(numbers_of(case)), layout_of(case))
         return self.of_case(case.case, str(group.spec))
 
     def of_case(self, case: str, spec: str) -> str:
-        """The command that replays a case of an implementation."""
+        """Return the command that replays a case of an implementation."""
         return shlex.join(["hypcheck", "replay", case, spec, *self.options])
 
 
 def tolerance_of(options: Mapping[str, Any]) -> float | None:
-    """The tolerance of a run in units u; None if its options have no number for it."""
+    """Return the tolerance of a run in units u; None if its options have no number for it."""
     tolerance = options.get("tolerance")
     return float(tolerance) if isinstance(tolerance, (int, float)) else None
 
 
 def _options(options: Mapping[str, Any]) -> list[str]:
-    """Options of the run that differ from their defaults and change what a replay shows."""
+    """Return the run's options that differ from their defaults and change what a replay shows."""
     words = [f"--{name}={options[name]}" for name in ("precision", "question") if options.get(name) is not None]
     tolerance = tolerance_of(options)
     if tolerance is not None and tolerance != DEFAULT_TOLERANCE:
@@ -304,7 +307,7 @@ def _options(options: Mapping[str, Any]) -> list[str]:
 
 
 def _isolation(limits: Mapping[str, Any]) -> Iterator[str]:
-    """Options about what an implementation sees that differ from their defaults."""
+    """Yield the options about what an implementation can see, as far as they differ from their defaults."""
     if limits.get("isolate", MODES[0]) != MODES[0]:
         yield f"--isolate={limits['isolate']}"
     if limits.get("pass_env"):

@@ -174,14 +174,14 @@ class TimingTotal:
 
 
 def in_order(counts: Counter[str]) -> dict[str, int]:
-    """Counts by status in the order of judge.Status; statuses of later versions last."""
+    """Return counts by status in the order of judge.Status; statuses of later versions come last."""
     order = [status.value for status in Status]
     names = sorted(counts, key=lambda name: (order.index(name) if name in order else len(order), name))
     return {name: counts[name] for name in names if counts[name]}
 
 
 def oracle_totals(record: Record) -> list[OracleTotal]:
-    """A total for each oracle: first the used oracles, then the unavailable ones."""
+    """Return a total for each oracle: first the used oracles, then the unavailable ones."""
     by_name: dict[str, list[OracleLine]] = {}
     for line in record.of(OracleLine):
         by_name.setdefault(line.oracle, []).append(line)
@@ -192,6 +192,7 @@ def oracle_totals(record: Record) -> list[OracleTotal]:
 
 
 def _oracle_total(name: str, lines: list[OracleLine]) -> OracleTotal:
+    """Add up the lines of one oracle. An answer whose certificate is refused counts as a disagreement alone."""
     stages: Counter[str] = sum((Counter(line.stages) for line in lines), Counter())
     cases, disagreements = sum(line.asked for line in lines), sum(line.disagreeing for line in lines)
     undecided = sum(line.undecided for line in lines) - stages[REFUSED]
@@ -201,7 +202,7 @@ def _oracle_total(name: str, lines: list[OracleLine]) -> OracleTotal:
 
 
 def equations(record: Record) -> dict[str, list[str]]:
-    """The numbers of the paper's displayed formulas, by the verdict of the derivation."""
+    """Return the numbers of the paper's displayed formulas, by the verdict of the derivation."""
     numbers: dict[str, list[str]] = {"holds": [], "misprint": [], "false": []}
     for line in record.of(EquationLine):
         numbers[line.verdict].append(line.number)
@@ -209,12 +210,12 @@ def equations(record: Record) -> dict[str, list[str]]:
 
 
 def unlisted(finding: FindingLine) -> bool:
-    """Whether a formula errs within its stated regimes, and the finding is not a known one."""
+    """Decide whether a formula errs within its stated regimes, and the finding is not a known one."""
     return finding.inside and finding.reason is None
 
 
 def explanation(finding: FindingLine) -> str:
-    """The known reason why a formula errs."""
+    """Return the known reason why a formula errs; else its cause, and whether the formula claims to be right here."""
     if finding.reason is not None:
         return finding.reason
     cause = f"cause: {finding.cause}"
@@ -222,7 +223,7 @@ def explanation(finding: FindingLine) -> str:
 
 
 def implementations(record: Record) -> list[ImplementationTotal]:
-    """Every implementation in the order of the record, exact ones first."""
+    """Return every implementation in the order of the record, exact ones first."""
     names, wholes = names_in(record), {subject_of(line): line for line in record.of(Tested)}
     by_subject: dict[SubjectKey, list[GroupLine]] = {}
     for line in record.of(GroupLine):
@@ -232,7 +233,7 @@ def implementations(record: Record) -> list[ImplementationTotal]:
 
 
 def under_test(record: Record) -> list[UnderTest]:
-    """Every gated implementation in the order of the record, those that could not be started included."""
+    """Return every gated implementation in the order of the record, with those that could not be started."""
     names, groups = names_in(record), record.of(GroupLine)
     return [
         UnderTest(
@@ -243,23 +244,25 @@ def under_test(record: Record) -> list[UnderTest]:
 
 
 def _tested(record: Record) -> list[Tested | NotStartedLine]:
+    """Return the lines about gated implementations, started or not."""
     return [line for line in record.lines if isinstance(line, (Tested, NotStartedLine))]
 
 
 def subject_of(line: GroupLine | Tested | NotStartedLine) -> SubjectKey:
-    """The implementation of a line: its declared name, and its spec if it has one."""
+    """Return the implementation of a line: its declared name, and its spec if it has one."""
     name = line.method if isinstance(line, GroupLine) else line.name
     return name, line.spec or None
 
 
 def names_in(record: Record) -> dict[SubjectKey, str]:
-    """The name of each implementation in reports: the declared name, with the spec if others have the same name."""
+    """Return the name of each implementation in reports: the declared name, with the spec if others have that name."""
     subjects = dict.fromkeys(map(subject_of, [*record.of(GroupLine), *_tested(record)]))
     alike = Counter(name for name, _ in subjects)
     return {(name, spec): name if alike[name] == 1 else f"{name} ({spec})" for name, spec in subjects}
 
 
 def _implementation(name: str, lines: list[GroupLine], whole: Tested | None) -> ImplementationTotal:
+    """Collect the group lines of an implementation; `whole` is the line about it, if it is under test."""
     first = lines[0]
     return ImplementationTotal(
         name=name,
@@ -274,28 +277,29 @@ def _implementation(name: str, lines: list[GroupLine], whole: Tested | None) -> 
 
 
 def worst_case(cases: list[WrongAnswer]) -> WrongAnswer | None:
-    """The case with the greatest backward error, the first of equal ones; None if there is no case."""
+    """Return the case with the greatest backward error, the first of equal ones; None if there is no case."""
     return max(cases, key=lambda case: case.backward_error_u, default=None)
 
 
 def worst_error_u(case: WrongAnswer | None) -> float:
-    """The backward error of worst_case in units u; 0 if no answer was wrong."""
+    """Return the backward error of a worst case in units u; 0 if there is no case, since no answer was wrong."""
     return 0.0 if case is None else case.backward_error_u
 
 
 def worst_u(group: GroupLine) -> float:
-    """The greatest backward error of a family in units u; 0 if no answer was wrong."""
+    """Return the greatest backward error of a family in units u; 0 if no answer was wrong."""
     return worst_error_u(worst_case(group.worst))
 
 
 def timing_totals(record: Record) -> list[TimingTotal]:
-    """Every contender in the order of the record."""
+    """Return the times of every contender in the order of the record."""
     lines = record.of(TimingLine)
     references = {line.workload: line.samples_ns for line in lines if line.name == REFERENCE}
     return [_timing_total(line, references.get(line.workload)) for line in lines]
 
 
 def _timing_total(line: TimingLine, reference: list[float] | None) -> TimingTotal:
+    """Sum up the times of a contender; `reference` are the reference's times in the same rounds, if it was timed."""
     samples: list[float] = line.samples_ns
     pairs: Any = zip(samples, reference or (), strict=False)
     ratios = [sample / other for sample, other in pairs if other > 0]
@@ -313,7 +317,7 @@ def _timing_total(line: TimingLine, reference: list[float] | None) -> TimingTota
 
 
 def drawn_sweep(implementation: ImplementationTotal) -> WrongAnswer | None:
-    """The worst wrong answer about the sweep of an upright spheroid, which a picture can show; None without one."""
+    """Return the worst wrong answer about a sweep of an upright spheroid, which a picture can show; None if none."""
     if implementation.question != PASSAGE or not implementation.gated:
         return None
     return worst_case([case for group in implementation.groups for case in group.worst if case.axis is UNSET])

@@ -21,7 +21,7 @@ from hypcheck.report.messages import figure, implementation_claims, listed, pace
 
 
 def oracle_facts(record: Record, *, held: bool = False) -> Iterator[str]:
-    """One sentence about the used oracles, one about the unavailable oracles.
+    """Yield a sentence about the used oracles, and one about the unavailable oracles.
 
     `held`: the verdict says already that no used oracle disagreed.
     """
@@ -35,7 +35,7 @@ def oracle_facts(record: Record, *, held: bool = False) -> Iterator[str]:
 
 
 def paper_facts(record: Record, *, held: bool = False) -> Iterator[str]:
-    """The paper's equations, the proofs and the mathematical findings.
+    """Yield sentences about the paper's equations, the proofs and the mathematical findings.
 
     `held`: the verdict says already that all proofs hold.
     """
@@ -71,7 +71,7 @@ _REMARKS = {"wrong": "", "tolerated": " (tolerated)", "excused": " (excused as a
 
 
 def _farthest(methods: Sequence[model.ImplementationTotal]) -> str:
-    """A clause about the answer with the greatest backward error, or that no answer is wrong, if any was judged."""
+    """Return a clause about the answer with the greatest backward error; else whether any answer was judged."""
     method = max(methods, key=lambda total: model.worst_error_u(total.worst))
     worst = method.worst
     if worst is not None:
@@ -82,7 +82,7 @@ def _farthest(methods: Sequence[model.ImplementationTotal]) -> str:
 
 
 def benchmark_facts(record: Record) -> Iterator[str]:
-    """Sentences about a benchmark: the cost of other shapes, and the distances at which errors end."""
+    """Yield sentences about a benchmark: the cost of other shapes, and the distances at which errors end."""
     yield from sentences_of(record, BoundingLine)
     for method in sweep_totals(record):
         yield _sweep_fact(method)
@@ -92,7 +92,7 @@ def benchmark_facts(record: Record) -> Iterator[str]:
 
 
 def _sweep_fact(total: SweepTotal) -> str:
-    """The errors of a method for sweeps, and its cost per sweep."""
+    """Return a sentence about the errors of a method for sweeps, and its cost per sweep."""
     missed, false = (figure(100 * total.share(part)) for part in (total.missed, total.false))
     silent = f", {figure(100 * total.share(total.abstained))} % cannot say" if total.abstained else ""
     time = "" if total.time_ns is None else f", {figure(total.time_ns / 1000)} µs a sweep"
@@ -102,7 +102,7 @@ def _sweep_fact(total: SweepTotal) -> str:
 
 
 def _endings(title: str, workload: str, methods: Sequence[MeasuredMethod]) -> Iterator[str]:
-    """The distances at which errors of methods in floats end on a workload; methods that err at any distance."""
+    """Yield where the errors of methods in floats end on a workload, and which methods err at any distance."""
     ends = {method: float(method.accuracy[workload].reliable_above) for method in methods}
     most = max((method.accuracy[workload].asked for method in methods), default=0)
     for precision in ("float64", "float32"):
@@ -127,13 +127,14 @@ def _endings(title: str, workload: str, methods: Sequence[MeasuredMethod]) -> It
 
 
 def _end(distance: float) -> str:
+    """Return in words the distance at which errors end; "none" if no answer is wrong."""
     if not distance:
         return "none"
     return "at exact tangencies alone" if distance <= NEAREST else f"errors end at {figure(distance)}"
 
 
 def tested_facts(record: Record, *, held: bool) -> Iterator[str]:
-    """What gated implementations declare, and how they were tested.
+    """Yield what gated implementations declare, and how they were tested.
 
     `held`: the verdict says already which rows were skipped, how many were fresh and, if --families chose among the
     families, which were left out.
@@ -149,14 +150,14 @@ def tested_facts(record: Record, *, held: bool) -> Iterator[str]:
 
 
 def timing_facts(record: Record) -> Iterator[str]:
-    """The median time of each contender."""
+    """Yield one sentence with the median time of each contender; nothing if none was timed."""
     totals = [f"{total.name} {figure(total.median_ns)}" for total in model.timing_totals(record)]
     if totals:
         yield f"ns a row: {', '.join(totals)}"
 
 
 def unmeasured_facts(record: Record) -> Iterator[str]:
-    """The measurements without a time, and the number of samples dropped as impossible."""
+    """Yield sentences about the measurements without a time, and about samples dropped as impossible."""
     for facts in facts_of(record, UnmeasuredLine):
         yield f"not measured: {facts.name}: {facts.line.reason}"
     dropped = [(speed, speed.dropped) for speed in record.of(SpeedLine) if speed.dropped]

@@ -245,13 +245,13 @@ class Summary(fields.LinePart, frozen=True, kw_only=True):
 
 
 def render(record: Record) -> bytes:
-    """The summary as JSON in UTF-8; a lone surrogate, which UTF-8 cannot hold, becomes a question mark."""
+    """Render the summary as JSON in UTF-8; a lone surrogate, which UTF-8 cannot hold, becomes a question mark."""
     text = json.dumps(fields.as_json(summary(record)), ensure_ascii=False, allow_nan=False, indent=2)
     return (text + "\n").encode("utf-8", "replace")
 
 
 def summary(record: Record) -> Summary:
-    """The summary; its keys and their order are the same for every run."""
+    """Make the summary; its keys and their order are the same for every run."""
     ended, footer, causes = verdict(record), record.footer, record.of(CauseLine)
     return Summary(
         hypcheck=record.header.hypcheck,
@@ -278,6 +278,7 @@ def summary(record: Record) -> Summary:
 
 
 def _oracle(total: model.OracleTotal) -> OracleSummary:
+    """Convert the total of an oracle to its part of the summary."""
     return OracleSummary(
         asked=total.asked,
         agreed=total.agreed,
@@ -290,11 +291,13 @@ def _oracle(total: model.OracleTotal) -> OracleSummary:
 
 
 def _proofs(lines: list[ProofLine]) -> Proofs:
+    """Count the proofs that hold and those that fail."""
     holding = sum(line.holds for line in lines)
     return Proofs(asked=len(lines), hold=holding, fail=len(lines) - holding)
 
 
 def _findings(record: Record) -> Findings:
+    """Count the findings inside and outside the stated regimes; add the differences from the known ones."""
     lines = record.of(FindingLine)
     return Findings(
         inside_stated_regimes=sum(line.inside for line in lines),
@@ -305,6 +308,7 @@ def _findings(record: Record) -> Findings:
 
 
 def _implementation(total: model.ImplementationTotal, causes: list[CauseLine]) -> ImplementationSummary:
+    """Convert the total of an implementation; `causes` are the causes of its wrong answers."""
     counts = ImplementationSummary(
         name=total.name,
         spec=total.spec,
@@ -334,6 +338,7 @@ def _implementation(total: model.ImplementationTotal, causes: list[CauseLine]) -
 
 
 def _cause(line: CauseLine) -> CauseSummary:
+    """Convert the line of a cause."""
     return CauseSummary(
         cause=line.cause,
         sentence=line.sentence,
@@ -345,11 +350,13 @@ def _cause(line: CauseLine) -> CauseSummary:
 
 
 def _family(group: GroupLine) -> FamilySummary:
+    """Convert the line of a family."""
     counts = _counts(group.asked, group.counts, group.mistakes, worst_case(group.worst))
     return FamilySummary(**counts, fresh=group.fresh, not_asked=group.not_asked)
 
 
 def _counts(cases: int, statuses: dict[str, int], mistakes: dict[str, int], worst: WrongAnswer | None) -> Fields:
+    """Return the fields that an implementation and a family share: cases, statuses, mistakes and the worst case."""
     return {
         "asked": cases,
         **{status: statuses.get(status, 0) for status in ("right", "tolerated", "wrong", "excused")},
@@ -360,11 +367,13 @@ def _counts(cases: int, statuses: dict[str, int], mistakes: dict[str, int], wors
 
 
 def _mistakes(counted: dict[str, int]) -> Mistakes:
+    """Convert counts by kind of mistake; wrong times are left out if there are none."""
     counts = {name: counted.get(name.replace("_", "-"), 0) for name in Mistakes.__struct_fields__}
     return Mistakes(**{name: number for name, number in counts.items() if number or name not in ("late", "early")})
 
 
 def _method(method: MeasuredMethod) -> MethodSummary:
+    """Convert a method of a benchmark."""
     line = method.line
     return MethodSummary(
         name=method.name,

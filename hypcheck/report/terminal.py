@@ -25,17 +25,17 @@ from hypcheck.runs.judge import Status
 MOST_LINES = 25
 
 MOST_FAILURES = 8
-"""Failures that are listed; report.md has more of them, and junit.xml all."""
+"""The most failures that are listed; report.md has more of them, and junit.xml has all."""
 
 MOST_CAUSES = 6
-"""Causes of wrong answers that are listed, three lines each; report.md has all."""
+"""The most causes of wrong answers that are listed, three lines each; report.md has all."""
 
 WIDTH = 160
 """Characters of a line on a terminal; longer ones are cut, but not the verdict, and nothing in a file or a pipe."""
 
 
 def render(record: Record, context: ReportContext = ALONE) -> bytes:
-    """The summary as a file."""
+    """Render the summary as a file."""
     return "".join(f"{line}\n" for line in summary_lines(record, (), against=context.against)).encode(
         "utf-8", "replace"
     )
@@ -49,10 +49,10 @@ def summary_lines(
     colour: bool = False,
     width: int | None = None,
 ) -> list[str]:
-    """The summary, a failure's reason first: at most MOST_LINES plain lines, besides tables of answers and causes.
+    """Return the summary, a failure's reason first: at most MOST_LINES plain lines, besides answers and causes.
 
-    A benchmark of a user's methods is about these: the paper's claims of cost are in its other reports.
-    With `colour`, the first line is green or red; with `width`, lines are cut to this width.
+    A benchmark of a user's methods is about these: the paper's claims of cost are in its other reports. With `colour`,
+    the first line is green or red; with `width`, lines are cut to this width.
     """
     ended = verdict(record)
     head = click.style(escaped(ended.sentence), fg="green" if ended.passed else "red", bold=True)
@@ -80,6 +80,7 @@ def summary_lines(
 
 
 def _squares(record: Record) -> Iterator[str]:
+    """Yield the lines of each table of answers, with the sentence about answers that pass."""
     for block, passing in tables_of_answers(record):
         yield from (f"  {line}" for line in table_lines(block, WIDTH))
         if passing:
@@ -87,12 +88,13 @@ def _squares(record: Record) -> Iterator[str]:
 
 
 def _line(text: str, width: int | None) -> str:
+    """Escape a line behind its indent, and cut it to the width if there is one."""
     indent = text[: len(text) - len(text.lstrip(" "))]
     return indent + escaped(text, width)
 
 
 def _failures(record: Record, verdict_sentence: str) -> Iterator[str]:
-    """The failures that neither the verdict nor the causes of wrong answers name.
+    """Yield a line for each failure that neither the verdict nor the causes of wrong answers name.
 
     The same failure of an implementation in several families is listed once; cases that were not tested come after
     their reason.
@@ -118,7 +120,7 @@ def _failures(record: Record, verdict_sentence: str) -> Iterator[str]:
 
 
 def _causes(record: Record) -> Iterator[str]:
-    """The causes of wrong answers: name, families, remedy, and the command that shows the worst answer."""
+    """Yield lines about the causes of wrong answers: name, families, remedy, the command that shows the worst one."""
     causes = cause_facts(record)
     several = len({facts.line.spec for facts in causes}) > 1
     for facts in causes[:MOST_CAUSES]:
@@ -134,7 +136,7 @@ def _causes(record: Record) -> Iterator[str]:
 
 
 def _reports(written: Sequence[WrittenReport]) -> Iterator[str]:
-    """The folders of the reports, and the reports that are missing, with the reason."""
+    """Yield the folders of the reports, and the reports that are missing, with the reason."""
     folders: dict[str, list[str]] = {}
     for report in written:
         if report.skipped is None:

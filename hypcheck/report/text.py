@@ -21,7 +21,7 @@ _INDENT, _LEAST_TITLE, _LONGEST_TITLE = 4, 9, 40
 
 
 def lines(sections: Iterable[document.Section]) -> Iterator[str]:
-    """The lines of the sections; a section that only the page has is left out."""
+    """Yield the lines of the sections; a section that only the page has is left out."""
     for section in sections:
         if section.page:
             continue
@@ -35,7 +35,7 @@ def lines(sections: Iterable[document.Section]) -> Iterator[str]:
 
 
 def _block(block: document.Block, indent: int) -> Iterator[str]:
-    """The lines of a block; a text has no pictures and no folded blocks."""
+    """Yield the lines of a block; a text has no pictures and no folded blocks."""
     match block:
         case document.Paragraph(text):
             yield from _text(text, indent)
@@ -48,6 +48,7 @@ def _block(block: document.Block, indent: int) -> Iterator[str]:
 
 
 def _numbered(items: Sequence[document.Item], indent: int) -> Iterator[str]:
+    """Yield the lines of a numbered list, with an empty line between two items."""
     for number, item in enumerate(items, 1):
         if number > 1:
             yield ""
@@ -56,7 +57,7 @@ def _numbered(items: Sequence[document.Item], indent: int) -> Iterator[str]:
 
 
 def _bullets(items: Sequence[document.Item], indent: int) -> Iterator[str]:
-    """A list. The texts of items that have titles begin in one column, to the right of the titles."""
+    """Yield the lines of a list. Texts of items that have titles begin in one column, to the right of the titles."""
     titles = [inline(item.title) for item in items]
     column = max(_LEAST_TITLE, *map(columns, titles)) + 1 if any(titles) else 2
     for item, title in zip(items, titles, strict=True):
@@ -65,11 +66,12 @@ def _bullets(items: Sequence[document.Item], indent: int) -> Iterator[str]:
 
 
 def _below(item: document.Item, indent: int) -> Iterator[str]:
+    """Return an iterator over the lines of an item's sublist."""
     return (line for text in item.below for line in _text(text, indent))
 
 
 def _text(words: document.Text, indent: int, first: str = "") -> Iterator[str]:
-    """A text in lines; `first` replaces the indent of the first line."""
+    """Yield a text in lines; `first` replaces the indent of the first line."""
     if isinstance(words, document.Formula):
         yield from _formula(words, indent, first)
     elif isinstance(words, document.Code):
@@ -79,28 +81,29 @@ def _text(words: document.Text, indent: int, first: str = "") -> Iterator[str]:
 
 
 def inline(words: document.Text) -> str:
-    """Running text on one line; code within a text is in backticks."""
+    """Return running text on one line; code within a text is in backticks."""
     return escaped(words.text if isinstance(words, document.Code) else _with_backticks(words))
 
 
 def _with_backticks(words: document.Text) -> str:
+    """Return running text with backticks around each code."""
     if isinstance(words, document.Code):
         return f"`{words.text}`"
     return "".join(map(_with_backticks, words)) if isinstance(words, tuple) else document.plain(words)
 
 
 def columns(text: str) -> int:
-    """The number of columns of a text; combining marks, as in H̄, take none."""
+    """Count the columns of a text; combining marks, as in H̄, take none."""
     return sum(not unicodedata.combining(character) for character in text)
 
 
 def padded(text: str, width: int) -> str:
-    """The text with spaces up to a width."""
+    """Fill the text with spaces up to a width."""
     return text + " " * (width - columns(text))
 
 
 def paragraph(text: str, indent: int = 0, first: str = "", width: int = WIDTH) -> Iterator[str]:
-    """The text in lines, without a break inside a comparison; `first` replaces the indent of the first line."""
+    """Yield the text in lines, without a break inside a comparison; `first` replaces the first line's indent."""
     glued = re.sub(r"(?<=\S) ([=<>≤≥≠]) (?=\S)", "\u00a0\\1\u00a0", text)
     glued = re.sub(r"(?<=\d), (?=[\d−]\S*\)|\d+, )", ",\u00a0", glued)  # a point's coordinates stay together
     wrapped = textwrap.wrap(glued, width - indent, break_long_words=False, break_on_hyphens=False)
@@ -109,7 +112,10 @@ def paragraph(text: str, indent: int = 0, first: str = "", width: int = WIDTH) -
 
 
 def _formula(formula: document.Formula, indent: int, first: str) -> Iterator[str]:
-    """A formula with its remark at the right edge; a matrix in rows, and a long formula broken (see `broken`)."""
+    """Yield the lines of a formula, its remark at the right edge.
+
+    A matrix is shown in rows. A long formula is broken (see `broken`).
+    """
     remark = formula.remark
     named = matrix_of(formula.text)
     if named is not None:
@@ -123,7 +129,10 @@ def _formula(formula: document.Formula, indent: int, first: str) -> Iterator[str
 
 
 def broken(text: str, room: int, depth: int = 0) -> list[str]:
-    """The formula in lines of at most `room` columns, broken before signs that join terms, the outermost ones first."""
+    """Break the formula into lines of at most `room` columns, before signs that join terms, the outermost ones first.
+
+    `depth` is the number of brackets around the signs at which this call breaks.
+    """
     lines = [""]
     for piece in _terms(text, depth):
         if columns(lines[-1] + piece) <= room or not lines[-1]:
@@ -135,11 +144,11 @@ def broken(text: str, room: int, depth: int = 0) -> list[str]:
 
 
 _DEEPEST = 4
-"""No formula here nests further."""
+"""The most brackets around a place at which a formula is broken; no formula of hypcheck nests deeper."""
 
 
 def _terms(text: str, depth: int) -> Iterator[str]:
-    """The text cut before each spaced sign, and after each comma, that stands in at most `depth` brackets."""
+    """Cut the text before each spaced sign, and after each comma, that is in at most `depth` brackets."""
     start = level = 0
     for place, character in enumerate(text):
         level += (character in "([") - (character in ")]")
@@ -151,7 +160,7 @@ def _terms(text: str, depth: int) -> Iterator[str]:
 
 
 def matrix_of(text: str) -> tuple[str, list[list[str]]] | None:
-    """The name and the rows of the matrix in "H = [a, b; c, d]"; None if a formula does not end with a matrix."""
+    """Return the name and the rows of the matrix in "H = [a, b; c, d]"; None if a formula ends with no matrix."""
     name, equals, inside = text.partition(" = ")
     if not (equals and inside.startswith("[") and inside.endswith("]")):
         return None
@@ -159,7 +168,7 @@ def matrix_of(text: str) -> tuple[str, list[list[str]]] | None:
 
 
 def _matrix(name: str, rows: Sequence[Sequence[str]]) -> Iterator[str]:
-    """A matrix, one line for each row."""
+    """Yield the lines of a matrix, one for each row."""
     widths = [max(map(columns, column)) for column in zip(*rows, strict=True)]
     last = len(rows) - 1
     for number, row in enumerate(rows):
@@ -170,7 +179,7 @@ def _matrix(name: str, rows: Sequence[Sequence[str]]) -> Iterator[str]:
 
 
 def table_lines(block: document.TableBlock, room: int = WIDTH) -> Iterator[str]:
-    """The lines of a table, with numbers aligned to the right; a text that is too wide for its column is wrapped."""
+    """Yield the lines of a table, with numbers aligned to the right; a text too wide for its column is wrapped."""
     titles = [escaped(inline(column.title), _LONGEST_TITLE) for column in block.columns]
     rows = [titles, *([inline(cell.text) for cell in row] for row in block.rows)]
     widths = column_widths(block, rows, room)
@@ -185,7 +194,7 @@ def table_lines(block: document.TableBlock, room: int = WIDTH) -> Iterator[str]:
 
 
 def column_widths(block: document.TableBlock, rows: Sequence[Sequence[str]], room: int) -> list[int]:
-    """The widths of the columns of these rows, the titles first.
+    """Compute the widths of the columns of these rows, the titles first.
 
     If a table is wider than the room, the titles of numbers are wrapped; then the widest columns become narrower.
     """

@@ -35,7 +35,7 @@ WITHOUT_COMPARISON = (KernelLine, ForestLine, SceneLine)
 
 
 def _method_clauses(record: Record) -> Iterator[str]:
-    """Clauses about methods of a benchmark that were compared on rows."""
+    """Yield clauses about the methods of a benchmark that were compared on rows."""
     methods = [method for method in measured_methods(record) if method.asked or method.speed]
     if not methods:
         return
@@ -87,7 +87,7 @@ class Verdict:
 
 
 def failures(record: Record) -> list[Failure]:
-    """Everything in the record that fails the run, worst first."""
+    """Return everything in the record that fails the run, worst first."""
     whole = failures_of(record, ImplementationLine, NotStartedLine)
     starts = [failure for failure in whole if failure.group == "start"]
     return [
@@ -102,7 +102,7 @@ def failures(record: Record) -> list[Failure]:
 
 
 def verdict(record: Record) -> Verdict:
-    """The verdict of the run."""
+    """Return the verdict of the run."""
     failed = failures(record)
     if record.footer is None:
         so_far = f" What was finished has already failed: {_failure_counts(failed)}." if failed else ""
@@ -130,7 +130,7 @@ def verdict(record: Record) -> Verdict:
 
 
 def ended_badly(record: Record, failed: Sequence[Failure]) -> Failure | None:
-    """The verdict of a run that stopped before its end, or whose exit code contradicts its lines; else None."""
+    """Return the verdict as a failure if the run stopped early, or if its lines contradict its exit code; else None."""
     ended, footer = verdict(record), record.footer
     unfinished = footer is None or footer.exit_code in EXITS_UNFINISHED
     unexplained = not ended.passed and not failed
@@ -141,7 +141,7 @@ def ended_badly(record: Record, failed: Sequence[Failure]) -> Failure | None:
 
 
 def _reasons(record: Record, failed: list[Failure]) -> str:
-    """Why the run failed: a clause for each implementation; for other subjects the number, or the only failure."""
+    """Return why the run failed: a clause for each implementation; for other subjects a number, or the only failure."""
     if len(failed) == 1 and failed[0].subject in _TELLING and failed[0].kind != Status.WRONG.value:
         return failed[0].message
     tested = [failure for failure in failed if failure.subject == "implementation"]
@@ -161,9 +161,9 @@ _TELLING = ("implementation", "findings", "measurement")
 
 
 def _wrong_clauses(record: Record, lost: Collection[str]) -> Iterator[str]:
-    """For each implementation under test, a clause with the numbers of tested cases by status that fails the run.
+    """Yield for each implementation under test the numbers of its cases by status that fails the run.
 
-    Of the `lost` ones, which have a clause of their own, broken protocol is not said again.
+    For a `lost` one, which has a clause of its own, broken protocol alone is not said again.
     """
     for total in model.implementations(record):
         ended = sum(
@@ -180,7 +180,7 @@ def _wrong_clauses(record: Record, lost: Collection[str]) -> Iterator[str]:
 
 
 def _failure_counts(failed: list[Failure]) -> str:
-    """The failures by subject: "2 disagreements of oracles and 1 failed proof"."""
+    """Count the failures by subject: "2 disagreements of oracles and 1 failed proof"."""
     nouns = {
         "oracle": ("disagreement of oracles", "disagreements of oracles"),
         "proof": ("failed proof",),
@@ -193,6 +193,7 @@ def _failure_counts(failed: list[Failure]) -> str:
 
 
 def _passed(record: Record) -> Verdict:
+    """Return the verdict of a run with exit code 0 and without failures; it has not passed if nothing was judged."""
     totals = [total for total in model.oracle_totals(record) if total.asked]
     tested = [method for method in model.implementations(record) if method.asked]
     compared = [method for method in measured_methods(record) if method.asked or method.speed]
@@ -210,7 +211,7 @@ def _passed(record: Record) -> Verdict:
 
 
 def _gated_clause(total: model.ImplementationTotal, record: Record) -> str:
-    """A clause about a gated implementation: the judged cases by status, the skipped cases, the families left out."""
+    """Return a clause about a gated implementation: judged cases by status, skipped cases, families left out."""
     ended = ", ".join(f"{number:,} {status}" for status, number in total.statuses.items() if status != "skipped")
     worst = f"worst backward error {messages.figure(model.worst_error_u(total.worst))} u"
     parts = [f"{total.name}: {total.judged:,} judged: {ended}", worst]
@@ -223,7 +224,7 @@ def _gated_clause(total: model.ImplementationTotal, record: Record) -> str:
 
 
 def _skipped(total: model.ImplementationTotal) -> Iterator[str]:
-    """The skipped rows by reason, and the families of which all rows were skipped."""
+    """Yield the skipped rows by reason, and the families of which all rows were skipped."""
     rows = messages.rows_not_asked(total.not_asked)
     if rows:
         yield rows
@@ -237,7 +238,7 @@ def _skipped(total: model.ImplementationTotal) -> Iterator[str]:
 
 
 def _not_asked(total: model.ImplementationTotal, record: Record) -> Iterator[str]:
-    """The families that the run left out."""
+    """Yield the families that --families left out, in words; nothing if all were chosen."""
     if total.whole is not None and record.header.options.get("families"):
         families = messages.families_not_asked(total.whole)
         if families:
@@ -245,11 +246,11 @@ def _not_asked(total: model.ImplementationTotal, record: Record) -> Iterator[str
 
 
 _NAMED = 3
-"""The most families without a tested row that a verdict names."""
+"""The most families without a tested row, and the most reasons, that a verdict names."""
 
 
 def _oracle_clause(totals: list[model.OracleTotal]) -> str:
-    """The agreement of the oracles; a single oracle shows none."""
+    """Return a clause about the agreement of the oracles; a single oracle shows none."""
     undecided = sum(total.undecided for total in totals)
     doubt = f", {undecided:,} undecided" if undecided else ""
     if len(totals) == 1:
@@ -265,16 +266,17 @@ _WORDS = {
     str(CANNOT_SAY): "cannot say",
     "none": "no valid answer",
 }
-"""Columns that a square has only if there is such an answer."""
+"""Titles of the columns that a table of answers has only if there is such an answer."""
 
 AMISS = "✗"
-"""Stands behind the counts of answers that are not the right one."""
+"""The mark behind a count of answers that are not right."""
 
 
 def tables_of_answers(record: Record) -> Iterator[tuple[TableBlock, str]]:
-    """A table of answers for each implementation under test with wrong answers, and a sentence if some of these pass.
+    """Yield the table of answers of each implementation under test that gave an answer that is not right.
 
-    Records before 1.10.0 give no tables.
+    A sentence follows each table: it says how many of these answers pass; "" if none does. Records before 1.10.0 give
+    no tables.
     """
     for total in model.implementations(record):
         counts = _with_wrong_times(total)
@@ -285,7 +287,7 @@ def tables_of_answers(record: Record) -> Iterator[tuple[TableBlock, str]]:
 
 
 def _with_wrong_times(total: model.ImplementationTotal) -> dict[str, dict[str, int]]:
-    """The number of rows by truth, then by answer. Hits at a wrong time are apart from the right ones."""
+    """Count the rows by truth, then by answer. Hits at a wrong time are apart from the right ones."""
     counts = total.answers
     wrong = {mistake: total.mistakes[mistake] for mistake in _WRONG_TIMES if mistake in total.mistakes}
     hit = str(HIT)
@@ -295,7 +297,7 @@ def _with_wrong_times(total: model.ImplementationTotal) -> dict[str, dict[str, i
 
 
 def _square(total: model.ImplementationTotal, counts: Mapping[str, Mapping[str, int]]) -> TableBlock:
-    """The table of an implementation's answers: truths in rows, answers in columns."""
+    """Make the table of an implementation's answers: truths in rows, answers in columns."""
     truths = [
         truth for truth in (("1", "0") if total.question == model.PASSAGE else ("1", "0", "-1")) if truth in counts
     ]
@@ -317,7 +319,7 @@ def _square(total: model.ImplementationTotal, counts: Mapping[str, Mapping[str, 
 
 
 def _passing(total: model.ImplementationTotal) -> str:
-    """A sentence about the marked answers that do not fail the run; "" if there are none."""
+    """Return a sentence about the marked answers that do not fail the run; "" if there are none."""
     reasons = (("tolerated", "within the tolerance"), ("excused", "excused as known failures"))
     parts = [
         f"{counted(total.statuses[status], 'answer')} {words}"
@@ -328,12 +330,13 @@ def _passing(total: model.ImplementationTotal) -> str:
 
 
 def _cell(cases: int, *, right: bool) -> TableCell:
+    """Make the cell of a count of answers; a count of answers that are not right is marked."""
     if right or not cases:
         return TableCell(f"{cases:,}", cases, "good" if right and cases else "")
     return TableCell(Strong(f"{cases:,} {AMISS}"), cases, "bad")
 
 
 def _right(question: str, truth: str, answer: str) -> bool:
-    """Whether this is the right answer to the question about a row with this truth."""
+    """Decide whether this is the right answer to the question about a row with this truth."""
     position = QUESTIONS[question].position
     return answer == (truth if position is None else str(int(int(truth) == position)))

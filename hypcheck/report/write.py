@@ -32,18 +32,18 @@ FOR_PROGRAMS: Mapping[str, Callable[[Record], bytes]] = {
     "badge": render_badge,
     "csv": csv.render,
 }
-"""What programs read: made of the record alone, whatever other reports there are."""
+"""The renderers of formats that programs read; they need the record alone."""
 
 AS_TEXT: Mapping[str, Callable[[Record, ReportContext], bytes]] = {
     "terminal": terminal.render,
     "markdown": markdown.render,
     "overview": markdown.render_overview,
 }
-"""What people read as text."""
+"""The renderers of formats that people read as text."""
 
 
 def _html() -> ModuleType:
-    """The module that makes the page. Raises UnavailableError if jinja2, which is an extra, is missing."""
+    """Import the module that makes the page. Raises UnavailableError if jinja2, which is an extra, is missing."""
     with extra("jinja2"):
         import jinja2  # noqa: F401, PLC0415
 
@@ -52,7 +52,7 @@ def _html() -> ModuleType:
 
 
 def render(name: str, record: Record, context: ReportContext = ALONE) -> bytes:
-    """The report of that format. Raises UnavailableError if it cannot be made here."""
+    """Render the report of that format. Raises UnavailableError if it cannot be made here."""
     if name in FOR_PROGRAMS:
         return FOR_PROGRAMS[name](record)
     if name in AS_TEXT:
@@ -74,12 +74,13 @@ def import_all() -> None:
 
 
 def files_of(record: Record) -> list[str]:
-    """The names of the reports that a run with this record writes, if all of them can be made."""
+    """Return the names of the reports that a run with this record writes, if all of them can be made."""
     every = [REPORTS[name] for name in kept_formats()]
     return [report.file for report in every if _has_content(report, record)]
 
 
 def _has_content(report: ReportFormat, record: Record) -> bool:
+    """Decide whether the record has what the format shows."""
     if report.sweeps:
         return any(drawn_sweep(implementation) is not None for implementation in implementations(record))
     return report.shows is None or any(line.type == report.shows for line in record.lines)
@@ -115,7 +116,7 @@ def remove_reports(directory: Path) -> None:
 
 
 def holds_run(directory: Path) -> bool:
-    """Whether the folder has a record, finished or not, or a report that every run writes."""
+    """Decide whether the folder has a record, finished or not, or a report that every run writes."""
     return any(os.path.lexists(directory / name) for name in _OF_RUNS)
 
 
@@ -162,7 +163,7 @@ PICTURES = {
 
 @contextmanager
 def ready_for(kind: str, directory: Path) -> Iterator[None]:
-    """Within the block the folder exists; if the block fails, a folder that was created is removed.
+    """Make the folder exist within the block; if the block fails, a folder that was created is removed.
 
     Raises InputError if a file of the simulation could not be written there.
     """
@@ -172,7 +173,7 @@ def ready_for(kind: str, directory: Path) -> Iterator[None]:
 
 
 def write_simulation(result: dict[str, Any], directory: Path) -> list[str]:
-    """Write the files into a folder; returns a line for each, and one with the reason if there are no pictures.
+    """Write the files into a folder; return a line for each, and one with the reason if there are no pictures.
 
     Pictures of an earlier run that are not drawn again are removed, since they show another run. Raises InputError if a
     file cannot be written; an earlier file then stays.
@@ -193,8 +194,10 @@ def write_simulation(result: dict[str, Any], directory: Path) -> list[str]:
 
 
 def _json(kind: str) -> str:
+    """Return the name of the file with the numbers of a simulation of this kind."""
     return f"simulate-{kind}.json"
 
 
 def _svg(name: str) -> str:
+    """Return the name of the file of a picture."""
     return f"{name}.svg"

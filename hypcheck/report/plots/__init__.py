@@ -47,18 +47,18 @@ time, with the front that no method beats; and the same near contact and at its 
 
 
 def draw_plots(name: str, record: Record) -> Iterator[Plot]:
-    """The plots of that name, drawn in the house style."""
+    """Draw the plots of that name in the house style."""
     with styled():
         yield from PLOTS[name](record)
 
 
 def inline_plots(name: str, record: Record) -> list[tuple[str, str]]:
-    """The title of each plot of that name, and its element of SVG."""
+    """Return the title of each plot of that name, and its element of SVG."""
     return [(plot.title, inline(plot)) for plot in draw_plots(name, record)]
 
 
 def render_together(name: str, plots: Sequence[tuple[str, str]]) -> bytes:
-    """Plots of that name, each a title and its SVG, as one file. Raises UnavailableError if there are none."""
+    """Render plots of that name, each a title and its SVG, as one file. Raises UnavailableError if there are none."""
     title, reason = FILES[name]
     if not plots:
         raise UnavailableError(reason)
@@ -66,7 +66,10 @@ def render_together(name: str, plots: Sequence[tuple[str, str]]) -> bytes:
 
 
 def render_map(record: Record) -> bytes:
-    """Exact positions over the half plane (r, z) of a scene, and where a method is wrong. Raises UnavailableError."""
+    """Draw the exact positions over the half plane (r, z) of a scene, and where a method is wrong.
+
+    Raises UnavailableError if the record has no map.
+    """
     if not record.of(MapLine):
         raise UnavailableError("the record has no map")
     with styled():
@@ -75,7 +78,7 @@ def render_map(record: Record) -> bytes:
 
 
 def simulation_pictures(result: dict[str, Any]) -> dict[str, bytes]:
-    """The pictures of a simulation's result by their names, each as a file."""
+    """Draw the pictures of a simulation's result; return each as a file, by its name."""
     draw = {"forest": simulations.forest_plots, "tower": simulations.tower_plots}[result["simulation"]]
     with styled():
         return {plot.name: standalone(plot) for plot in draw(result)}

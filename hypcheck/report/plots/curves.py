@@ -26,10 +26,10 @@ from hypcheck.report.plots.style import Plot
 
 TANGENT = -math.inf
 AT_MOST = 8
-"""Curves in one plot, at most: there are so many looks that differ in colour, marker and dashes."""
+"""The most curves in one plot: so many styles differ in colour, marker and dashes."""
 
 STEP, MANY = 3, 16
-"""Octaves in one point of a curve that would have more than so many points."""
+"""A curve that would cover more than MANY octaves has one point for STEP octaves."""
 
 _LABEL = 24
 """Characters of a name, at most, in a legend of two columns."""
@@ -79,7 +79,7 @@ class Curve:
 
 
 def curve(name: str, octaves: Mapping[float, tuple[int, int]]) -> Curve:
-    """A method's curve of [asked, wrong] by octave. Where there are many octaves, STEP of them make one point.
+    """Make a method's curve from [asked, wrong] by octave. If there are many octaves, STEP of them make one point.
 
     Points with few cases each would scatter and hide the curve.
     """
@@ -98,14 +98,14 @@ def curve(name: str, octaves: Mapping[float, tuple[int, int]]) -> Curve:
 
 
 def in_parts(curves: Sequence[Curve]) -> Iterator[Sequence[Curve]]:
-    """The curves in parts of about equal size, each small enough for a plot."""
+    """Divide the curves into parts of about equal size, each small enough for a plot."""
     parts = -(-len(curves) // AT_MOST)
     for part in range(parts):
         yield curves[part * len(curves) // parts : (part + 1) * len(curves) // parts]
 
 
 def curve_plot(name: str, title: str, curves: Sequence[Curve]) -> Plot:
-    """A plot of at most AT_MOST curves with their legend below them."""
+    """Draw a plot of at most AT_MOST curves with their legend below them."""
     columns = 2 if all(len(escaped(curve.name)) <= _LABEL for curve in curves) else 1
     rows = -(-len(curves) // columns) + 1
     drawn = style.new_figure(style.WIDTH, 250 + 15.5 * rows)
@@ -119,13 +119,13 @@ def curve_plot(name: str, title: str, curves: Sequence[Curve]) -> Plot:
 
 
 def _description(curves: Sequence[Curve]) -> str:
-    """The plot in words."""
+    """Describe the plot in words."""
     counts = [f"{curve.name}: {curve.wrong:,} of {counted(curve.asked, 'answer')} wrong" for curve in curves]
     return f"Share of wrong answers against distance to the other answer, both logarithmic. {'; '.join(counts)}."
 
 
 def _axes(axes: Axes, curves: Sequence[Curve]) -> float:
-    """Name the axes and their powers of ten; returns the place of exact tangencies on the axis of distances."""
+    """Name the axes and their powers of ten; return the place of exact tangencies on the axis of distances."""
     octaves = [octave for curve in curves for octave in curve.octaves]
     finite = [octave.exponent for octave in octaves if octave.exponent != TANGENT] or [-1.0]
     low, high = min(finite), max(max(finite) + 1, 0)
@@ -164,13 +164,17 @@ def _draw_curve(
 
 
 def _tip(name: str, octave: Octave) -> str:
+    """Return the tooltip of a point; if no answer was wrong, it names the upper limit of the share."""
     distance = "exact tangencies" if octave.exponent == TANGENT else f"about {figure(2.0**octave.middle)}"
     limit = "" if octave.wrong else f", so at most a share of {figure(octave.share)}"
     return f"{name}, {distance}: {octave.wrong:,} of {octave.asked:,} wrong{limit}"
 
 
 def _segments(finite: Sequence[tuple[float, Octave]], *, measured: bool) -> tuple[list[float], list[float]]:
-    """The lines between neighbours, separated by nan: those with wrong answers at an end (`measured`) or the others."""
+    """Return the lines between neighbours, separated by nan.
+
+    `measured` selects the lines with a wrong answer at an end, else the other lines.
+    """
     xs, ys = [], []
     for (x0, before), (x1, after) in pairwise(finite):
         if bool(before.wrong or after.wrong) == measured:
@@ -180,6 +184,7 @@ def _segments(finite: Sequence[tuple[float, Octave]], *, measured: bool) -> tupl
 
 
 def _legend(drawn: Figure, curves: Sequence[Curve], columns: int) -> None:
+    """Draw the legend of the curves below the axes, and that of the upper limit above them."""
     soft = style.colour("soft")
     limit = Line2D([], [], color=soft, linestyle=_DOTS, linewidth=0.9, label=style.NONE_WRONG, **style.LIMIT)
     drawn.legend(handles=[limit], loc="outside upper left", labelcolor=soft)
@@ -193,7 +198,7 @@ NOT_WRONG = ("right", "skipped", "abstained", "refused")
 
 
 def octave_plots(record: Record) -> Iterator[Plot]:
-    """A plot for each precision; several if it has many methods."""
+    """Yield a plot for each precision, or several if it has many methods."""
     totals = implementations(record)
     for precision in dict.fromkeys(total.precision for total in totals):
         curves = [one for total in totals if total.precision == precision and (one := _octave_curve(total)).octaves]
@@ -203,7 +208,7 @@ def octave_plots(record: Record) -> Iterator[Plot]:
 
 
 def _octave_curve(implementation: ImplementationTotal) -> Curve:
-    """The curve of an implementation, over all families together."""
+    """Make the curve of an implementation, over all families together."""
     cases: Counter[float] = Counter()
     wrong: Counter[float] = Counter()
     for group in implementation.groups:
@@ -222,13 +227,13 @@ _SHORT, _LONG = "float32 and shorter", "float64 and longer"
 
 
 def error_plots(record: Record) -> Iterator[Plot]:
-    """A plot for each group of methods on the workload near contact, or on the first workload."""
+    """Yield a plot for each group of methods on the workload near contact, or on the first workload."""
     for number, (group, curves) in enumerate(_groups(measured_methods(record), principal(record))):
         yield curve_plot(f"errors-{number}", group, curves)
 
 
 def other_error_plots(record: Record) -> Iterator[Plot]:
-    """A plot for each group of the methods that are wrong on another workload, for every such workload."""
+    """Yield a plot for each other workload, and each group of the methods that are wrong there."""
     methods, known = measured_methods(record), workloads(record)
     for place, workload in enumerate(name for name in known if name != principal(record)):
         wrong = [method for method in methods if workload in method.accuracy and method.accuracy[workload].wrong]
@@ -237,6 +242,7 @@ def other_error_plots(record: Record) -> Iterator[Plot]:
 
 
 def _groups(methods: list[MeasuredMethod], workload: str) -> Iterator[tuple[str, list[Curve]]]:
+    """Yield the name of each group of methods, and their curves on the workload, in parts that fit into a plot."""
     groups: dict[str, list[Curve]] = {}
     for method in sorted(methods, key=lambda method: TIERS.index(method.tier)):
         line = method.accuracy.get(workload)
@@ -250,6 +256,7 @@ def _groups(methods: list[MeasuredMethod], workload: str) -> Iterator[tuple[str,
 
 
 def _group(method: MeasuredMethod) -> str:
+    """Return the name of a method's group."""
     kind, line = method.line.kind, method.line
     if method.exact:
         return "Exact methods"

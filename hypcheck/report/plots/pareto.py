@@ -45,7 +45,7 @@ _PLACES = (
 """The places of a name, the first free one is taken: points to the right and up, and the alignment there."""
 
 _NEAR = 8
-"""The first so many places are so near that the name clearly belongs to the point."""
+"""The number of the first places that are so near that the name clearly belongs to the point."""
 
 _MARK = 4.0
 """Half the size of a point's mark, in points."""
@@ -105,7 +105,7 @@ def place_labels(
 
 
 def _leader(across: str, upward: str) -> dict[str, Any]:
-    """The line from the corner of a name that is not next to its point to the point."""
+    """Return the style of the line to the point, from the corner of a name that is not next to it."""
     corner = (0.0 if across == "left" else 1.0, 0.0 if upward == "bottom" else 1.0)
     return {
         "arrowstyle": "-",
@@ -118,6 +118,7 @@ def _leader(across: str, upward: str) -> dict[str, Any]:
 
 
 def _within(box: Any, outer: Any) -> bool:  # noqa: ANN401 - matplotlib's boxes
+    """Decide whether a box lies within another one."""
     return bool(box.x0 >= outer.x0 and box.x1 <= outer.x1 and box.y0 >= outer.y0 and box.y1 <= outer.y1)
 
 
@@ -137,7 +138,7 @@ class MethodMark:
 
 
 def _draw_methods(axes: Axes, name: str, methods: Sequence[MethodMark]) -> dict[str, list[str]]:
-    """Draw the marks, the fastest tier on top, with a ring around marks of exact methods. Returns the tooltips."""
+    """Draw the marks, the fastest tier on top, with a ring around marks of exact methods; return the tooltips."""
     exact = [method.mark for method in methods if method.exact]
     axes.plot([mark.x for mark in exact], [mark.y for mark in exact], **RING)
     tips: dict[str, list[str]] = {}
@@ -149,7 +150,7 @@ def _draw_methods(axes: Axes, name: str, methods: Sequence[MethodMark]) -> dict[
 
 
 def _mark_style(number: int, *, shown: bool) -> dict[str, Any]:
-    """The mark of a tier, by its number; hollow if too few answers were judged to show 1 wrong in 1000."""
+    """Return the style of a tier's mark; it is hollow if too few answers were judged to show 1 wrong in 1000."""
     own = style.colour(f"series-{number + 1}")
     face = own if shown else style.colour("surface")
     return {"marker": style.MARKERS[number], "markersize": 6, "markeredgecolor": own, "markerfacecolor": face}
@@ -163,11 +164,11 @@ RING: dict[str, Any] = {
     "markeredgewidth": 0.9,
     "linestyle": "none",
 }
-"""Around the mark of a method that promises never to be wrong."""
+"""The style of the ring around the mark of a method that promises never to be wrong."""
 
 
 def _legend(drawn: Figure, methods: Sequence[MethodMark], *others: Line2D) -> None:
-    """The tiers above the axes; below them the other entries, the ring and the hollow marks."""
+    """Draw the legend: the tiers above the axes; below them other entries, the ring and the hollow marks."""
     handles = [
         Line2D([], [], linestyle="none", label=tier, **_mark_style(number, shown=True))
         for number, tier in enumerate(measured.TIERS)
@@ -213,7 +214,7 @@ class ParetoPoint:
 
 
 def points(record: Record, workload: str, *, everywhere: bool = False) -> list[ParetoPoint]:
-    """The methods that were judged and timed on the workload; `everywhere`: with the errors of all workloads."""
+    """Return the methods that were judged and timed on the workload; `everywhere`: with the errors of all workloads."""
     marks = []
     for method in measured.measured_methods(record):
         speed, here = method.speed.get((workload, measured.BATCH)), method.accuracy.get(workload)
@@ -227,7 +228,7 @@ def points(record: Record, workload: str, *, everywhere: bool = False) -> list[P
 
 
 def front(candidates: Sequence[ParetoPoint]) -> list[ParetoPoint]:
-    """The points that no other point beats: from the fastest on, each more reliable than all faster ones."""
+    """Return the points that no other point beats: from the fastest on, each is more reliable than all faster ones."""
     best, kept = math.inf, []
     for point in sorted(candidates, key=lambda point: (point.time_ns, point.reliable_above)):
         if point.reliable_above < best:
@@ -237,7 +238,7 @@ def front(candidates: Sequence[ParetoPoint]) -> list[ParetoPoint]:
 
 
 def pareto_plots(record: Record) -> Iterator[style.Plot]:
-    """A plot for each timed workload; if there are several, without the workload of `front_plots`."""
+    """Yield a plot for each timed workload; if there are several, without the workload of `front_plots`."""
     found_on = {name: methods for name in measured.workloads(record) if (methods := points(record, name))}
     for place, (name, line) in enumerate(measured.workloads(record).items()):
         methods = found_on.get(name, [])
@@ -246,7 +247,7 @@ def pareto_plots(record: Record) -> Iterator[style.Plot]:
 
 
 def front_plots(record: Record) -> Iterator[style.Plot]:
-    """Two plots, with names if they fit: for the workload near contact, and for the worst of all workloads.
+    """Yield two plots: for the workload near contact, and for the worst of all workloads.
 
     For a benchmark of sweeps: missed contacts, and false contacts.
     """
@@ -262,7 +263,7 @@ def front_plots(record: Record) -> Iterator[style.Plot]:
 
 
 def _plot(name: str, title: str, methods: Sequence[ParetoPoint], height: float = 375, timed: str = "") -> style.Plot:
-    """A plot with names of the front's and the user's methods, or of all if they are few; others have tooltips.
+    """Draw a plot with names of the front's and the user's methods, or of all if they are few; others have tooltips.
 
     `timed` names the workload of the times if the title does not.
     """
@@ -328,7 +329,7 @@ def _axes(axes: Axes, methods: Sequence[ParetoPoint], timed: str) -> dict[float,
 def _steps(
     best: Sequence[ParetoPoint], heights: dict[float, float], end: float
 ) -> list[tuple[Coordinates, Coordinates]]:
-    """The front's line: horizontal from each point to the next point's time, then down to this point."""
+    """Return the front's line: horizontal from each point to the next point's time, then down to that point."""
     steps: list[tuple[Coordinates, Coordinates]] = []
     for before, after in pairwise(best):
         corner = (after.time_ns, heights[before.reliable_above])
@@ -340,14 +341,17 @@ def _steps(
 
 HEIGHT = 345
 _ABOVE = 1.12
-"""The axis of shares goes so much beyond the largest, and a part of that below 0, so that marks are whole."""
+"""The end of the axis of shares, relative to the largest share; as far as it is beyond that, the axis begins below 0.
+
+This leaves room for whole marks at both ends.
+"""
 
 _LEAST = 0.01
 """The axis of shares goes at least to 1 %."""
 
 
 def _sweep_plots(record: Record) -> Iterator[style.Plot]:
-    """Missed contacts, then false contacts, of all workloads together; the time is that of the principal one."""
+    """Yield plots of missed contacts and of false contacts on all workloads; the time is that of the principal one."""
     timed = [(total, total.time_ns / 1000) for total in measured.sweep_totals(record) if total.time_ns is not None]
     if timed:
         where = str(measured.workloads(record)[measured.principal(record)].title)
@@ -362,7 +366,7 @@ def _sweep_plot(
     where: str,
     mistakes: Callable[[measured.SweepTotal], int],
 ) -> style.Plot:
-    """A plot of the share of these mistakes against microseconds."""
+    """Draw a plot of the share of these mistakes against microseconds."""
     drawn = style.new_figure(style.WIDTH, HEIGHT)
     axes = drawn.subplots()
     marks = []

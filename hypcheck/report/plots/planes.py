@@ -33,24 +33,24 @@ from hypcheck.report.model import ImplementationTotal, implementations
 from hypcheck.report.plots import style
 
 GAP = 0.08
-"""Between two cells, of the width of a cell."""
+"""The gap between two cells, as a part of a cell's width."""
 
 Cells = Mapping[tuple[int, int], tuple[int, int]]
-"""[asked, wrong] by the numbers of a cell across and up."""
+"""The counts [asked, wrong] of each cell; a cell is named by its number across and its number up."""
 
 
 SIZES = ("α/b", "γ/d")
-"""The quantities across and up."""
+"""The quantities that are drawn across and up."""
 
 
 def step(cases: int, wrong: int) -> str:
-    """The role of the colour of a share."""
+    """Return the role of the colour that shows the share of wrong answers."""
     place = next(place for place, (end, _) in enumerate(STEPS) if wrong <= end * cases)
     return f"share-{place}"
 
 
 def cells(bins: Iterable[Sequence[int]], merged: int = 1) -> Cells:
-    """The cells of [across, up, asked, wrong], with `merged` of them joined into one in each direction."""
+    """Add up bins [across, up, asked, wrong]; `merged` bins in each direction become one cell."""
     totals: Counter[tuple[int, int]] = Counter()
     wrong: Counter[tuple[int, int]] = Counter()
     for across, up, cases, errors in bins:
@@ -60,7 +60,7 @@ def cells(bins: Iterable[Sequence[int]], merged: int = 1) -> Cells:
 
 
 def _heat_plots(prefix: str, width: float, maps: Mapping[str, Cells]) -> Iterator[style.Plot]:
-    """A small plot over the sizes for each map, by its title; all show the same part of the plane.
+    """Yield a small plot over the sizes for each map, by its title; all show the same part of the plane.
 
     A cell has `width` decades: cell k reaches from 10^(k·width) to 10^((k+1)·width).
     """
@@ -75,6 +75,7 @@ def _heat_plots(prefix: str, width: float, maps: Mapping[str, Cells]) -> Iterato
 
 
 def _heat_plot(name: str, title: str, width: float, bins: Cells, limits: Sequence[tuple[int, int]]) -> style.Plot:
+    """Draw the cells of one map; `limits` are the first and the one after the last cell, across and up."""
     drawn = style.new_figure(style.SMALL, 170)
     axes = drawn.subplots()
     axes.grid(visible=False)
@@ -99,13 +100,14 @@ def _heat_plot(name: str, title: str, width: float, bins: Cells, limits: Sequenc
 
 
 def _squares(places: Iterable[tuple[int, int]]) -> Floats:
-    """The corners of these cells' squares, (n, 4, 2)."""
+    """Compute the corners of these cells' squares, (n, 4, 2)."""
     near, far = GAP / 2, 1 - GAP / 2
     corners: Floats = np.array([[near, near], [far, near], [far, far], [near, far]])
     return np.asarray(np.array(list(places), dtype=np.float64)[:, np.newaxis] + corners)
 
 
 def _tip(width: float, place: tuple[int, int], counts: tuple[int, int]) -> str:
+    """Return the tooltip of a cell: the sizes at its middle, and its counts."""
     middles = [f"{name} ≈ {figure(10.0 ** ((k + 0.5) * width))}" for name, k in zip(SIZES, place, strict=True)]
     return f"{', '.join(middles)}: {counts[1]:,} of {counts[0]:,} wrong"
 
@@ -115,7 +117,7 @@ OCTAVES = 3
 
 
 def size_plots(record: Record) -> Iterator[style.Plot]:
-    """A small plot for each method that erred."""
+    """Yield a small plot over the sizes for each method that erred."""
     maps = {
         implementation.name: cells((row for group in implementation.groups for row in group.size_bins), OCTAVES)
         for implementation in implementations(record)
@@ -125,7 +127,7 @@ def size_plots(record: Record) -> Iterator[style.Plot]:
 
 
 def stability_plots(record: Record) -> Iterator[style.Plot]:
-    """A small plot for each method and precision that is wrong somewhere; the record's cells have half a decade."""
+    """Yield a small plot for each method and precision that is wrong somewhere; a cell has half a decade."""
     wrong = [line for line in record.of(StabilityLine) if is_unstable(line)]
     yield from _heat_plots("stability", 0.5, {stability_title(line): cells(line.bins) for line in wrong})
 
@@ -137,7 +139,10 @@ FAINT = "#8a94a066"
 
 
 def paint_letters(axes: Axes, letters: Sequence[str], colours: Mapping[str, str], r: Interval, z: Interval) -> None:
-    """Paint the letters, the first text lowest. A grid point is the middle of a cell; other letters stay empty."""
+    """Paint a cell for each letter, the first text lowest; a grid point is the middle of its cell.
+
+    Letters without a colour stay empty.
+    """
     grid = np.array([list(text) for text in letters])
     image = np.zeros((*grid.shape, 4))
     for letter, name in colours.items():
@@ -150,7 +155,7 @@ def paint_letters(axes: Axes, letters: Sequence[str], colours: Mapping[str, str]
 
 
 def picture_limits(r: Interval, z: Interval, shape: tuple[int, ...]) -> Any:  # noqa: ANN401 - what matplotlib takes
-    """The limits of the picture: half a cell beyond the first and the last grid points."""
+    """Compute the limits of the picture: half a cell beyond the first and the last grid points."""
     up, across = shape
     half_r, half_z = ((high - low) / max(1, count - 1) / 2 or 0.5 for (low, high), count in ((r, across), (z, up)))
     return (r[0] - half_r, r[1] + half_r, z[0] - half_z, z[1] + half_z)
@@ -180,7 +185,7 @@ CELLS, PER_UNIT = 64, 8
 
 
 def field_plots(record: Record) -> Iterator[style.Plot]:
-    """A small plot for each method that erred."""
+    """Yield a small plot over places for each method that erred."""
     fields = [
         (f"fields-{number}", implementation, cells(row for group in implementation.groups for row in group.place_bins))
         for number, implementation in enumerate(implementations(record))
@@ -191,6 +196,7 @@ def field_plots(record: Record) -> Iterator[style.Plot]:
 
 
 def _field_plot(name: str, implementation: ImplementationTotal, bins: Cells) -> style.Plot:
+    """Draw the share of a method's wrong answers over r/α and |z|/γ."""
     drawn = style.new_figure(style.SMALL, 170)
     axes = drawn.subplots()
     image = np.zeros((CELLS, CELLS, 4))
@@ -214,13 +220,14 @@ def _field_plot(name: str, implementation: ImplementationTotal, bins: Cells) -> 
 
 
 def place_plots(record: Record) -> Iterator[style.Plot]:
-    """A small plot for each method, scene and region in which it is wrong."""
+    """Yield a small plot for each method, scene and region in which it is wrong."""
     for number, line in enumerate(record.of(PlacesLine)):
         if is_wrong_somewhere(line):
             yield _place_plot(f"places-{number}", line)
 
 
 def _place_plot(name: str, line: PlacesLine) -> style.Plot:
+    """Draw the wrong answers of a places line."""
     drawn = style.new_figure(style.SMALL, 185)
     axes = drawn.subplots()
     r, z = (line.r[0], line.r[1]), (line.z[0], line.z[1])
@@ -250,7 +257,7 @@ ON_MAP = "#1a1a1a"
 
 
 def map_plots(record: Record) -> Iterator[style.Plot]:
-    """A plot for each map."""
+    """Yield a plot for each map."""
     for number, line in enumerate(record.of(MapLine)):
         title = f"{line.name}: {line.method}"
         yield style.Plot(
@@ -259,7 +266,7 @@ def map_plots(record: Record) -> Iterator[style.Plot]:
 
 
 def maps_together(record: Record) -> style.Plot:
-    """The maps side by side, with a title that explains the picture when it is seen without a report."""
+    """Draw the maps side by side, with a title that explains the picture if it is seen without a report."""
     lines = record.of(MapLine)
     drawn = draw_maps(lines, 390 * len(lines), 470)
     drawn.suptitle("\n".join(dict.fromkeys(map(_scene, lines))), fontsize=11)
@@ -268,7 +275,7 @@ def maps_together(record: Record) -> style.Plot:
 
 
 def draw_maps(lines: Sequence[MapLine], width: float, height: float) -> Figure:
-    """A panel for each map line, side by side, over one legend."""
+    """Draw a panel for each map line, side by side, over one legend."""
     drawn = style.new_figure(width, height)
     panels = drawn.subplots(1, len(lines), squeeze=False)[0]
     for axes, line in zip(panels, lines, strict=True):
@@ -282,6 +289,7 @@ def draw_maps(lines: Sequence[MapLine], width: float, height: float) -> Figure:
 
 
 def _panel(axes: Axes, line: MapLine) -> None:
+    """Draw one map line: exact positions, wrong answers and the hyperboloid."""
     colours = {letter: both[1] for letter, both in REGIONS.items()}
     wrong = {letter.upper(): WRONG for letter in REGIONS}
     paint_letters(axes, line.lines, {**colours, **wrong}, line.r, line.z)
@@ -293,6 +301,7 @@ def _panel(axes: Axes, line: MapLine) -> None:
 
 
 def _counts(line: MapLine) -> str:
+    """Return a sentence about the wrong grid points and the true positions there."""
     truths = {letter.lower() for text in line.lines for letter in text if letter.isupper()}
     names = listed([name for letter, (name, _) in REGIONS.items() if letter in truths], "or")
     where = f", in truth {names}" if names else ""
@@ -300,6 +309,7 @@ def _counts(line: MapLine) -> str:
 
 
 def _scene(line: MapLine) -> str:
+    """Return the sizes of a map's bodies in words."""
     alpha, gamma, b, d = line.sizes
     return f"hyperboloid α = {alpha:g} m, γ = {gamma:g} m; spheroid b = {b:g} m, d = {d:g} m, centred at (r, z)"
 
@@ -323,12 +333,14 @@ def _point_out(panels: Sequence[Axes], lines: Sequence[MapLine]) -> None:
 
 
 def _within(small: MapLine, large: MapLine) -> bool:
+    """Decide whether the region of a map lies within that of another one."""
     return all(
         outer[0] <= inner[0] and inner[1] <= outer[1] for inner, outer in ((small.r, large.r), (small.z, large.z))
     )
 
 
 def _legend(methods: str, lines: Sequence[MapLine]) -> list[Any]:
+    """Return the entries of the legend; `methods` are the names of the methods that are wrong."""
     seen = {letter.lower() for line in lines for text in line.lines for letter in text}
     regions = [Patch(facecolor=shade, label=name) for letter, (name, shade) in REGIONS.items() if letter in seen]
     meridian = Line2D([], [], color=style.colour("ink"), linewidth=0.9, label="hyperboloid")

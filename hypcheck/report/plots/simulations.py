@@ -22,7 +22,7 @@ from hypcheck.report.plots.style import Plot, colour, curve_style, new_figure, p
 
 
 def axes_in_space(figure: Any, place: tuple[float, float, float, float], elevation: int, azimuth: int) -> Any:  # noqa: ANN401 - matplotlib does not type axes in space
-    """Axes in metres, seen from a direction in degrees, with transparent walls for light and dark ground."""
+    """Add axes in metres, seen from a direction in degrees, with transparent walls for light and dark ground."""
     axes = figure.add_axes(place, projection="3d")
     axes.patch.set_visible(False)
     axes.view_init(elev=elevation, azim=azimuth)
@@ -38,14 +38,14 @@ def axes_in_space(figure: Any, place: tuple[float, float, float, float], elevati
 def _hyperboloid(
     body: dict[str, Any], heights: tuple[float, float], levels: int, facets: int
 ) -> tuple[Floats, Floats, Floats]:
-    """The points (x, y, z) of a surface about its own centre, at `levels` heights and with `facets` facets."""
+    """Compute the points (x, y, z) of a surface about its own centre, at `levels` heights and `facets` angles."""
     z, angle = np.meshgrid(np.linspace(*heights, levels), np.linspace(0, 2 * np.pi, facets), indexing="ij")
     radius = body["alpha"] * np.hypot(1, z / body["gamma"])
     return radius * np.cos(angle), radius * np.sin(angle), z
 
 
 def _circle(centre: Sequence[float], radius: float, pieces: int) -> tuple[list[float], list[float]]:
-    """A circle of straight pieces."""
+    """Return the x and the y of the corners of a circle that is drawn as straight pieces."""
     angles = [2 * math.pi * step / pieces for step in range(pieces + 1)]
     x, y = centre[:2]
     return [x + radius * math.cos(angle) for angle in angles], [y + radius * math.sin(angle) for angle in angles]
@@ -93,12 +93,13 @@ _PIECES, _FACETS, _LEVELS = 48, 14, 7
 
 
 def forest_plots(result: dict[str, Any]) -> Iterator[Plot]:
-    """The walk from above, and the forest in space."""
+    """Yield the walk from above, and the forest in space."""
     yield _walk(result)
     yield _space(result)
 
 
 def _walk(result: dict[str, Any]) -> Plot:
+    """Draw the walk from above, beside the surroundings of a phantom if the result has them."""
     wall = result["wall"]
     figure = new_figure(760 if wall else 520, 520)
     panels = figure.subplots(1, 2, width_ratios=[1.75, 1]) if wall else [figure.subplots()]
@@ -116,6 +117,7 @@ def _walk(result: dict[str, Any]) -> Plot:
 
 
 def _forest_from_above(axes: Axes, result: dict[str, Any]) -> None:
+    """Draw the trunks at the walker's height, the walk, and where it stopped."""
     level = result["path"][0][2]
     for kind, (label, name) in TRUNKS.items():
         for place, tree in enumerate(tree for tree in result["trees"] if tree["type"] == kind):
@@ -136,7 +138,7 @@ def _forest_from_above(axes: Axes, result: dict[str, Any]) -> None:
 
 
 def _draw_rings(axes: Any, trees: list[dict[str, Any]], *height: float) -> None:  # noqa: ANN401 - in space with a height
-    """The rings of the trees that stopped the walker; each is as thin as a few millimetres."""
+    """Draw the rings of the trees that stopped the walker; each is only a few millimetres thin."""
     guilty = [tree for tree in trees if tree["phantom"] and tree["ring"] is not None]
     for place, tree in enumerate(guilty):
         ring = _circle(tree["center"], tree["ring"], _PIECES)
@@ -178,6 +180,7 @@ def _wall(axes: Axes, whole: Axes, wall: dict[str, Any]) -> None:
 
 
 def _space(result: dict[str, Any]) -> Plot:
+    """Draw the trunks in space, and the walk on the ground."""
     figure = new_figure(760, 480)
     place = (-0.12, -0.16, 1.22, 1.42)  # wider than its content
     axes = axes_in_space(figure.subfigures(), place, _ELEVATION, _AZIMUTH)
@@ -201,12 +204,13 @@ def _space(result: dict[str, Any]) -> Plot:
 
 
 def _nearness(tree: dict[str, Any]) -> float:
-    """A tree's nearness to the viewer of the forest in space; trees that are drawn later hide earlier ones."""
+    """Return a tree's nearness to the viewer of the forest in space; trees that are drawn later hide earlier ones."""
     angle = math.radians(_AZIMUTH)
     return float(tree["center"][0]) * math.cos(angle) + float(tree["center"][1]) * math.sin(angle)
 
 
 def _trunk(axes: Any, tree: dict[str, Any]) -> None:  # noqa: ANN401 - axes in space
+    """Draw a trunk in space."""
     heights = tree["height"] or (-tree["gamma"], tree["gamma"])
     points = _hyperboloid(tree, heights, _LEVELS, _FACETS)
     x, y, z = (middle + values for middle, values in zip(tree["center"], points, strict=True))
@@ -222,14 +226,14 @@ _RINGED: dict[str, Any] = {
     "markeredgecolor": colour("ink"),
     "markeredgewidth": 1.1,
 }
-"""The mark of a position where Δ ≤ 0, about the flight's own."""
+"""The mark of a position where Δ ≤ 0; it encloses the flight's own mark."""
 
 _FRAMED: dict[str, Any] = {"frameon": True, "facecolor": colour("surface"), "edgecolor": "none", "framealpha": 1}
 """The style of a legend that lies over curves."""
 
 
 def tower_plots(result: dict[str, Any]) -> Iterator[Plot]:
-    """The flights, and the table if the result has one."""
+    """Yield the flights, and Table 5 and the tilted quadcopter if the result has them."""
     yield flights(result)
     if result["table_5"] is not None:
         yield _table(result["table_5"])
@@ -238,7 +242,7 @@ def tower_plots(result: dict[str, Any]) -> Iterator[Plot]:
 
 
 def flights(result: dict[str, Any]) -> Plot:
-    """The flights of a result."""
+    """Draw the flights of a result in space and from above, and Δ along them."""
     assumptions, flown = result["assumptions"], result["flights"]
     figure = new_figure(760, 580)
     halves: Any = figure.subfigures(1, 2, width_ratios=[1, 1.1])
@@ -260,6 +264,7 @@ def flights(result: dict[str, Any]) -> Plot:
 
 
 def _tower_in_space(figure: SubFigure, assumptions: dict[str, Any], paths: list[dict[str, Any]]) -> Any:  # noqa: ANN401 - axes in space
+    """Draw the tower as a wire frame, and the flights in it; return the axes."""
     axes = axes_in_space(figure, (-0.33, 0.0, 1.6, 1.0), 20, -60)  # a square, wider than its content
     wires = _hyperboloid(assumptions, _heights(assumptions, paths), 15, 25)
     axes.plot_wireframe(*wires, color=colour("soft"), linewidth=0.4, alpha=0.55)
@@ -275,7 +280,7 @@ def _tower_in_space(figure: SubFigure, assumptions: dict[str, Any], paths: list[
 
 
 def _heights(assumptions: dict[str, Any], paths: list[dict[str, Any]]) -> tuple[float, float]:
-    """The heights of the tower that are drawn: the modelled part, or the part that the flights use."""
+    """Return the lowest and the highest drawn height of the tower: of the modelled part, or of what the flights use."""
     if assumptions["height"] is not None:
         return float(assumptions["height"][0]), float(assumptions["height"][1])
     heights = [position[2] for path in paths for position in path["positions"]]
@@ -283,11 +288,12 @@ def _heights(assumptions: dict[str, Any], paths: list[dict[str, Any]]) -> tuple[
 
 
 def _touching(path: dict[str, Any]) -> Any:  # noqa: ANN401 - an array of bool
-    """Whether Δ ≤ 0, for each position."""
+    """Return for each position whether Δ ≤ 0."""
     return np.array(path["discriminant"]) <= 0
 
 
 def _tower_from_above(axes: Axes, assumptions: dict[str, Any], paths: list[dict[str, Any]]) -> None:
+    """Draw the tower's waist and its widest circle from above, and the flights."""
     widest = max(math.hypot(1, height / assumptions["gamma"]) for height in _heights(assumptions, paths))
     end = "end of what is drawn" if assumptions["height"] is None else "the tower's end"
     circles: tuple[tuple[float, Any, str], ...] = ((1.0, "-", "waist"), (widest, (0, (1, 1.2)), end))
@@ -304,6 +310,7 @@ def _tower_from_above(axes: Axes, assumptions: dict[str, Any], paths: list[dict[
 
 
 def _discriminants(axes: Axes, paths: list[dict[str, Any]]) -> None:
+    """Draw Δ at each position of the flights, and mark where Δ ≤ 0."""
     exponent = math.floor(math.log10(max(abs(value) for path in paths for value in path["discriminant"]) or 1.0))
     ringed: list[tuple[int, float]] = []
     for number, path in enumerate(paths, start=1):
@@ -319,6 +326,7 @@ def _discriminants(axes: Axes, paths: list[dict[str, Any]]) -> None:
 
 
 def _table(table: dict[str, Any]) -> Plot:
+    """Draw the printed percentages of Table 5 and the simulated ones over the step v·t."""
     figure = new_figure(620, 400)
     axes = figure.subplots()
     other = table["second_row_read_as_0.25"]
@@ -379,7 +387,7 @@ def _pitch(assumptions: dict[str, Any], pitch: dict[str, Any]) -> Plot:
 
 
 def _section(axes: Axes, assumptions: dict[str, Any], degrees: float) -> None:
-    """The body where its upright ellipse touches the wall at the waist, from the side."""
+    """Draw the body from the side, upright and tilted, where its upright ellipse touches the wall at the waist."""
     alpha, gamma, b, d = (assumptions[name] for name in ("alpha", "gamma", "b", "d"))
     across, up = (size * np.array(part) for size, part in zip((b, d), _circle((0, 0), 1, 96), strict=True))
     for place, (lean, label) in enumerate(((0.0, "upright"), (math.radians(degrees), f"tilted by {degrees:g}°"))):

@@ -52,7 +52,7 @@ LIMIT: dict[str, Any] = {"marker": "v", "markerfacecolor": "none", "markersize":
 """The mark of an upper limit: none of n was wrong."""
 
 NONE_WRONG = "none of n wrong: at most 3/n (95 %)"
-"""Its text in a legend."""
+"""The text of an upper limit in a legend."""
 
 SETTINGS = {
     "figure.facecolor": "none",  # the page's own ground, light or dark
@@ -110,12 +110,12 @@ class CurveStyle(NamedTuple):
 
 
 def colour(role: str) -> str:
-    """The colour that represents a role while a plot is drawn; the SVG has a class instead."""
+    """Return the colour that represents a role while a plot is drawn; the SVG has a class instead."""
     return ROLES[role][0]
 
 
 def curve_style(place: int) -> CurveStyle:
-    """The style of the curve with this number; after eight, markers and dashes are combined differently."""
+    """Return the style of the curve with this number; after eight, markers and dashes are combined differently."""
     number = len(MARKERS)
     turn = place // number
     return CurveStyle(
@@ -124,7 +124,7 @@ def curve_style(place: int) -> CurveStyle:
 
 
 def legend_handles(names: Iterable[str]) -> list[Line2D]:
-    """The entries of a legend for curves with these names, in order."""
+    """Return the entries of a legend for curves with these names, in order."""
     looks = [(curve_style(place), escaped(name, 48)) for place, name in enumerate(names)]
     return [Line2D([], [], **look.line, marker=look.marker, label=label) for look, label in looks]
 
@@ -155,14 +155,14 @@ def styled() -> Iterator[None]:
 
 
 def new_figure(width: float, height: float) -> Figure:
-    """A figure of this width and height in points, with a layout that leaves room for labels."""
+    """Make a figure of this width and height in points, with a layout that leaves room for labels."""
     figure = Figure(figsize=(width / 72, height / 72), layout="constrained")
     FigureCanvasAgg(figure)  # the layout measures texts
     return figure
 
 
 def with_one_layout(plots: Iterable[Plot]) -> Iterator[Plot]:
-    """The plots, which have equal axes; all get the places that the axes have in the first.
+    """Yield the plots, which have equal axes, and give them all the layout of the first one.
 
     Computing a layout takes half of the time of drawing a small plot.
     """
@@ -182,14 +182,14 @@ _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def power_of_ten(exponent: int) -> str:
-    """The label of a power of ten on an axis: 0.01, 0.1, 1, 10, 100, else 10⁻¹²."""
+    """Return the label of a power of ten on an axis: 0.01, 0.1, 1, 10, 100, else 10⁻¹²."""
     if -2 <= exponent <= 2:
         return f"{10.0**exponent:g}"
     return f"10{str(exponent).translate(_SUPERSCRIPTS)}"
 
 
 def _axis_number(value: float) -> str:
-    """The label of a number of one digit on an axis: 0.02, 5, 2·10⁻⁴."""
+    """Return the label of a number of one digit on an axis: 0.02, 5, 2·10⁻⁴."""
     exponent = math.floor(math.log10(value) + 1e-9)
     digit = round(value / 10.0**exponent)
     if digit == 1:
@@ -198,7 +198,7 @@ def _axis_number(value: float) -> str:
 
 
 def ticks(low: float, high: float) -> list[tuple[float, str]]:
-    """Places and labels on a logarithmic axis: powers of ten, with twos and fives if the powers are few."""
+    """Return places and labels on a logarithmic axis: powers of ten, and digits between them if the powers are few."""
     powers = [10.0**exponent for exponent in decades(low, high)]
     if len(powers) < 2:
         first, last = math.floor(math.log10(low)), math.ceil(math.log10(high))
@@ -211,7 +211,7 @@ def ticks(low: float, high: float) -> list[tuple[float, str]]:
 
 
 def decades(low: float, high: float, most: int = 7) -> list[int]:
-    """Exponents of the powers of ten from `low` to `high`, both positive, at most about `most` of them."""
+    """Return exponents of the powers of ten from `low` to `high`, both positive, at most about `most` of them."""
     first, last = math.ceil(math.log10(low) - 1e-9), math.floor(math.log10(high) + 1e-9)
     step = max(1, -(-(last - first) // most))
     return [exponent for exponent in range(first, last + 1) if exponent % step == 0]
@@ -265,17 +265,17 @@ class Plot:
 
 
 def inline(plot: Plot) -> str:
-    """The plot as an element of an HTML page."""
+    """Return the plot as an element of an HTML page."""
     return _text(_element(plot))
 
 
 def standalone(plot: Plot) -> bytes:
-    """The plot as a file, which follows the reader's scheme of colours."""
+    """Return the plot as a file, which follows the reader's scheme of colours."""
     return _file(_element(plot))
 
 
 def together(name: str, title: str, plots: Sequence[tuple[str, str]]) -> bytes:
-    """Several plots, each a title and its element, as one file: row by row under their titles."""
+    """Put several plots, each a title and its element, into one file: row by row under their titles."""
     parts = [Xml.fromstring(svg) for _, svg in plots]  # noqa: S314 - as inline made it
     sizes = [tuple(float(size) for size in part.get("viewBox", "0 0 0 0").split()[2:]) for part in parts]
     widest, top = max(wide for wide, _ in sizes), 0.0
@@ -299,7 +299,7 @@ def together(name: str, title: str, plots: Sequence[tuple[str, str]]) -> bytes:
 
 
 def _file(root: Xml.Element) -> bytes:
-    """A described element as a separate file: with its colours, the rules for dark ground, and a background."""
+    """Make a separate file of a described element: with its colours, the rules for dark ground, and a background."""
     root.set("font-family", _FONT)
     style = Xml.Element(f"{_SVG}style")
     style.text = _SHARP_LETTERS + dark_rules()
@@ -320,6 +320,7 @@ def _paint(element: Xml.Element) -> None:
 
 
 def _element(plot: Plot) -> Xml.Element:
+    """Draw a plot as an element of SVG without style attributes, with tooltips and unique ids."""
     stream = io.BytesIO()
     with styled(), warnings.catch_warnings():  # the style says how text and ids are written, too
         warnings.filterwarnings("ignore", message="Glyph")  # a name with letters that the font lacks
@@ -340,7 +341,7 @@ def _element(plot: Plot) -> Xml.Element:
 
 
 def _unstyle(element: Xml.Element) -> None:
-    """Style attributes become attributes, colours classes; numbers lose digits that no screen shows."""
+    """Replace style attributes by attributes, and colours by classes; drop digits that no screen shows."""
     declarations = [part.partition(":") for part in element.attrib.pop("style", "").split(";") if part.strip()]
     for name, _, value in declarations:
         element.set(name.strip(), value.strip())
@@ -359,6 +360,7 @@ def _unstyle(element: Xml.Element) -> None:
 
 
 def _shorten(element: Xml.Element) -> None:
+    """Round the numbers of an element to two decimals, and replace the old form of links by the new one."""
     for name in ("d", "x", "y", "transform", "width", "height", "points"):
         if name in element.attrib:
             short = _NUMBER.sub(lambda digits: f"{float(digits[0]):.2f}".rstrip("0").rstrip("."), element.attrib[name])
@@ -368,6 +370,7 @@ def _shorten(element: Xml.Element) -> None:
 
 
 def _give_tips(root: Xml.Element, plot: Plot) -> None:
+    """Add the tooltips to the marks. Raises ValueError if an artist has another number of marks than of tooltips."""
     groups = {element.get("id"): element for element in root.iter(f"{_SVG}g")}
     for gid, tips in plot.tips.items():
         definitions = {id(node) for defs in groups[gid].iter(f"{_SVG}defs") for node in defs.iter()}
@@ -379,6 +382,7 @@ def _give_tips(root: Xml.Element, plot: Plot) -> None:
 
 
 def _shown(words: str) -> str:
+    """Cut a text to _LONGEST characters, and escape it."""
     return escaped(words[:_LONGEST], _LONGEST)
 
 
@@ -401,6 +405,7 @@ def _rename(root: Xml.Element, name: str) -> None:
 
 
 def _describe(root: Xml.Element, name: str, title: str, description: str) -> None:
+    """Give a picture its title, its description and the attributes of every plot; remove its fixed size."""
     for attribute in ("width", "height", "version"):
         root.attrib.pop(attribute, None)
     for place, (tag, words) in enumerate((("title", title), ("desc", description))):
@@ -415,6 +420,7 @@ def _describe(root: Xml.Element, name: str, title: str, description: str) -> Non
 
 
 def _text(root: Xml.Element) -> str:
+    """Return an element as text, without white space between elements."""
     Xml.register_namespace("", _SVG.strip("{}"))
     for element in root.iter():  # white space that matplotlib adds for people
         element.tail = None

@@ -39,7 +39,7 @@ class SpeedRow:
 
 
 def speed_plots(record: Record) -> Iterator[Plot]:
-    """A plot for each workload and mode that has ratios."""
+    """Yield a plot for each workload and mode that has at least two ratios."""
     methods = measured_methods(record)
     keys = dict.fromkeys((line.workload, line.mode) for line in record.of(SpeedLine))
     for number, (workload, mode) in enumerate(keys):
@@ -57,6 +57,7 @@ def speed_plots(record: Record) -> Iterator[Plot]:
 
 
 def _speed_plot(name: str, title: str, rows: Sequence[SpeedRow], floor: float | None, against: str) -> Plot:
+    """Draw the ratios with their intervals; `floor` is the noise of the run, None if it was not measured."""
     drawn = style.new_figure(style.WIDTH, 80 + 15 * len(rows))
     axes = drawn.subplots()
     style.log_axis(axes, "x", min(row.low for row in rows) / 1.5, max(row.high for row in rows) * 1.5)
@@ -84,7 +85,7 @@ def _speed_plot(name: str, title: str, rows: Sequence[SpeedRow], floor: float | 
 
 
 def _draw_curves(axes: Axes, name: str, curves: Mapping[str, Sequence[style.Mark]]) -> dict[str, list[str]]:
-    """Draw a line with marks for each name. Returns the tooltips of the marks."""
+    """Draw a line with marks for each name; return the tooltips of the marks."""
     tips: dict[str, list[str]] = {}
     for place, marks in enumerate(curves.values()):
         how = style.curve_style(place)
@@ -104,7 +105,7 @@ CONVERGENCE_QUANTITIES = (
 
 
 def convergence_plots(record: Record) -> Iterator[Plot]:
-    """A plot for each quantity, with a curve for each method."""
+    """Yield a plot for each of CONVERGENCE_QUANTITIES, with a curve for each method."""
     methods: dict[str, list[ConvergenceLine]] = {}
     for line in sorted(record.of(ConvergenceLine), key=lambda line: line.triangles):
         methods.setdefault(line.method, []).append(line)
@@ -114,7 +115,11 @@ def convergence_plots(record: Record) -> Iterator[Plot]:
 
 
 def _convergence_mark(line: ConvergenceLine, what: str) -> style.Mark:
-    """The mark for a line of the record; if none of n answers is wrong, at the upper limit 3/n."""
+    """Make the mark of a line; `what` is "wrong", "deviation", "query" or "build" (CONVERGENCE_QUANTITIES).
+
+    The mark of "wrong" is the share of wrong answers. If none of n answers is wrong, it is at 3/n, the upper limit of
+    the share at a confidence of 95 % (the rule of three, see curves.py).
+    """
     tip = (
         f"{line.method}, {line.triangles:,} triangles: {line.wrong:,} of {line.asked:,} wrong,"
         f" deviation {figure(line.deviation)} radii, query {figure(line.query_ns)} ns,"
@@ -127,6 +132,7 @@ def _convergence_mark(line: ConvergenceLine, what: str) -> style.Mark:
 
 
 def _convergence_plot(what: str, label: str, methods: Mapping[str, Sequence[ConvergenceLine]]) -> Plot:
+    """Draw a quantity against the number of triangles, with a curve for each method."""
     drawn = style.new_figure(style.WIDTH, 250 + 15 * len(methods))
     axes = drawn.subplots()
     curves = {name: [_convergence_mark(line, what) for line in lines] for name, lines in methods.items()}
@@ -148,7 +154,7 @@ def _convergence_plot(what: str, label: str, methods: Mapping[str, Sequence[Conv
 
 
 def _last_tips(curves: Mapping[str, Sequence[style.Mark]]) -> str:
-    """The tooltips of the last marks."""
+    """Return the tooltips of the curves' last marks."""
     return "; ".join(marks[-1].tip for marks in curves.values() if marks)
 
 
@@ -160,7 +166,7 @@ BOUNDING_QUANTITIES = (
 
 
 def bounding_plots(record: Record) -> Iterator[Plot]:
-    """A plot for each quantity, a curve for each shape and workload."""
+    """Yield a plot for each of BOUNDING_QUANTITIES, with a curve for each shape and workload."""
     lines = [line for line in record.of(BoundingLine) if line.overlap]
     for what, label in BOUNDING_QUANTITIES:
         curves = {f"{line.shape}, {line.workload}": _bounding_marks(line, what) for line in lines}
@@ -169,7 +175,7 @@ def bounding_plots(record: Record) -> Iterator[Plot]:
 
 
 def _bounding_marks(line: BoundingLine, what: str) -> list[style.Mark]:
-    """The marks over d/b, for the rows that have the quantity."""
+    """Return the marks over d/b, for the rows that have the quantity `what` (BOUNDING_QUANTITIES)."""
     marks = []
     for ratio, cases, contacts, excess in line.overlap:
         value = excess if what == "excess" else contacts / cases if cases else None
@@ -181,6 +187,7 @@ def _bounding_marks(line: BoundingLine, what: str) -> list[style.Mark]:
 
 
 def _bounding_plot(what: str, label: str, curves: Mapping[str, Sequence[style.Mark]]) -> Plot:
+    """Draw a quantity against d/b."""
     drawn = style.new_figure(style.WIDTH, 240 + 15 * len(curves))
     axes = drawn.subplots()
     marks = [mark for drawn_marks in curves.values() for mark in drawn_marks]
@@ -195,7 +202,7 @@ def _bounding_plot(what: str, label: str, curves: Mapping[str, Sequence[style.Ma
 
 
 def forest_plots(record: Record) -> Iterator[Plot]:
-    """One plot, with a curve for each candidate."""
+    """Yield one plot of a step's time against the number of trees, with a curve for each method."""
     curves: dict[str, list[style.Mark]] = {}
     for line in sorted(record.of(ForestLine), key=lambda line: line.trees):
         tip = (

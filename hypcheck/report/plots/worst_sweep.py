@@ -41,7 +41,7 @@ _LONGEST_NAME = 40
 _ANSWERED_DASHES = (0, (4, 2))
 
 SWEEP, TOUCHES, ANSWERED = "series-1", "series-2", "series-4"
-"""The roles of the sweep's colour, of the spheroid's where it first touches, and of its at the answered time."""
+"""The roles of three colours: of the sweep, of the spheroid at first contact, and of it at the answered time."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +62,7 @@ class _DrawnSweep:
 
 
 def plots(record: Record) -> Iterator[Plot]:
-    """A plot for each implementation under test that answered wrongly about a sweep of an upright spheroid."""
+    """Yield a plot for each implementation under test that answered wrongly about a sweep of an upright spheroid."""
     for number, implementation in enumerate(implementations(record)):
         case = drawn_sweep(implementation)
         if case is not None:
@@ -70,6 +70,7 @@ def plots(record: Record) -> Iterator[Plot]:
 
 
 def _plot(name: str, method: str, case: WrongAnswer) -> Plot:
+    """Draw the two panels of a wrong answer about a sweep."""
     sweep = _drawn(case)
     drawn = new_figure(BROAD, HEIGHT)
     whole, near = drawn.subplots(1, 2)
@@ -81,6 +82,7 @@ def _plot(name: str, method: str, case: WrongAnswer) -> Plot:
 
 
 def _drawn(case: WrongAnswer) -> _DrawnSweep:
+    """Decide the sweep of a wrong answer, and choose the time that the right panel shows."""
     row = from_hex(numbers_of(case))
     decided = passage_of(row)
     shown = decided.first_lower if decided.hit else _nearest_time(row)
@@ -88,7 +90,7 @@ def _drawn(case: WrongAnswer) -> _DrawnSweep:
 
 
 def _nearest_time(row: tuple[float, ...]) -> float:
-    """The approximate time at which the spheroid is nearest to the surface."""
+    """Find the approximate time at which the spheroid is nearest to the surface."""
     low, high = 0.0, 1.0
     for _ in range(_ZOOMS):
         times = np.linspace(low, high, _POINTS // _ZOOMS)
@@ -98,16 +100,19 @@ def _nearest_time(row: tuple[float, ...]) -> float:
 
 
 def _when(sweep: _DrawnSweep) -> str:
+    """Return the time of the first contact in words; "" if there is no contact."""
     return f", first at {figure(sweep.shown)} of it" if sweep.hit else ""
 
 
 def _answer(sweep: _DrawnSweep) -> str:
+    """Return the given answer in words."""
     return SWEEP_ANSWERS.get(sweep.answer, str(sweep.answer)) + (
         f", first at {figure(sweep.answered)}" if sweep.answered is not None else ""
     )
 
 
 def _whole(axes: Axes, sweep: _DrawnSweep) -> None:
+    """Draw the left panel: the whole sweep, with the spheroid at its start and at its end."""
     b, d = sweep.row[2:4]
     rs, zs = sweep.at(_times(sweep))
     near_r, near_z = _about(sweep)
@@ -123,12 +128,13 @@ def _whole(axes: Axes, sweep: _DrawnSweep) -> None:
 
 
 def _near(axes: Axes, sweep: _DrawnSweep) -> None:
+    """Draw the right panel: the surroundings of the spheroid at the shown time."""
     _panel(axes, sweep, *_about(sweep), "where it first touches" if sweep.hit else "where it comes nearest")
     _touching(axes, sweep)
 
 
 def _panel(axes: Axes, sweep: _DrawnSweep, r: Interval, z: Interval, title: str) -> None:
-    """The sweep and the surface in a part of the half plane."""
+    """Draw the sweep and the surface in a part of the half plane."""
     axes.set(xlim=r, ylim=z, xlabel="r, distance from the axis", ylabel="z, height")
     axes.set_title(title, fontsize=10)
     axes.locator_params(nbins=4)
@@ -138,14 +144,14 @@ def _panel(axes: Axes, sweep: _DrawnSweep, r: Interval, z: Interval, title: str)
 
 
 def _about(sweep: _DrawnSweep) -> tuple[Interval, Interval]:
-    """The part of the half plane around the spheroid at the shown time."""
+    """Return the part of the half plane around the spheroid at the shown time."""
     b, d = sweep.row[2:4]
     r, z = (float(coordinate) for coordinate in sweep.at(sweep.shown))
     return (max(0.0, r - AROUND * b), r + AROUND * b), (z - AROUND * d, z + AROUND * d)
 
 
 def _times(sweep: _DrawnSweep) -> Floats:
-    """Times of the whole sweep, denser around the shown time and around the time nearest to the axis."""
+    """Return times of the whole sweep, denser around the shown time and around the time nearest to the axis."""
     x, y = sweep.row[4:6]
     u, v = sweep.row[7] - x, sweep.row[8] - y
     turn = -(x * u + y * v) / (u * u + v * v) if u or v else 0.0
@@ -156,7 +162,7 @@ def _times(sweep: _DrawnSweep) -> Floats:
 
 
 def _touching(axes: Axes, sweep: _DrawnSweep) -> None:
-    """The spheroid at the time that the right panel shows, and at the answered time."""
+    """Draw the spheroid at the time that the right panel shows, and at the answered time."""
     role = TOUCHES if sweep.hit else SWEEP
     _body(axes, sweep, sweep.shown, role, filled=sweep.hit)
     axes.plot(*sweep.at(sweep.shown), marker="+", markersize=7, color=colour(role), zorder=5)
@@ -165,6 +171,7 @@ def _touching(axes: Axes, sweep: _DrawnSweep) -> None:
 
 
 def _body(axes: Axes, sweep: _DrawnSweep, time: float, role: str, *, filled: bool = False) -> None:
+    """Draw the spheroid at a time, in the colour of this role."""
     b, d = sweep.row[2:4]
     r, z = (float(coordinate) for coordinate in sweep.at(time))
     face = colour(role) if filled else "none"
@@ -177,6 +184,7 @@ def _body(axes: Axes, sweep: _DrawnSweep, time: float, role: str, *, filled: boo
 
 
 def _legend(drawn: Figure, sweep: _DrawnSweep) -> None:
+    """Draw the legend below the panels."""
     own = colour(SWEEP)
     handles: list[Line2D | Patch] = [
         Line2D([], [], color=colour("ink"), linewidth=0.9, label="hyperboloid"),

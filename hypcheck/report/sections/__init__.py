@@ -31,7 +31,7 @@ from hypcheck.runs.judge import in_words, truth_in_words
 
 
 def settings_sections(record: Record) -> Iterator[document.Section]:
-    """The settings file of the run and the options that weaken its gate; none if the run has neither."""
+    """Yield a section about the settings file and options that weaken the gate; nothing if there is neither."""
     facts = list(settings_facts(record.header.settings))
     if facts:
         items = [document.Strong(as_sentence(fact)) for fact in facts]
@@ -39,7 +39,7 @@ def settings_sections(record: Record) -> Iterator[document.Section]:
 
 
 def run_sections(record: Record) -> Iterator[document.Section]:
-    """The time, machine, versions and options of the run; every record has this section."""
+    """Yield the section about the run: its time, machine, versions and options; every record has it."""
     header, machine = record.header, record.header.machine
     versions = {"hypcheck": header.hypcheck, "Python": header.python, **header.versions}
     seconds = f", took {figure(record.footer.seconds)} s" if record.footer else ""
@@ -57,19 +57,20 @@ def run_sections(record: Record) -> Iterator[document.Section]:
 
 
 def _isolation(isolation: IsolationPart | UnsetType) -> Iterator[str]:
+    """Yield a sentence about how implementations are isolated; nothing if the record does not say."""
     if isolation is not UNSET:
         yield f"Implementations: {isolation_text(isolation.means, isolation.missing)}."
 
 
 LISTED = 50
-"""Failures that a text lists."""
+"""The most failures that a text lists."""
 
 IN_TABLE = 1000
-"""Failures in the table of the page; junit.xml and summary.json have all."""
+"""The most failures in the table of the page; junit.xml and summary.json have all."""
 
 
 def failure_sections(record: Record) -> Iterator[document.Section]:
-    """Every failure with its case and the command that shows it; none if nothing failed."""
+    """Yield a section with every failure and the command that shows it; nothing if nothing failed."""
     failed = failures(record)
     if failed:
         yield document.Section(
@@ -78,6 +79,7 @@ def failure_sections(record: Record) -> Iterator[document.Section]:
 
 
 def _failure_list(failed: list[Failure]) -> document.Bullets:
+    """Make the list of the first failures, for a text."""
     items: list[document.Text] = []
     for failure in failed[:LISTED]:
         place: document.Text = (" (", document.Code(failure.place), ")") if failure.place else ""
@@ -91,7 +93,7 @@ def _failure_list(failed: list[Failure]) -> document.Bullets:
 
 
 def _failure_table(failed: list[Failure]) -> document.TableBlock:
-    """The failures, with the commands that show them if there are any."""
+    """Make the table of the first failures, with the commands that show them if there are any."""
     replays = any(failure.replay for failure in failed)
     rows = [_failure_row(failure, with_case=replays) for failure in failed[:IN_TABLE]]
     rows += [("", "", text, *(("", "") if replays else ())) for text in _omitted_failures(len(failed) - IN_TABLE)]
@@ -101,12 +103,14 @@ def _failure_table(failed: list[Failure]) -> document.TableBlock:
 
 
 def _failure_row(failure: Failure, *, with_case: bool) -> document.Row:
+    """Make the row of a failure; `with_case`: with the case and the command that shows it."""
     place: document.Text = (" (", document.Code(failure.place), ")") if failure.place else ""
     case = (document.Code(failure.case or "", failure.row), document.Code(failure.replay or "")) if with_case else ()
     return (document.Code(failure.name), failure.group, (failure.message, place), *case)
 
 
 def _omitted_failures(left_out: int) -> list[document.Text]:
+    """Return a sentence about the failures that are left out; an empty list if there are none."""
     if left_out <= 0:
         return []
     files = (document.Code("junit.xml"), " and ", document.Code("summary.json"))
@@ -114,7 +118,11 @@ def _omitted_failures(left_out: int) -> list[document.Text]:
 
 
 def square_sections(record: Record) -> Iterator[document.Section]:
-    """The table of given answers by right answers, for each implementation; none if no answer was wrong."""
+    """Yield a section with the tables of answers, truths in rows and answers in columns, if the run did not pass.
+
+    It has a table for each implementation under test that gave an answer that is not right. Yields nothing if the run
+    passed, also where wrong answers were tolerated, or if there is no table.
+    """
     if verdict(record).passed:
         return
     blocks: list[document.Block] = []
@@ -132,7 +140,10 @@ _CAUSES = document.prose(
 
 
 def cause_sections(record: Record) -> Iterator[document.Section]:
-    """The causes of wrong answers with their remedies; none without wrong answers, or in records before 1.7.0."""
+    """Yield a section about the causes of wrong answers and their remedies.
+
+    Yields nothing if no answer was wrong, or for records before 1.7.0.
+    """
     causes = cause_facts(record)
     if not causes:
         return
@@ -157,12 +168,15 @@ ON_THE_RING = (1.0, 2.0, 1.0, 1.0, 2.5, 0.0, 0.0)
 
 
 def can_be_drawn(row: Sequence[float]) -> bool:
-    """Whether the half plane shows the truth about a row: a valid row of an upright spheroid that does not move."""
+    """Decide whether the half plane shows the truth about a row: it is valid, upright and not a sweep."""
     return len(row) > 0 and not PAIRS.has_axis(row) and trouble_with_row(row) is None  # a case may have no row
 
 
 def explorer_sections(record: Record) -> Iterator[document.Section]:
-    """The picture with the bodies of a failing case, which a reader can move; none if no failing case can be drawn."""
+    """Yield the picture with the bodies of a failing case, which a reader can move.
+
+    Yields nothing if no failing case can be drawn.
+    """
     shown = list(shown_case(record))
     rows = [failure.row for failure in failures(record) if can_be_drawn(failure.row)]
     if shown or rows:
@@ -177,9 +191,9 @@ _ON_THE_RING = document.Section("Look closer", (document.Explorer(ON_THE_RING),)
 
 
 def shown_case(record: Record) -> Iterator[tuple[tuple[float, ...], document.Text]]:
-    """The drawable wrong answer with the greatest error: its row and a sentence; None if there is no such answer.
+    """Yield the row of the drawable wrong answer with the greatest error, and a sentence; nothing if there is none.
 
-    An answer whose wall looks flat or is far away is taken only if there is no other.
+    An answer whose wall looks like a straight line is taken only if there is no other.
     """
     failing = [
         (case, from_hex(numbers_of(case)), total)
@@ -199,20 +213,20 @@ _ALIKE = 20.0
 
 
 def _spread(row: Sequence[float]) -> float:
-    """The ratio of the sizes of waist and spheroid, or four times the radii to the wall if this is more."""
+    """Return the ratio of the greatest to the least of α, b and d, or 4 times the radii to the wall if this is more."""
     alpha, gamma, b, d, x, y, z = row
     gap = abs(math.hypot(x, y) - alpha * math.hypot(1, z / gamma))
     return max(max(alpha, b, d) / min(alpha, b, d), 4 * gap / b)
 
 
 def _flat(row: Sequence[float]) -> bool:
-    """Whether the wall is so flat or so steep that it looks like a line beside the spheroid."""
+    """Decide whether the wall is so flat or so steep that it looks like a line beside the spheroid."""
     gamma, others = row[1], (row[0], row[2], row[3])
     return not max(others) / _ALIKE <= gamma <= min(others) * _ALIKE
 
 
 def compared_sections(record: Record) -> Iterator[document.Section]:
-    """The subjects of a benchmark: methods, workloads, missing requirements; none if nothing was measured."""
+    """Yield a section about a benchmark's methods, workloads and missing programs; nothing if none was measured."""
     methods = measured_methods(record)
     if not methods:
         return
@@ -243,6 +257,7 @@ _METHOD_CELLS: document.Cells[MeasuredMethod] = {
 
 
 def _remarks(line: MethodLine) -> Iterator[str]:
+    """Yield the remarks about a method: its mesh, whether it was timed, and its note."""
     if line.amortised:
         yield f"its mesh is {line.amortised}".replace("is build", "is built")
     if line.accuracy_only:
@@ -286,7 +301,7 @@ A part is empty if the record has none of its lines.
 """
 
 PASSING = tuple(part for part in PARTS if part not in (accuracy.family_sections, verification.method_sections))
-"""Those of a run with SPEC that passed: it has no wrong answers to distinguish."""
+"""The parts of a run with SPEC that passed: it has no wrong answers to distinguish."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -299,7 +314,7 @@ class ReportContent:
 
 
 def content(record: Record, against: Record | None = None) -> ReportContent:
-    """The content of a report; with another record `against`, the changes follow the failures."""
+    """Collect the content of a report; with another record `against`, the changes follow the failures."""
     ended = verdict(record)
     first, later = (FAILING, PARTS) if not ended.passed else ((), PASSING if under_test(record) else PARTS)
     failing = [section for part in first for section in part(record)]
@@ -311,7 +326,7 @@ def content(record: Record, against: Record | None = None) -> ReportContent:
 
 
 def report_title(record: Record) -> str:
-    """The title of a report: the command that made the record."""
+    """Return the title of a report: the command that made the record."""
     return f"hypcheck {record.header.options.get('command', 'verify')}"
 
 
@@ -323,7 +338,7 @@ _OTHER_REPORTS = (
 
 
 def overview(record: Record, beside: Collection[str]) -> ReportContent:
-    """The content of the overview; it shows the pictures among the files `beside` it."""
+    """Collect the content of the overview; it shows the pictures among the files `beside` it."""
     parts = (oracle_facts, paper_facts, method_facts, benchmark_facts)
     shows = document.bullets([as_sentence(fact) for part in parts for fact in part(record)])
     pictures = tuple(figures for figures in (verification.MAP, FRONT, PARETO, ERRORS) if figures.file in beside)

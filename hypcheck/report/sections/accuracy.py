@@ -44,7 +44,7 @@ _FAMILY_DISTANCE = document.prose(
 
 
 def family_sections(record: Record) -> Iterator[document.Section]:
-    """Every family of every judged method, the worst cases, and their places; only the page has these sections."""
+    """Yield sections about every family of every judged method and about the worst cases; only the page has them."""
     totals = [total for total in implementations(record) if total.asked or total.statuses]
     if not totals:
         return
@@ -63,7 +63,7 @@ def family_sections(record: Record) -> Iterator[document.Section]:
 
 
 def _families(record: Record, totals: Sequence[ImplementationTotal]) -> Iterator[document.Block]:
-    """A fold for each gated implementation, and one for all built-in methods."""
+    """Yield a folded block for each gated implementation, and two for all built-in methods."""
     replays = Replays.of(record)
     for total in totals:
         if total.gated:
@@ -75,7 +75,7 @@ def _families(record: Record, totals: Sequence[ImplementationTotal]) -> Iterator
 
 
 def _family_table(totals: Sequence[ImplementationTotal]) -> document.TableBlock:
-    """Families by status, with columns for the statuses that occurred."""
+    """Make the table of families, with columns for the statuses that occurred."""
     seen = [status.value for status in Status if any(status.value in total.statuses for total in totals)]
     mistakes, several = _mistakes(totals), len(totals) > 1
     fresh, left_out = any(total.fresh for total in totals), any(total.not_asked for total in totals)
@@ -97,7 +97,7 @@ def _family_table(totals: Sequence[ImplementationTotal]) -> document.TableBlock:
 
 
 def _mistakes(totals: Sequence[ImplementationTotal]) -> list[str]:
-    """The kinds of mistakes that are possible for the questions of these methods."""
+    """Return the kinds of mistakes that are possible for the questions of these methods."""
     about_sweeps = {QUESTIONS[total.question].layout.has_end for total in totals}
     of_positions = [Mistake.WRONG_SIDE] if False in about_sweeps else []
     of_times = [Mistake.LATE, Mistake.EARLY] if True in about_sweeps else []
@@ -105,6 +105,7 @@ def _mistakes(totals: Sequence[ImplementationTotal]) -> list[str]:
 
 
 def _status_row(group: GroupLine, seen: Sequence[str], names: Sequence[str], *, fresh: bool) -> document.Row:
+    """Make the row of a family; `seen` and `names` are the statuses and the mistakes that have columns."""
     error = worst_u(group)
     failing = _BAD if group.failing is UNSET else group.failing
     statuses = [document.count(group.counts.get(status, 0), bad=status in failing) for status in seen]
@@ -115,6 +116,7 @@ def _status_row(group: GroupLine, seen: Sequence[str], names: Sequence[str], *, 
 
 
 def _cases(totals: Sequence[ImplementationTotal], replays: Replays) -> Iterator[document.TableBlock]:
+    """Yield a table of the worst cases, at most MOST_CASES of a method, and a table of cases without an answer."""
     worst = [(total, group, case) for total in totals for group in total.groups for case in group.worst]
     if worst:
         worst.sort(key=lambda of: -of[2].backward_error_u)
@@ -130,6 +132,7 @@ def _cases(totals: Sequence[ImplementationTotal], replays: Replays) -> Iterator[
 
 
 def _case(total: ImplementationTotal, group: GroupLine, case: WrongAnswer, replays: Replays) -> document.Row:
+    """Make the row of a wrong or tolerated answer."""
     return (
         document.Code(case.case, from_hex(numbers_of(case))),
         document.Code(total.name),
@@ -143,11 +146,13 @@ def _case(total: ImplementationTotal, group: GroupLine, case: WrongAnswer, repla
 
 
 def _fault(total: ImplementationTotal, group: GroupLine, case: FaultPart, replays: Replays) -> document.Row:
+    """Make the row of a case without an answer."""
     shown, command = document.Code(case.case, from_hex(numbers_of(case))), document.Code(replays.command(group, case))
     return (shown, document.Code(total.name), _status(case), case.reason, command)
 
 
 def _status(case: WrongAnswer | FaultPart) -> document.TableCell:
+    """Make the cell of a case's status."""
     return document.TableCell(case.status, tone="bad" if case.status in _BAD else "")
 
 
@@ -179,7 +184,7 @@ _PLACES = tuple((role, words) for words, role in MISTAKES.values())
 
 
 def error_sections(record: Record) -> Iterator[document.Section]:
-    """The errors of a benchmark's methods: by distance, by workload, by size and by place."""
+    """Yield sections about the errors of a benchmark's methods: by distance, by workload, by size and by place."""
     if record.of(measurements.AccuracyLine):
         about_sweeps = list(sweep_sections(record))
         yield from about_sweeps
@@ -196,6 +201,7 @@ def error_sections(record: Record) -> Iterator[document.Section]:
 
 
 def _workload_table(record: Record) -> document.Block:
+    """Make the table of wrong answers, with a row for each method and workload."""
     titles = {name: line.title for name, line in workloads(record).items()}
     rows = [
         (document.Code(method.name), titles[name], *_workload_row(line))
@@ -210,6 +216,7 @@ def _workload_table(record: Record) -> document.Block:
 
 
 def _workload_row(line: measurements.AccuracyLine) -> document.Row:
+    """Make the cells about a method's answers on a workload."""
     worst = max(line.worst, key=lambda case: case.flip_distance, default=None)
     reliable = line.reliable_above
     return (
@@ -225,6 +232,7 @@ def _workload_row(line: measurements.AccuracyLine) -> document.Row:
 
 
 def _maps(record: Record) -> Iterator[document.Section]:
+    """Yield sections with pictures of errors: over the sizes of the bodies, and over places in the half plane."""
     if record.of(measurements.StabilityLine):
         words = "Share of wrong answers over the sizes of the bodies, α/b across and γ/d up, in half decades."
         figures = document.Figures("stability", small=True, legend=HEAT)
@@ -246,6 +254,7 @@ def _maps(record: Record) -> Iterator[document.Section]:
 
 
 def _never_wrong(words: str, names: Sequence[str]) -> document.Block:
+    """Make a list whose only item names these methods; it is empty without names."""
     return document.bullets([(words, document.joined([document.Code(name) for name in names]), ".")] if names else [])
 
 
@@ -260,7 +269,7 @@ _BOUNDS = document.prose(
 
 
 def peer_sections(record: Record) -> Iterator[document.Section]:
-    """The price of meshes and bounding volumes, in answers and in time."""
+    """Yield sections about meshes and bounding volumes: their errors and their times."""
     if record.of(measurements.ConvergenceLine):
         yield document.Section(
             "Meshes",
@@ -304,6 +313,7 @@ _BOUND_CELLS: document.Cells[measurements.BoundingLine] = {
 
 
 def _overlaps(lines: list[measurements.BoundingLine]) -> document.TableBlock:
+    """Make the table of false contacts by the ratio d/b of the spheroid."""
     rows = [
         (
             line.shape,
@@ -332,7 +342,7 @@ _SWEEP_FRONT = document.Figures("front", "missed contacts and false contacts aga
 
 
 def sweep_sections(record: Record) -> Iterator[document.Section]:
-    """The comparison of methods for sweeps; none if the benchmark is about positions."""
+    """Yield the section that compares methods for sweeps; nothing if the benchmark is about positions."""
     totals = sweep_totals(record)
     if totals:
         yield document.Section(
@@ -342,6 +352,7 @@ def sweep_sections(record: Record) -> Iterator[document.Section]:
 
 
 def _sweep_table(record: Record, totals: list[SweepTotal]) -> document.TableBlock:
+    """Make the table of missed and false contacts, with a row for each method."""
     where = workloads(record)[principal(record)].title
     mistakes = ("sweeps", "missed contacts", "share", "false contacts", "share", "cannot say", "wrong by", "worst")
     columns = (
@@ -354,6 +365,7 @@ def _sweep_table(record: Record, totals: list[SweepTotal]) -> document.TableBloc
 
 
 def _sweep_row(total: SweepTotal) -> document.Row:
+    """Make the row of a method for sweeps."""
     return (
         document.Code(total.name),
         document.count(total.asked),
@@ -370,6 +382,7 @@ def _sweep_row(total: SweepTotal) -> document.Row:
 
 
 def _size(total: SweepTotal, size: float) -> document.TableCell:
+    """Make the cell of a change of the spheroid's size in per cent; NONE if no answer of the method was wrong."""
     if not total.missed and not total.false:
         return document.TableCell(document.NONE, 0.0)
     return document.TableCell(f"{figure(100 * size)} %" if size < math.inf else "∞", size)

@@ -21,7 +21,7 @@ _MEMORY = "The growth of a fresh process's peak resident memory while it answers
 
 
 def speed_sections(record: Record) -> Iterator[document.Section]:
-    """The times and the memory of methods, with their intervals and the noise of the run."""
+    """Yield sections about the times and the memory of methods."""
     blocks = [
         *_untimed("Not timed, because the answers were wrong:", record.of(measurements.RefusedLine)),
         *_untimed("Could not be timed here, which does not fail the run:", record.of(measurements.UnmeasuredLine)),
@@ -43,12 +43,13 @@ def speed_sections(record: Record) -> Iterator[document.Section]:
 def _untimed(
     words: str, lines: Sequence[measurements.RefusedLine | measurements.UnmeasuredLine]
 ) -> list[document.Block]:
-    """A list of these lines after an introduction; nothing if there is no line."""
+    """Return an introduction and a list of these lines; nothing if there is no line."""
     items = [(document.Code(line.method), f" on {line.workload}, {line.mode}: {line.reason}") for line in lines]
     return [document.Paragraph(words), document.bullets(items)] if items else []
 
 
 def _speed_table(record: Record) -> document.TableBlock:
+    """Make the table of times, with a row for each method, workload and mode."""
     titles = {name: line.title for name, line in workloads(record).items()}
     rows = [
         (document.Code(method.name), titles[line.workload], line.mode, *_time(record, line))
@@ -65,6 +66,7 @@ def _speed_table(record: Record) -> document.TableBlock:
 
 
 def _time(record: Record, line: measurements.SpeedLine) -> document.Row:
+    """Make the cells about a time."""
     floor = noise_floor(record, line.workload, line.mode)
     noise = document.MISSING if floor is None else document.TableCell(f"± {figure(100 * floor)} %", floor)
     dropped = f", {counted(line.dropped, 'impossible sample')} dropped" if line.dropped else ""
@@ -96,7 +98,7 @@ _SCENES = document.prose(
 
 
 def scene_sections(record: Record) -> Iterator[document.Section]:
-    """The work that scenes' kernels leave out, the time that they save, and the cost of a walker's step in a forest."""
+    """Yield sections about the stages and times of scenes' kernels, and about a walker's step in a forest."""
     scenes, forests = record.of(measurements.SceneLine), record.of(measurements.ForestLine)
     if scenes:
         yield document.Section(
@@ -123,6 +125,7 @@ _FOREST_CELLS: document.Cells[measurements.ForestLine] = {
 
 
 def _shares(lines: list[measurements.SceneLine]) -> document.TableBlock:
+    """Make the table of the shares of rows that each stage of a scene's kernel decides."""
     rows: list[document.Row] = [
         (
             line.scene,
@@ -138,6 +141,7 @@ def _shares(lines: list[measurements.SceneLine]) -> document.TableBlock:
 
 
 def _scene_table(lines: list[measurements.SceneLine]) -> document.TableBlock:
+    """Make the table of the times of scenes' kernels."""
     rows = [
         (
             line.scene,
@@ -162,7 +166,7 @@ _BASELINE = document.prose(
 
 
 def baseline_sections(record: Record) -> Iterator[document.Section]:
-    """The comparison with the baseline; none if there is no baseline."""
+    """Yield the section that compares the run with a baseline; nothing if there is no baseline."""
     if record.of(measurements.ComparisonLine):
         order = ["slower", "inconclusive", "faster", "same"]
         lines = sorted(
@@ -173,7 +177,7 @@ def baseline_sections(record: Record) -> Iterator[document.Section]:
 
 
 def target_sections(record: Record) -> Iterator[document.Section]:
-    """The paper's claims of cost, and the targets of the kernels."""
+    """Yield sections about the paper's claims of cost, and about the targets of the kernels."""
     if record.of(measurements.CostLine):
         yield document.Section("The paper's claims of cost", tuple(_claims(record)))
     if record.of(measurements.KernelLine):
@@ -184,6 +188,7 @@ def target_sections(record: Record) -> Iterator[document.Section]:
 
 
 def _verdict(line: measurements.ComparisonLine) -> document.TableCell:
+    """Make the cell of a verdict; it is in brackets if the baseline does not gate the method."""
     verdict = line.verdict
     return (
         document.TableCell(verdict, tone=_TONES.get(verdict, "")) if line.gates else document.TableCell(f"({verdict})")
@@ -203,7 +208,7 @@ _BASELINE_CELLS: document.Cells[measurements.ComparisonLine] = {
 
 
 def costs_by_claim(record: Record) -> dict[str, list[measurements.CostLine]]:
-    """The claims of cost with their lines, one for each scene."""
+    """Return the lines of each claim of cost, one for each scene."""
     claims: dict[str, list[measurements.CostLine]] = {}
     for line in record.of(measurements.CostLine):
         claims.setdefault(line.claim, []).append(line)
@@ -211,7 +216,7 @@ def costs_by_claim(record: Record) -> dict[str, list[measurements.CostLine]]:
 
 
 def claim_sections(record: Record) -> Iterator[document.Section]:
-    """The claims of cost with their verdicts, without the tables."""
+    """Yield the section about the claims of cost with their verdicts, without tables."""
     items = [
         document.Item(claim, tuple((document.Strong(line.verdict), f", {line.scene}. {line.says}") for line in lines))
         for claim, lines in costs_by_claim(record).items()
@@ -221,6 +226,7 @@ def claim_sections(record: Record) -> Iterator[document.Section]:
 
 
 def _claims(record: Record) -> Iterator[document.Block]:
+    """Yield each claim of cost with a table of its verdicts and a table of the compared alternatives."""
     for claim, lines in costs_by_claim(record).items():
         yield document.Paragraph(document.Strong(claim))
         verdicts: list[document.Row] = [
@@ -239,6 +245,7 @@ def _claims(record: Record) -> Iterator[document.Block]:
 
 
 def _compared(line: measurements.CostLine) -> Iterator[document.Row]:
+    """Yield a row for each compared alternative."""
     for alternative in line.compared:
         operations = ", ".join(f"{amount} {name}" for name, amount in (alternative.operations or {}).items())
         yield (

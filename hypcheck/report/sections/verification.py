@@ -25,7 +25,7 @@ _ORACLES = document.prose(
 
 
 def oracle_sections(record: Record) -> Iterator[document.Section]:
-    """The agreement of the oracles; none if the plan has no oracle."""
+    """Yield the section about the agreement of the oracles; nothing if the plan has no oracle."""
     totals = model.oracle_totals(record)
     if not totals:
         return
@@ -53,7 +53,7 @@ _IN_TABLE = ("right", "tolerated", "wrong", "skipped")
 
 
 def method_sections(record: Record) -> Iterator[document.Section]:
-    """The wrong answers of each method, their errors and families; none if nothing was judged."""
+    """Yield sections about the wrong answers of each method; nothing if nothing was judged."""
     totals = model.implementations(record)
     exact = [total for total in totals if total.exact]
     others = [total for total in totals if not total.exact]
@@ -66,6 +66,7 @@ def method_sections(record: Record) -> Iterator[document.Section]:
 
 
 def _exact(methods: Sequence[model.ImplementationTotal]) -> document.Section:
+    """Make the section about the methods that promise to be exact."""
     cells: document.Cells[model.ImplementationTotal] = {
         "method": lambda method: document.Code(method.name),
         "what it is": lambda method: method.title,
@@ -79,6 +80,7 @@ def _exact(methods: Sequence[model.ImplementationTotal]) -> document.Section:
 
 
 def _introduction(record: Record, methods: Sequence[model.ImplementationTotal]) -> document.Section:
+    """Make the section that introduces the methods in floats and explains the words about errors."""
     tolerance = messages.tolerance_of(record.header.options)
     limit = f"at most {messages.figure(tolerance)} u" if tolerance is not None else "at most the run's tolerance"
     sentences = (
@@ -96,16 +98,18 @@ def _introduction(record: Record, methods: Sequence[model.ImplementationTotal]) 
 
 
 def _glossary(methods: Sequence[model.ImplementationTotal]) -> document.Block:
-    """The titles of the methods; one that runs in several precisions is described once."""
+    """List the titles of the methods; one that runs in several precisions is described once."""
     titles = {_plain_name(method): method.title.removesuffix(f", {method.precision}") for method in methods}
     return document.terms((document.Code(name), title) for name, title in titles.items() if title != name)
 
 
 def _plain_name(method: model.ImplementationTotal) -> str:
+    """Return the name of a method without its precision."""
     return method.name.removesuffix(f"-{method.precision}")
 
 
 def _part(precision: str, methods: Sequence[model.ImplementationTotal]) -> document.Section:
+    """Make the section about the methods in one precision."""
     otherwise = [
         (method, {name: n for name, n in method.statuses.items() if name not in _IN_TABLE}) for method in methods
     ]
@@ -117,11 +121,13 @@ def _part(precision: str, methods: Sequence[model.ImplementationTotal]) -> docum
 
 
 def _worst_error(worst: WrongAnswer | None) -> document.TableCell:
+    """Make the cell of the worst backward error in units u; NONE if no answer was wrong."""
     error = model.worst_error_u(worst)
     return document.TableCell(messages.figure(error) if worst else document.NONE, error)
 
 
 def _worst_case(worst: WrongAnswer | None) -> document.Text:
+    """Return the id of the case with the worst answer; NONE if no answer was wrong."""
     return document.Code(worst.case, messages.from_hex(numbers_of(worst))) if worst else document.NONE
 
 
@@ -139,6 +145,7 @@ _METHOD_CELLS: document.Cells[model.ImplementationTotal] = {
 
 
 def _matrix(methods: Sequence[model.ImplementationTotal]) -> tuple[document.Block, ...]:
+    """Return the table of wrong answers, a row for each family and a column for each method, and its introduction."""
     families = dict.fromkeys(group.family for total in methods for group in total.groups)
     groups = {(total.name, group.family): group for total in methods for group in total.groups}
 
@@ -164,18 +171,19 @@ def _matrix(methods: Sequence[model.ImplementationTotal]) -> tuple[document.Bloc
 
 
 def _statuses(statuses: dict[str, int]) -> str:
+    """Return the counts by status as a text: "right 12, wrong 3"."""
     return ", ".join(f"{name} {cases:,}" for name, cases in statuses.items())
 
 
 def gated_sections(record: Record) -> Iterator[document.Section]:
-    """Gated implementations: their declarations, and the values used to judge them; none if nothing was gated."""
+    """Yield the section about gated implementations and how they were tested; nothing if none was gated."""
     gated = model.under_test(record)
     if not gated:
         return
     columns = " |  | question | spheroids | precision | domain | language | version"
     rows = [row for tested in gated if tested.started is not None for row in _gated_rows(tested.name, tested.started)]
     declared = [document.table("implementations under test", columns, rows)] if rows else []
-    tests = document.bullets([_gated_value(tested) for tested in gated])
+    tests = document.bullets([_tested_text(tested) for tested in gated])
     yield document.Section("Implementations under test", (*declared, document.Paragraph(_AGAIN), tests))
 
 
@@ -186,7 +194,10 @@ _AGAIN = (
 
 
 def _gated_rows(name: str, line: ImplementationLine) -> Iterator[document.Row]:
-    """The declarations and the values used to judge: options of the command line replace declarations."""
+    """Yield two rows: what an implementation declares, and what it was judged as.
+
+    Options of the command line replace declarations.
+    """
     for shown, what, description in ((document.Code(name), "declared", line.declared), ("", "judged as", line.used)):
         yield (
             shown,
@@ -200,8 +211,8 @@ def _gated_rows(name: str, line: ImplementationLine) -> Iterator[document.Row]:
         )
 
 
-def _gated_value(tested: model.UnderTest) -> document.Text:
-    """How an implementation was tested, in sentences."""
+def _tested_text(tested: model.UnderTest) -> document.Text:
+    """Describe in sentences how a gated implementation was tested."""
     line, fresh, excused = tested.started, tested.fresh, tested.statuses.get("excused")
     name: document.Text = (document.Code(tested.name), ", ", document.Code(tested.line.spec))
     if line is None:
@@ -225,13 +236,13 @@ _SWEEPS = document.prose(
 
 
 def sweep_sections(record: Record) -> Iterator[document.Section]:
-    """Pictures of the worst answers about sweeps; none if no answer about a sweep is wrong."""
+    """Yield the section with pictures of the worst answers about sweeps; nothing if no such answer is wrong."""
     if any(model.drawn_sweep(implementation) is not None for implementation in model.implementations(record)):
         yield document.Section("The worst sweeps", (document.Paragraph(_SWEEPS), SWEEPS))
 
 
 def timing_sections(record: Record) -> Iterator[document.Section]:
-    """The time of the fast path compared with other methods; none if nothing was timed."""
+    """Yield the section about the time of the fast path and other methods; nothing if nothing was timed."""
     totals = model.timing_totals(record)
     if not totals:
         return
@@ -246,6 +257,7 @@ def timing_sections(record: Record) -> Iterator[document.Section]:
 
 
 def _spread(total: model.TimingTotal) -> document.TableCell:
+    """Make the cell of the least and the greatest time of the rounds."""
     ends = (messages.figure(total.least_ns), messages.figure(total.greatest_ns))
     return document.TableCell(" to ".join(ends), total.greatest_ns)
 
@@ -264,7 +276,7 @@ MAP = document.Figures("map", "exact positions and wrong answers over the half p
 
 
 def map_sections(record: Record) -> Iterator[document.Section]:
-    """The points in the half plane of a scene at which a method is wrong; none if there is no map."""
+    """Yield the section about the grid points at which a method is wrong; nothing if there is no map."""
     items = [
         (
             f"{line.name}: ",
@@ -288,7 +300,7 @@ _FINDINGS = document.prose(
 
 
 def paper_sections(record: Record) -> Iterator[document.Section]:
-    """The paper's equations, the proofs of its formulas, and their errors in exact arithmetic."""
+    """Yield sections about the paper's equations, the proofs of its formulas, and their errors in exact arithmetic."""
     equations, proofs, findings = record.of(EquationLine), record.of(ProofLine), record.of(FindingLine)
     if equations:
         yield _equations(equations)
@@ -299,6 +311,7 @@ def paper_sections(record: Record) -> Iterator[document.Section]:
 
 
 def _equations(lines: list[EquationLine]) -> document.Section:
+    """Make the section about the displayed formulas: how many hold, and how the others are corrected."""
     holding = [f"({line.number})" for line in lines if line.holds]
     items = [
         document.Item(
@@ -316,6 +329,7 @@ def _equations(lines: list[EquationLine]) -> document.Section:
 
 
 def _proofs(lines: list[ProofLine]) -> document.Section:
+    """Make the section about the proofs, with a row for each formula."""
     by_formula: dict[str, list[bool]] = {}
     for line in lines:
         by_formula.setdefault(line.formula, []).append(line.holds)
@@ -328,7 +342,10 @@ def _proofs(lines: list[ProofLine]) -> document.Section:
 
 
 def _findings(lines: list[FindingLine]) -> document.Section:
-    """Findings inside the stated regimes come first: they are errors. Formulas with the same witness share a row."""
+    """Make the section about formulas that err in exact arithmetic.
+
+    Findings inside the stated regimes come first, because they are errors. Formulas with the same witness share a row.
+    """
     alike: dict[tuple[object, ...], list[FindingLine]] = {}
     for line in sorted(lines, key=lambda line: not line.inside):
         key = (line.inside, line.family, line.cause, line.first_case, line.wrong, line.asked, line.reason)
@@ -338,6 +355,7 @@ def _findings(lines: list[FindingLine]) -> document.Section:
 
 
 def _why(line: FindingLine) -> document.TableCell:
+    """Make the cell with the reason why a formula errs; it is marked if the finding is not a known one."""
     why = model.explanation(line)
     return document.TableCell(document.Strong(why), tone="bad") if model.unlisted(line) else document.TableCell(why)
 
