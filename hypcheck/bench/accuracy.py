@@ -45,7 +45,7 @@ if sys.platform != "win32":
 
 WORST_KEPT = 3
 WORST_TRIED, FEW_TRIED = 12, 1
-"""Candidates for the worst wrong answers; to measure one about a sweep takes twenty milliseconds."""
+"""How many candidates for the worst wrong answer are measured; one about a sweep takes twenty milliseconds."""
 
 _PIECE = 500
 
@@ -54,7 +54,7 @@ TOLERABLE = 1e-3
 
 
 NEAREST = 2.0**-75
-"""A distance below those of all rows except exact tangencies."""
+"""A distance that is less than that of any row except exact tangencies."""
 
 
 @dataclass(frozen=True)
@@ -126,6 +126,7 @@ def method_answers(task: tuple[BenchPlan, str]) -> list[MethodAnswers]:
 
 
 def _answered(plan: BenchPlan, contender: Contender, loaded: LoadedMethod, workload: Workload) -> MethodAnswers:
+    """Return a loaded method's answers to one workload."""
     rows = _rows(workload, plan.seed, workload.judged(plan))
     places = contender.asked(rows)
     part = timed_rows(plan, contender, workload)
@@ -260,6 +261,7 @@ def memory_lines(plan: BenchPlan, names: Sequence[str]) -> Iterator[MemoryLine]:
 
 
 def _memory_line(task: tuple[BenchPlan, str]) -> MemoryLine:
+    """Return the record's line about the memory of one method, in a process of its own."""
     plan, name = task
     contender = contenders(plan)[name]
     return memory_line(contender, timed_rows(plan, contender, WORKLOADS[MEMORY_WORKLOAD]))

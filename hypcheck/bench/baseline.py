@@ -151,5 +151,6 @@ def change_of(before: Baseline, after: Baseline, key: SpeedKey, reference: str) 
 
 
 def _medians(run: Baseline, key: SpeedKey, reference: str, seed: int) -> NDArray[np.float64]:
+    """Return medians of a method's ratios to the reference, each over samples drawn anew."""
     compared = run.speeds[reference, key[1], key[2]].samples_ns
     return resampled_medians(ratios(run.speeds[key].samples_ns, compared), seed)

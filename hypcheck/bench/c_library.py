@@ -253,6 +253,7 @@ _FUNCTIONS: Mapping[str, tuple[Any, tuple[Any, ...]]] = MappingProxyType(
 
 @cache
 def _loaded(library: Path) -> ctypes.CDLL:
+    """Load a library, and declare the functions that it has."""
     loaded = ctypes.CDLL(str(library))
     for name, (result, arguments) in _FUNCTIONS.items():
         if hasattr(loaded, name):
@@ -297,6 +298,7 @@ class InC(LoadedMethod):
         return EmptyCall("C", nothing.single(rows) if mode == "single" else nothing._by_rows("bench_rows", rows[:1]))
 
     def _by_rows(self, name: str, rows: Rows) -> PreparedWork:
+        """Prepare calls of a function about rows."""
         function, queries = getattr(_loaded(self.library), name), np.ascontiguousarray(rows)
         answers = np.zeros(len(queries), dtype=np.int8)
 
@@ -322,6 +324,8 @@ def bodies_asked(library: Path, place: int, flight: CraftPath) -> PreparedWork:
 
 
 def _prepared(call: Callable[[int], object], filled: Answers) -> PreparedWork:
+    """Return prepared work: `call` runs it a number of times and fills the answers."""
+
     def answers() -> Answers:
         call(1)
         return filled
@@ -330,8 +334,8 @@ def _prepared(call: Callable[[int], object], filled: Answers) -> PreparedWork:
 
 
 WORDS = 40
-"""32-bit words of the integers whose product measures exact decisions. 1280 bits have room for the discriminant of a
-row: it is of degree 24 in numbers of 53 bits that are alike in magnitude."""
+"""How many 32-bit words the integers have whose product measures exact decisions. 1280 bits have room for the
+discriminant of a row: it is of degree 24 in numbers of 53 bits that are alike in magnitude."""
 
 
 def baselines_source() -> str:
@@ -416,6 +420,7 @@ class CBaseline:
 
 
 def _pointers(arrays: Iterable[NDArray[Any]]) -> list[int]:
+    """Return the addresses of arrays, which the caller must keep alive."""
     return [array.ctypes.data for array in arrays]
 
 

@@ -191,7 +191,7 @@ def fcl_queries(rows: Rows) -> Clocked:
 
 
 ONE_BY_ONE = 200
-"""Rows of methods that are called for each row."""
+"""How many rows a method gets that is called for each row."""
 
 
 def against_others(run: Measuring) -> Iterator[KernelLine]:

@@ -34,7 +34,7 @@ BODIES = (PRINTED_A, PRINTED_B, OURS, REPAIRED_A, REPAIRED_B)
 """The procedures for a body and its rotors, in the order of PROCEDURES; in C the first has the place 1 of of_bodies."""
 
 COST_OF = "cost of "
-"""Begins the name of a claim, in place of a workload."""
+"""Begins the name of a claim, which takes the place of a workload's name in lines of the record."""
 
 FIRST_AGAIN = "the first again"
 """The first alternative of a comparison a second time; its difference is noise."""
@@ -96,6 +96,7 @@ def hull_operations() -> Operations:
 
 
 def _procedures(library: Path | None) -> CostClaim:
+    """Return the claim that asking the bounding spheroid first costs less."""
     where = "in numpy, 8,192 positions at a time" if library is None else "in C, one position a call"
     return CostClaim(
         "procedures",
@@ -109,6 +110,7 @@ def _procedures(library: Path | None) -> CostClaim:
 
 
 def _divisions(library: Path | None) -> CostClaim:
+    """Return the claim that the loop of Table 2 has only additions and products."""
     listed = {PRINTED: TABLE_2, RECIPROCALS: RECIPROCAL, REPAIRED_1: PROCEDURE_1}
     return CostClaim(
         "divisions",
@@ -121,6 +123,7 @@ def _divisions(library: Path | None) -> CostClaim:
 
 
 def _roots(library: Path | None) -> CostClaim:
+    """Return the claim that the coefficients cost less than the roots."""
     of_roots = cost_of(ROOTS_TRIGONOMETRIC).query
     return CostClaim(
         "roots",
@@ -135,10 +138,12 @@ def _roots(library: Path | None) -> CostClaim:
 
 
 def _tier(library: Path | None) -> str:
+    """Return the language of the methods: C if there is a library."""
     return "numpy" if library is None else "C"
 
 
 def _prepared_procedures(library: Path | None, plan: BenchPlan) -> dict[str, PreparedWork]:
+    """Return the procedures for a body and its rotors, ready to be timed, by name."""
     flight = flight_of(plan.seed, plan.amounts.bodies)
     if library is None:
         procedures = zip(BODIES, PROCEDURES.values(), strict=True)
@@ -147,6 +152,7 @@ def _prepared_procedures(library: Path | None, plan: BenchPlan) -> dict[str, Pre
 
 
 def _prepared_formulas(library: Path | None, listed: dict[str, Formula], plan: BenchPlan) -> dict[str, PreparedWork]:
+    """Return the formulas, ready to be timed, by name."""
     rows = WORKLOADS["uniform"].rows(plan.seed, plan.amounts.timed)
     if library is None:
         functions = {
@@ -158,6 +164,7 @@ def _prepared_formulas(library: Path | None, listed: dict[str, Formula], plan: B
 
 
 def _prepared_roots(library: Path | None, plan: BenchPlan) -> dict[str, PreparedWork]:
+    """Return Table 2 and the computations of roots, ready to be timed, by name."""
     rows = WORKLOADS["uniform"].rows(plan.seed, plan.amounts.timed)
     if library is None:
         prepared = _prepared_formulas(None, {PRINTED: TABLE_2, TRIGONOMETRIC: ROOTS_TRIGONOMETRIC}, plan)
@@ -203,6 +210,7 @@ def _counted(operations: Operations | None) -> dict[str, int] | None:
 
 
 def _says_of_procedures(plan: BenchPlan, claim: CostClaim, measured: Ratios, noise: float) -> tuple[str, str]:
+    """Return the verdict on the claim about procedures, and its sentence."""
     second, ours = measured[PRINTED_B], measured[OURS]
     share = share_touching(flight_of(plan.seed, plan.amounts.bodies))
     four, hull = claim.operations[PRINTED_A].rounded, hull_operations().rounded
@@ -215,6 +223,7 @@ def _says_of_procedures(plan: BenchPlan, claim: CostClaim, measured: Ratios, noi
 
 
 def _says_of_divisions(_plan: BenchPlan, claim: CostClaim, measured: Ratios, _noise: float) -> tuple[str, str]:
+    """Return the verdict on the claim about divisions, and its sentence."""
     divisions = claim.operations[PRINTED].divisions
     return (HOLDS if divisions == 0 else DOES_NOT_HOLD), (
         f"The loop takes {divisions} divisions a position, by b² and by d; with their reciprocals kept outside it "
@@ -224,6 +233,7 @@ def _says_of_divisions(_plan: BenchPlan, claim: CostClaim, measured: Ratios, _no
 
 
 def _says_of_roots(_plan: BenchPlan, claim: CostClaim, measured: Ratios, noise: float) -> tuple[str, str]:
+    """Return the verdict on the claim about roots, and its sentence."""
     others = "; ".join(f"{name}: {_ratio_text(ratio)}" for name, ratio in measured.items() if name != PRINTED)
     counted = claim.operations.get(TRIGONOMETRIC)
     functions = f"{counted.functions} a position" if counted else "three where Δ > 0"
@@ -252,6 +262,7 @@ def dearer(ratio: Estimate, noise: float) -> str:
 
 
 def _ratio_text(ratio: Estimate) -> str:
+    """Return a ratio with its interval, as text."""
     values = (ratio.median, ratio.low, ratio.high)
     middle, low, high = (f"{value:.3g}" if value < 1000 else f"{value:,.0f}" for value in values)
     return f"{middle} ({low} to {high})"

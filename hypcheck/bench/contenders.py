@@ -81,13 +81,14 @@ def of_method(method: Method, tier: str, kind: str, **fields: Any) -> Contender:
 
 
 COMPILER = "C compiler"
-"""The need of the methods in C."""
+"""What the methods in C need, as reports name it."""
 
 SINGLES = 4096
-"""A branch predictor learns the branches of 64 rows, and the dual form's search then runs several times as fast."""
+"""How many rows are timed one by one: a branch predictor would learn 64 rows, on which the dual form's search then runs
+several times as fast."""
 
 ELLIPSOID = "ellipsoid"
-"""The one pairing that an axis can pose: a mesh scaled to a unit sphere is another one for each axis."""
+"""The only pairing for tilted spheroids: a mesh scaled for a unit sphere would be another one for each axis."""
 
 
 def contenders(plan: BenchPlan) -> dict[str, Contender]:
@@ -132,6 +133,7 @@ def _everything(plan: BenchPlan) -> Iterable[Contender]:
 
 
 def _listing() -> Mapping[str, Any]:
+    """Return the tables of contenders.toml."""
     return toml.shipped("hypcheck.bench", "contenders.toml")
 
 
@@ -155,10 +157,12 @@ def _listed(subject: str, plan: BenchPlan) -> Iterable[Contender]:
 
 
 def _by_numbers(_method: Method, _library: Path | None) -> dict[str, Any]:
+    """Return the fields of a contender that is called with seven numbers."""
     return {"load": _position}
 
 
 def _position() -> InScalars:
+    """Return hypcheck.position as a loaded method."""
     return InScalars(hypcheck.position)  # the kernel is chosen where it is loaded
 
 
@@ -175,10 +179,10 @@ def _in_mesh(method: Method, _library: Path | None) -> dict[str, Any]:
 
 
 _CALLED = {"rows": lambda _method, _library: {}, "numbers": _by_numbers, "C": _in_c, "mesh": _in_mesh}
-"""How a method is called, by the key `call` of the listing: what a contender has for that."""
+"""Functions to the fields of a contender, by the key `call` of the listing, which says how a method is called."""
 
 MOST_SCENES = 8
-"""Workloads with more different sizes are not asked: a mesh for one row is not built once."""
+"""Contenders with a mesh for each scene get no workload with more different sizes: a mesh would serve few rows."""
 
 MOST_QUICK = 1_000
 """Larger meshes belong to full runs."""
@@ -220,7 +224,7 @@ def built_once(engine: MeshLibrary, pairing: str, triangles: int) -> Contender:
 
 
 SPEC_SINGLES = {"library": 256, "python": 64, "command": 16}
-"""Rows that are asked one by one, by the kind of SPEC. The worker repeats them in order, and there are enough that a
+"""How many rows are sent one by one, by the kind of SPEC. The worker repeats them in order, and there are enough that a
 branch predictor does not learn them; a command gets one question for each."""
 
 _TRIED = 64
@@ -285,6 +289,7 @@ def _seconds_a_row(implementation: Implementation) -> float:
 
 
 def _fastest(implementation: Implementation, rows: Rows) -> float:
+    """Return the least time in seconds of several tries on these rows."""
     tries = [_seconds(implementation, rows)]
     while len(tries) < _TRIES and sum(tries) < _TRYING_S:
         tries.append(_seconds(implementation, rows))
@@ -292,6 +297,7 @@ def _fastest(implementation: Implementation, rows: Rows) -> float:
 
 
 def _seconds(implementation: Implementation, rows: Rows) -> float:
+    """Return the seconds that an implementation takes for these rows."""
     started = time.perf_counter()
     implementation.classify(rows)
     return time.perf_counter() - started
@@ -324,4 +330,5 @@ def foreign_contenders(methods: Iterable[ForeignMethod], limits: Limits) -> Iter
 
 
 def _opened(spec: str, limits: Limits) -> RunningForeign:
+    """Start an implementation. Raises InputError and StartError."""
     return RunningForeign(open_implementation(spec, limits), parse_spec(spec).kind)

@@ -49,6 +49,7 @@ def stability_methods(by_name: dict[str, Contender]) -> list[str]:
 
 
 def _wanted(contender: Contender) -> bool:
+    """Whether a contender gets a map: it judges enough rows, and is of a kind whose errors differ."""
     if contender.tier == "foreign":
         return (contender.judged or 0) >= ENOUGH_OUTSIDE
     ours = contender.kind in STABILITY_KINDS and contender.tier in ("numpy", "python")
@@ -89,7 +90,7 @@ def stability_rows(plan: BenchPlan) -> tuple[Rows, NDArray[np.intp]]:
 
 MAPPED_SCENE = NEAR_SCENES[0]
 FARTHEST = 34.0
-"""Metres from the axis: beyond the ring, which is at 29.7."""
+"""How far from the axis a map goes, in metres: beyond the ring, which is at 29.7."""
 
 AROUND_THE_RING = 0.03
 LETTERS = {Mistake.FALSE_CLEAR: "c", Mistake.FALSE_CONTACT: "w", Mistake.WRONG_SIDE: "s"}
@@ -160,7 +161,7 @@ CONVERGENCE_GAPS = (-27, -3)
 
 CONVERGENCE_ROWS = 400
 _BUILDS_NS = 150_000_000
-"""Seconds for building one size repeatedly."""
+"""A mesh of one size is built repeatedly for so many nanoseconds."""
 
 
 def convergence_steps(plan: BenchPlan) -> int:
@@ -169,6 +170,7 @@ def convergence_steps(plan: BenchPlan) -> int:
 
 
 def _triangle_counts(plan: BenchPlan) -> list[int]:
+    """Return the numbers of triangles of the meshes that the run measures."""
     return [triangles for triangles in CONVERGENCE_TRIANGLES if triangles <= plan.amounts.most_triangles]
 
 
@@ -188,6 +190,7 @@ def near_the_tower(seed: int) -> Rows:
 
 
 def _convergence_line(pairing: str, triangles: int, rows: Rows, truth: Answers) -> ConvergenceLine:
+    """Return the record's line about a mesh of so many triangles: its errors, and times of building and asking."""
     alpha, gamma, b, d = NEAR_SCENES[0]
     sizes = alpha, gamma, b, d
     height = height_of(sizes, rows)
@@ -217,7 +220,7 @@ BOUNDING_SHAPES: Mapping[str, Callable[[Rows], Answers]] = MappingProxyType(
 )
 BOUNDING_WORKLOADS = ("uniform", "flight")
 BOUNDING_RATIOS = tuple(2.0**exponent for exponent in range(-4, 5))
-"""d/b of the spheroids: from flat to tall."""
+"""The ratios d/b of the spheroids, from flat to tall."""
 
 _SHARE = 4
 """One in so many of the judged rows is asked for each ratio, because there are many."""

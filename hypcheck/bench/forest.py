@@ -35,14 +35,14 @@ from hypcheck.truth import exact
 from hypcheck.truth.mesh import fcl_module
 
 ROOM = 25.0
-"""Square metres for each tree."""
+"""The area for each tree, in square metres."""
 
 KINDS = tuple((alpha, gamma) for alpha in (0.61, 0.52, 0.45, 0.38, 0.27, 0.2, 0.14, 0.08) for gamma in (6.0, 28.0))
 """α and γ of the trees, in metres: half of them wider than the walker, half narrower (section 3.1 of the paper)."""
 
 WALKER = Mover(0.3, 0.9)
 STEP, REFUSED_TURN, LARGEST_TURN = 0.25, 60.0, 15.0
-"""The steps of the walker: metres, and degrees."""
+"""The walker's step in metres; her turn after a refused step, and the largest turn otherwise, in degrees."""
 
 LOOK_AHEAD = 3.0
 """Metres beyond which no tree of KINDS touches a walker: the widest trunk is below 0.7 m at her height."""
@@ -72,6 +72,7 @@ class Forest:
         return all(self._beside(index, centre) is Position.EXTERIOR for index in near.tolist())
 
     def _beside(self, index: int, centre: Point) -> Position:
+        """Return the exact position of the walker at a centre beside one tree."""
         alpha, gamma = KINDS[int(self.kinds[index])]
         there = self.places[index].tolist()
         x, y = (Fraction(here) - Fraction(tree) for here, tree in zip(centre[:2], there, strict=True))
@@ -79,6 +80,7 @@ class Forest:
 
 
 def _tree(number: int, kind: int, place: tuple[float, float]) -> Hyperboloid:
+    """Return a tree of a kind at a place."""
     alpha, gamma = KINDS[kind]
     return Hyperboloid(f"tree {number}", alpha, gamma, (*place, 0.0), Span(-0.9, 5.0))
 
@@ -111,7 +113,7 @@ def walk(scene: Scene, forest: Forest, steps: int, seed: int) -> list[Point]:
 
 
 Clear = Callable[[float, float, float], int]
-"""1 if the walker is clear of every tree, else 0."""
+"""A function of the walker's centre x, y, z that returns 1 if the walker is clear of every tree, else 0."""
 
 TRIANGLES = 128
 HEIGHT = 1.2 * WALKER.d
@@ -120,7 +122,7 @@ HEIGHT = 1.2 * WALKER.d
 
 @dataclass(frozen=True)
 class Walker:
-    """A candidate that tests a walker's steps.
+    """A program that tests a walker's steps.
 
     `make` builds what it needs for a forest, and returns its answering function.
     """
@@ -131,6 +133,7 @@ class Walker:
 
 
 def _walker_scene(forest: Forest) -> Clear:
+    """Return the answering function of hypcheck's scene."""
     scene = Scene(forest.model)
     scene.position(0.0, 0.0, 0.0)  # the first query prepares the tree
     return scene.position

@@ -110,6 +110,7 @@ class InPython(LoadedMethod):
         return EmptyCall("Python", one_by_one(_nothing_of, [rows[:1]] * len(rows)))
 
     def _work(self, rows: Rows) -> Callable[[], Answers]:
+        """Return the call for these rows; rows of one scene go to the function for scenes."""
         sizes = scene_of(rows)
         if self.scene is None or sizes is None:
             return lambda: self.function(rows)
@@ -144,6 +145,7 @@ class InScalars(LoadedMethod):
 
 
 def _none_of(*_numbers: float) -> int:
+    """Return 0: an empty function of seven numbers."""
     return 0
 
 
@@ -168,10 +170,12 @@ _ZERO: Answers = np.zeros(1, dtype=np.int8)
 
 
 def _nothing() -> Answers:
+    """Return no answers."""
     return _ZERO
 
 
 def _nothing_of(_rows: Rows) -> Answers:
+    """Return no answers: an empty function of rows."""
     return _ZERO
 
 
@@ -221,6 +225,7 @@ class InEngine(LoadedMethod):
         return one_by_one(self._ready(rows), [rows[place : place + 1] for place in range(len(rows))])
 
     def _ready(self, rows: Rows) -> Callable[[Rows], Answers]:
+        """Build the meshes of these rows; return the function that answers with them."""
         sizes = scene_of(rows, self.layout)
         if sizes is not None:
             return self.mesh(sizes, rows).answers
@@ -293,11 +298,13 @@ class RunningForeign(LoadedMethod):
 
     @property
     def _clock(self) -> str | None:
+        """Whose clock times it; None if it offers none."""
         if self.kind == "command":
             return "time protocol" if self.implementation.declared.time else None
         return "worker"
 
     def _asked(self, rows: Rows, *, by_scene: bool) -> Answers:
+        """Return the answers to rows, and note a row without an answer in `trouble`."""
         answered = self.implementation.classify(rows, by_scene=by_scene and len(rows) > 0)
         if answered.reasons:
             place, reason = next(iter(answered.reasons.items()))
@@ -320,6 +327,8 @@ class RunningForeign(LoadedMethod):
         return run
 
     def _round_trips(self, rows: Rows) -> Clocked:
+        """Return the time of questions by our clock, with the transport."""
+
         def run(repeat: int) -> tuple[int, int]:
             started = time.perf_counter_ns()
             for _ in range(repeat):
@@ -330,4 +339,5 @@ class RunningForeign(LoadedMethod):
 
 
 def _none() -> Answers:
+    """Return no answers."""
     return np.empty(0, dtype=np.int8)

@@ -16,19 +16,19 @@ REFERENCE = "table-2-float64"
 """All ratios are relative to the time of this method: the paper's own formula in numpy, which runs everywhere."""
 
 TILTED_REFERENCE = "eigh"
-"""The same where spheroids are tilted: numpy.linalg.eigh and the dual function, as one writes it in numpy."""
+"""The reference if spheroids are tilted: numpy.linalg.eigh and the dual function, as one writes it in numpy."""
 
 PASSAGE_REFERENCE = "passage-exact"
-"""The same of sweeps: the exact decision in Python's integers."""
+"""The reference for sweeps: the exact decision in Python's integers."""
 
 POSITION, PASSAGE = "position", "passage"
-"""What a run compares methods for: one position, whatever the question about it, or the sweep between two."""
+"""The two subjects for which a run compares methods: one position, with any question about it, or a sweep."""
 
 MAX_SLOWDOWN = 1.1
 """The slowdown that a baseline allows by default."""
 
 RESTARTS = 3
-"""Restarts of a SPEC that crashes or hangs: enough to find one row at fault, which fails the run."""
+"""How often a SPEC that crashes or hangs is restarted: enough to find one row at fault, which fails the run."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,7 +146,7 @@ class BenchPlan:
 
 
 _FOUND_OUT = ("limits", "folder", "compiled", "missing", "foreign")
-"""Fields that are no options of a user."""
+"""Fields that are not options of a user."""
 
 
 def chosen_names(names: Sequence[str], patterns: Sequence[str], noun: str) -> list[str]:

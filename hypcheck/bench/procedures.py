@@ -134,6 +134,7 @@ def rotors_at(cosine: Floats, sine: Floats, arm: float) -> list[tuple[Floats, Fl
 
 
 def _rotors(flight: CraftPath, repaired: bool) -> Evaluator:
+    """Return the evaluator of Procedure 2.a for a flight."""
     return _loop_body(rotor_programs(repaired), ("valid",), flight)
 
 
@@ -188,6 +189,7 @@ def _before(name: str, program: Program) -> str:
 
 
 def _asked(name: str, before: Program, program: Program, wanted: tuple[str, ...], end: str) -> str:
+    """Return a function in C that asks one position: constants, inputs, statements, then `end`."""
     read = {name for step in program.steps for name in step.reads}
     constants = "\n".join(
         f"    const double {step.name} = k[{place}];" for place, step in enumerate(before.steps) if step.name in read
@@ -203,6 +205,7 @@ def _asked(name: str, before: Program, program: Program, wanted: tuple[str, ...]
 
 
 def _craft(read: set[str] | None = None) -> str:
+    """Return the C declarations of the craft's numbers that are read; None: all."""
     named = [(place, name) for place, name in enumerate(CRAFT) if read is None or name in read]
     fields = "\n".join(f"    const double {name} = craft[{place}];" for place, name in named)
     return fields + "".join(f"\n    (void){name};" for _, name in named)

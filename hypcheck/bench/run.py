@@ -150,11 +150,14 @@ def codes_of(lines: Iterable[RecordLine]) -> set[Exit]:
 
 
 def _kernel(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome, advance: Advance) -> None:
+    """Measure the targets of the fast path's speed."""
     targets.run(recorder, advance, plan.quick)
     outcome.codes |= codes_of(recorder.lines)
 
 
 def _forest(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome) -> Stage:
+    """Return the stage that measures a walker's step."""
+
     def measure(advance: Advance) -> None:
         forest.run(recorder, advance, plan.seed, sizes, forest.QUICK_ROUNDS if plan.quick else forest.ROUNDS)
         outcome.codes |= codes_of(recorder.lines)
@@ -166,6 +169,8 @@ def _forest(plan: BenchPlan, recorder: Recorder, outcome: RunOutcome) -> Stage:
 
 
 def _scenes(plan: BenchPlan, names: Sequence[str], recorder: Recorder, outcome: RunOutcome) -> Stage:
+    """Return the stage that measures the kernels of these scenes."""
+
     def measure(advance: Advance) -> None:
         try:
             rounds = scene.QUICK_ROUNDS if plan.quick else scene.ROUNDS
@@ -258,6 +263,7 @@ class MethodsRun:
             self._judge(method_answers, truths[method_answers.workload])
 
     def _judge(self, method_answers: MethodAnswers, truth: WorkloadTruth) -> None:
+        """Record how right a method's answers to a workload are."""
         contender = self.contenders[method_answers.method]
         if method_answers.trouble:
             self.recorder.add(

@@ -46,7 +46,7 @@ void one_by_one(size_t n, const double *rows, int8_t *positions)
 
 @dataclass(frozen=True)
 class SceneKernel:
-    """A compiled and loaded kernel."""
+    """A scene's kernel in C, compiled and loaded."""
 
     library: ctypes.CDLL
 
@@ -85,7 +85,7 @@ def compiled_kernel(plan: ScenePlan, folder: Path) -> SceneKernel:
 
 KERNEL_ROUNDS = 11
 REPEATED_CENTRES = 16
-"""The sample's centres are repeated so often: 65,536 rows, which a branch predictor cannot learn."""
+"""How often the sample centres are repeated: 65,536 rows, which a branch predictor cannot learn."""
 
 
 def kernel_savings(plan: ScenePlan, folder: Path, rounds: int = KERNEL_ROUNDS) -> Iterator[dict[str, Any]]:
@@ -188,6 +188,7 @@ def run_scenes(
 
 
 def _scene_line(plan: ScenePlan, methods: Path, kernel: SceneKernel, rounds: int, tables: Sequence[Rows]) -> SceneLine:
+    """Return the record's line about a scene's kernel: its answers and times beside those of the other methods."""
     printed, certified = (InC(methods, place_of(name)) for name in (f"{PRINTED}-{plan.format.name}", CERTIFIED))
     rows = np.concatenate(tables)
     batches = {
@@ -219,6 +220,7 @@ def _scene_line(plan: ScenePlan, methods: Path, kernel: SceneKernel, rounds: int
 
 
 def _answers(parts: Sequence[PreparedWork]) -> Positions:
+    """Return the answers of several parts as one array."""
     return np.concatenate([part.answers() for part in parts])
 
 

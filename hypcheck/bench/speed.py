@@ -27,7 +27,7 @@ MODES = ("batch", "single", "build")
 """The modes of timing a method: many rows by one call, rows one by one, and the building before."""
 
 REFERENCE_AGAIN = "the reference again"
-"""The reference a second time: its difference from the first is noise."""
+"""The name of the reference as it is measured a second time; its difference from the first time is noise."""
 
 MODE_WORKLOADS: Mapping[str, tuple[str, ...]] = {
     "single": ("uniform", "near-contact", "tower"),
@@ -36,7 +36,7 @@ MODE_WORKLOADS: Mapping[str, tuple[str, ...]] = {
 """The workloads of a mode, if not all: single rows have no neighbours, and a mesh belongs to the scene."""
 
 BUILDS = 2
-"""Rounds of building meshes: a large mesh takes almost a second."""
+"""In how many rounds meshes are built: a large mesh takes almost a second."""
 
 NOT_ANSWERED = "not answered"
 """Replaces the hash of answers if the method failed when it was judged, which is recorded already."""
@@ -152,6 +152,7 @@ def _methods(
 
 
 def _measured(session: MeasuringSession, here: _Together) -> Iterator[Measurement]:
+    """Measure work together; yield samples from which the cost of an empty call is subtracted."""
     if not here.ready:
         return
     reference = session.plan.reference
@@ -173,10 +174,12 @@ def _measured(session: MeasuringSession, here: _Together) -> Iterator[Measuremen
 
 
 def _called(call: EmptyCall) -> str:
+    """Return the name of an empty call among the entries that are measured."""
     return f"{EMPTY_CALL} of {call.name}"
 
 
 def _rounds(session: MeasuringSession, here: _Together, todo: Mapping[str, PreparedWork]) -> dict[str, Samples]:
+    """Measure this work in rounds; return the samples by name."""
     where, entries = here.where, []
     for name, work in todo.items():
         total = here.sums.get(session.plan.reference if name == REFERENCE_AGAIN else name)
@@ -265,6 +268,7 @@ def _hidden(parts: list[Measurement]) -> str | None:
 
 
 def _time_text(time: Estimate) -> str:
+    """Return a time with its interval, as text."""
     return f"{time.median:.3g} ns ({time.low:.3g} to {time.high:.3g})"
 
 
@@ -274,10 +278,12 @@ def _possible(part: Measurement) -> list[float]:
 
 
 def _refusal(parts: list[Measurement]) -> str | None:
+    """Return the reason why a measurement was refused, or None."""
     return next((part.samples.refused for part in parts if part.samples.refused), None)
 
 
 def _speed_line(measurements: Measurements, reference: str, key: MeasurementKey) -> SpeedLine:
+    """Return the record's line about the speed of a method in one workload and mode."""
     name, workload, mode = key
     parts = measurements[key]
     first = parts[0].samples
@@ -303,6 +309,7 @@ def _speed_line(measurements: Measurements, reference: str, key: MeasurementKey)
 
 
 def _ratio(measurements: Measurements, reference: str, key: MeasurementKey) -> Estimate | None:
+    """Return the ratio of a method's times to those of the reference; None if there is none."""
     _, workload, mode = key
     parts = measurements.get((reference, workload, mode))
     if parts is None or _refusal(parts):
@@ -312,6 +319,7 @@ def _ratio(measurements: Measurements, reference: str, key: MeasurementKey) -> E
 
 
 def _noise(measurements: Measurements, reference: str, workload: str, mode: str) -> NoiseLine:
+    """Return the record's line about noise: the ratio of the reference to itself."""
     ratio = _ratio(measurements, reference, (REFERENCE_AGAIN, workload, mode))
     if ratio is None:
         raise ValueError(f"{reference} was measured again in {workload}, {mode}, and not before")

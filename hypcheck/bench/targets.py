@@ -40,16 +40,17 @@ from hypcheck.runs.timing import Samples, TimingEntry, clocked, measured_samples
 from hypcheck.vectors.families import ENDED_FAMILIES, ENDED_SWEEP_FAMILIES
 
 AGAIN = 2
-"""A missed target is measured so many times more."""
+"""How many times a missed target is measured again."""
 
 STREAM, QUICK_STREAM = 1_000_000_000, 100_000_000
 
 
 MANY, CACHED, FEW, WORST = 10_000_000, 100_000, 20_000, 20_000
-"""Rows from memory, in the cache, for numpy, and next to contact."""
+"""How many rows come from memory, stay in the cache, are for numpy, and are next to contact."""
 
 
 def _answered(columns: Columns, out: Positions, threads: int = 1) -> Positions:
+    """Classify columns into `out`, and return it."""
     fill_scene(TOWER_SIZES, columns, out, "position", threads)
     return out
 
@@ -110,7 +111,7 @@ REPEATED = 200
 
 
 Part = Callable[[Columns, Positions], None]
-"""Work of one thread on its part of the columns and answers."""
+"""A function that does the work of one thread on its part of the columns and answers."""
 
 
 def threads_in_cache(run: Measuring) -> Iterator[KernelLine]:
@@ -164,7 +165,7 @@ def near_contact(run: Measuring) -> Iterator[KernelLine]:
 
 
 _TURNS = 30
-"""Bisections of numpy's version: enough away from contact, and fewer than it would need there."""
+"""How often numpy's version bisects: enough away from contact, and fewer than it would need next to contact."""
 
 
 def slowest_row(run: Measuring) -> Iterator[KernelLine]:
@@ -250,10 +251,11 @@ PACED = 20_000
 
 
 ORDINARY, NEAR = 20_000, 2_000
-"""Rows of each ordinary family, and of each family near a rim, a flat end or the wall."""
+"""How many rows each ordinary family gives, and each family near a rim, a flat end or the wall."""
 
 
 def _whole(rows: Rows) -> Positions:
+    """Return the answers of the compiled kernel to rows."""
     return answer_rows(rows, "position", 1)[0]
 
 
@@ -280,6 +282,7 @@ def left_open(_run: Measuring) -> Iterator[KernelLine]:
 
 
 def _open_share(name: str) -> float:
+    """Return the share of a family's rows or sweeps that C answers with 2."""
     sweeps = name in ENDED_SWEEP_FAMILIES
     family = ENDED_SWEEP_FAMILIES[name] if sweeps else ENDED_FAMILIES[name]
     rows = np.ascontiguousarray(family.rows(yardsticks.SEED, ORDINARY if name.endswith("uniform") else NEAR))
@@ -316,6 +319,7 @@ COMPILED: tuple[Group, ...] = (
 
 
 def _groups() -> tuple[Group, ...]:
+    """Return the groups of targets that the kernel in use can measure."""
     return (*COMPILED, *ANYWHERE) if choice().kernel == "compiled" else ANYWHERE
 
 

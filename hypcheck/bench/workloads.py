@@ -47,7 +47,7 @@ NEAR_GAPS = (-57, -2)
 
 
 _Rows = Callable[[int, int], Rows]
-"""The first rows for a seed, as many as are asked for."""
+"""A function from a seed and a number to so many rows, the first ones of that seed."""
 
 SWEEP_SHARE = 6
 """A sweep takes about a millisecond to decide, so a sixth of the rows of other workloads is judged."""
@@ -87,7 +87,7 @@ def scene_of(rows: Rows, layout: Layout = PAIRS) -> tuple[float, float, float, f
 
 
 _Block = Callable[[Draw, int, int], Rows]
-"""Rows of a block: from its random numbers, its size, and the number of rows before it."""
+"""A function to the rows of a block from its random numbers, its size, and the number of rows before it."""
 
 
 def _in_blocks(make: _Block, width: int, *stream: str) -> _Rows:
@@ -113,6 +113,7 @@ def _in_cycle(values: Sequence[Any], n: int, before: int) -> Floats:
 
 
 def _near_contact(draw: Draw, n: int, before: int) -> Rows:
+    """Return rows near contact, of NEAR_SCENES in turn."""
     return near(draw, Sizes(*_in_cycle(NEAR_SCENES, n, before).T), NEAR_GAPS)
 
 
@@ -136,14 +137,16 @@ def frozen_sweeps(groups: frozenset[str]) -> Rows:
 
 
 PITCH = 20.0
-"""Degrees by which the quadcopter is tilted along x in the workload of one axis."""
+"""By how many degrees the quadcopter is tilted along x in the workload of one axis."""
 
 
 def _one_axis(draw: Draw, n: int, _before: int) -> Rows:
+    """Return rows around the tower with one axis, that of a pitched quadcopter."""
     return tilted_rows(TOWER + BODY, _in_the_box(draw, n), (tan(radians(PITCH)), 0.0, 1.0))
 
 
 def _an_axis_each(draw: Draw, n: int, _before: int) -> Rows:
+    """Return rows around the tower, each with an axis of its own."""
     axes = _axes_up_to_45_degrees(draw, n)
     return tilted_rows(TOWER + BODY, _in_the_box(draw, n), axes)
 
@@ -166,6 +169,7 @@ def _in_the_box(draw: Draw, n: int) -> Vectors:
 
 
 def _tilted_near_contact(draw: Draw, n: int, before: int) -> Rows:
+    """Return tilted rows near contact, of NEAR_SCENES in turn."""
     return tilted_near(draw, _in_cycle(NEAR_SCENES, n, before), anywhere(draw, n))
 
 
@@ -193,7 +197,7 @@ _MADE: Mapping[str, _Block] = {
     "one axis": _one_axis,
     "an axis each": _an_axis_each,
 }
-"""The rows that are of no family, by the names that workloads.toml has for them."""
+"""The functions for rows that are of no family, by the names that workloads.toml has for them."""
 
 
 @cache
@@ -269,6 +273,7 @@ def scene_workloads(name: str) -> dict[str, Workload]:
 
 
 def _axes_of(scene: SceneModel, draw: Draw, n: int) -> Vectors:
+    """Return n axes of the scene's mover, anywhere if its axis is free."""
     if scene.mover.axis == FREE:
         return anywhere(draw, n)
     x, y, z = (np.full(n, float(number)) for number in scene.mover.axis)
@@ -276,6 +281,7 @@ def _axes_of(scene: SceneModel, draw: Draw, n: int) -> Vectors:
 
 
 def _in_region(scene: SceneModel, settings: tuple[Setting, ...], draw: Draw, n: int, before: int) -> Rows:
+    """Return rows in the scene's region, of its settings in turn."""
     sizes = _in_cycle([setting.sizes for setting in settings], n, before)
     ends = _in_cycle([_ends(setting) for setting in settings], n, before)
     centre = [low + (high - low) * draw.unit(n) for low, high in np.transpose(ends, (1, 2, 0))]
@@ -293,6 +299,7 @@ def _ends(setting: Setting) -> list[tuple[float, float]]:
 
 
 def _near_in_scene(scene: SceneModel, settings: tuple[Setting, ...], draw: Draw, n: int, before: int) -> Rows:
+    """Return rows of the scene's settings near contact."""
     return tilted_near(draw, _in_cycle([setting.sizes for setting in settings], n, before), _axes_of(scene, draw, n))
 
 

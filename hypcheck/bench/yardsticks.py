@@ -1,4 +1,4 @@
-"""What a target of the fast path's speed is, and what targets are measured with: rows, the slowest row, and clocks.
+"""Defines a target of the fast path's speed, and what targets are measured with: rows, the slowest row, and clocks.
 
 targets.toml lists the targets. Each is a ratio to a ceiling that is measured in the same rounds: reading the rows, the
 plain formula in C, a product of long integers, an empty call, or another method.
@@ -149,7 +149,7 @@ def uniform_columns(count: int) -> Columns:
 
 
 TOUCHING = (-52, -50)
-"""Distances of touching rows from contact, in radii: from 2e-16 to 2e-15, before their numbers are rounded."""
+"""The exponents of distances of touching rows from contact: 2e-16 to 2e-15 radii, before numbers are rounded."""
 
 
 def _towers(count: int) -> Floats:
@@ -203,6 +203,7 @@ def ended_rows(count: int) -> dict[str, tuple[Rows, Rows, Rows]]:
 
 
 def _with_ends(centres: Floats, axes: Floats, end: float) -> Rows:
+    """Return rows (n, 13) of the open tower between the heights ±`end`."""
     n = len(centres)
     ends = np.tile([-end, end, 0.0], (n, 1))
     return np.ascontiguousarray(np.column_stack([np.tile(TOWER_SIZES, (n, 1)), centres, axes, ends]))
@@ -250,6 +251,7 @@ def cost(row: Rows) -> float:
 
 
 def _slowest(rows: Rows) -> Rows:
+    """Return the slowest of these rows, KEPT at most, the slowest first."""
     order = np.argsort([-cost(row) for row in rows], kind="stable")
     return np.asarray(rows[order[:KEPT]])
 

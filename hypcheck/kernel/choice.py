@@ -90,7 +90,7 @@ Question = Literal["position", "exterior", "interior", "contact"]
 """`position` is answered by +1, 0 or −1, the others by 1 (yes) or 0 (no)."""
 
 NUMBER_OF = {question: number for number, question in enumerate(QUESTIONS)}
-"""As in core/hypcheck.h."""
+"""The number of each question, as in core/hypcheck.h."""
 
 POSITION_OF = {"exterior": 1, "interior": -1, "contact": 0}
 """The position to which a question is answered yes."""

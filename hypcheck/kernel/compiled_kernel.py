@@ -125,7 +125,7 @@ def answer_ended(rows: Rows, threads: int | None = None) -> Positions:
 
 
 NEAR_NUMBERS = 11
-"""What the kernel says of each row beside its position: hypcheck_near in core/parts/contract.h."""
+"""How many numbers the kernel gives for each row beside its position: hypcheck_near in core/parts/contract.h."""
 
 
 def near_rows(rows: Rows, threads: int | None = None) -> tuple[Positions, Floats]:

@@ -43,19 +43,19 @@ from hypcheck.kernel.programs.tilted import CONSTANTS as TILTED_CONSTANTS
 from hypcheck.kernel.scene_lines import SceneLines
 
 CHUNK = 8192
-"""Rows at a time: the buffers of one chunk stay in the cache, and the calls of ufuncs are few."""
+"""How many rows are computed at a time: the buffers of a chunk stay in the cache, and the calls of ufuncs are few."""
 
 LINES_CHUNK = 1 << 15
-"""The same for the lines, which need fewer buffers and smaller ones."""
+"""How many rows the lines get at a time: they need fewer buffers, and smaller ones."""
 
 LINES_FROM = 1 << 14
-"""Centres from which a scene's half planes are worth their making."""
+"""A scene's half planes are made if there are at least so many centres: fewer do not repay that."""
 
 TOO_MANY_LEFT = LINES_CHUNK // 100
-"""Of a chunk, by one line a side: then it is two."""
+"""If one line for each side leaves more rows of a chunk, two lines are used from then on."""
 
 TILTED_CHUNK = 2048
-"""Rows at a time that are tilted: some ninety buffers of a chunk stay in the cache."""
+"""How many tilted rows are computed at a time: some ninety buffers of a chunk stay in the cache."""
 
 _TURNS, _SETTLED = 8, 1e-6
 """Newton's turns at most, and the relative change with which it ends: as in core/parts/platform.h."""

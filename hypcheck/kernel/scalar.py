@@ -221,4 +221,4 @@ def _position() -> PositionFunction:
 
 
 position = _position()
-"""Of the kernel that choice() names."""
+"""The function for one position, of the kernel that choice() names."""
