@@ -47,6 +47,7 @@ def require_agreement(row: tuple[float, ...], decided: tuple[int, bool], measure
 
 
 def _disagreement(row: tuple[float, ...], position: int, tangent: bool, other: str) -> DisagreementError:
+    """Return the error that two oracles disagree about a row; `other` is what the second one says."""
     pair = ", ".join(f"{name} {value!r}" for name, value in zip(TILTED_COLUMNS + HEIGHTS, row, strict=False))
     words = f"{Position(position).label}{' (tangent)' if tangent else ''}"
     return DisagreementError(
@@ -63,8 +64,8 @@ class Answer:
     decision: its position and tangency, and the kind of an upright pair, decided in integers.
     clearance: in spheroid radii, 0 for a tangency, negative where the surfaces cross.
     certificate: proves the decision, and was checked.
-    margin: a length, or None where none was asked with.
-    with_margin: the position where what is not proved to be at least the margin away is contact.
+    margin: the length of the margin; None if there is none.
+    with_margin: the position with the margin: contact unless a distance of at least the margin is proved; None without.
     """
 
     pair: Pair
@@ -76,14 +77,14 @@ class Answer:
 
 
 def measured_clearance(pair: Pair, decision: Decision) -> float:
-    """The clearance by the nearest point, which must agree with the decision. Raises DisagreementError."""
+    """Compute the clearance by the nearest point. Raises DisagreementError unless it agrees with the decision."""
     measured = nearest(pair)
     require_agreement(pair.row, (decision.position, decision.tangent), (measured.position, measured.clearance))
     return measured.clearance
 
 
 def ended_clearance_of(pair: Pair, decision: Decision) -> float:
-    """The clearance beside a hyperboloid that ends. Raises DisagreementError if the least value contradicts."""
+    """Compute the clearance beside a hyperboloid that ends. Raises DisagreementError if another oracle contradicts."""
     from hypcheck.truth import ended_error, least  # noqa: PLC0415 - they load numpy, which other answers do without
 
     other = least.position(pair)
@@ -93,7 +94,7 @@ def ended_clearance_of(pair: Pair, decision: Decision) -> float:
 
 
 def answer(pair: Pair, margin: float | None = None) -> Answer:
-    """Decide, measure and prove. Raises DisagreementError if two oracles, or a proof and its claim, disagree.
+    """Answer about a pair, with a proof. Raises DisagreementError if oracles disagree, or the proof does not hold.
 
     A pair whose axis is vertical is answered as an upright pair. With `margin`, a length of 0 or more, the answer also
     has the position with that margin.
@@ -108,6 +109,7 @@ def answer(pair: Pair, margin: float | None = None) -> Answer:
 
 
 def _with_margin(pair: Pair, decision: Decision, margin: float) -> Position:
+    """Return the position with the margin. Raises DisagreementError if it is another clear position."""
     from hypcheck.kernel.classify import classify  # noqa: PLC0415 - it loads numpy, which other answers do without
 
     position = Position(int(classify(pair.row, margin=margin)))
@@ -117,7 +119,7 @@ def _with_margin(pair: Pair, decision: Decision, margin: float) -> Position:
 
 
 def proved(pair: Pair, decision: Decision) -> Certificate:
-    """The checked proof of an exact decision. Raises DisagreementError if it does not hold."""
+    """Prove an exact decision, and check the proof. Raises DisagreementError if it does not hold."""
     certificate = prove(pair, decision)
     unproved = not check_certificate(pair, certificate) and not is_rule(certificate)
     if certificate.position is not decision.position or unproved:
@@ -126,11 +128,12 @@ def proved(pair: Pair, decision: Decision) -> Certificate:
 
 
 def _unproved(pair: Pair) -> DisagreementError:
+    """Return the error that the proof about a pair does not hold."""
     return DisagreementError(f"the proof found for {pair} does not hold; please report this, it is a fault of hypcheck")
 
 
 def answer_as_json(answer: Answer) -> str:
-    """The answer as one JSON object on one line, rationals as strings such as "3/2", infinite numbers as "inf"."""
+    """Return the answer as one JSON object on one line; rationals are strings such as "3/2", infinity is "inf"."""
     decision, (low, high) = answer.decision, distance_of(answer.pair)
     return json.dumps(
         {
@@ -148,23 +151,26 @@ def answer_as_json(answer: Answer) -> str:
 
 
 def _margin_as_json(answer: Answer) -> dict[str, Any]:
+    """Return the margin and the position with it, for JSON; nothing without a margin."""
     if answer.margin is None or answer.with_margin is None:
         return {}
     return {"margin": answer.margin, "position_with_margin": int(answer.with_margin)}
 
 
 def _as_json(number: float) -> float | str:
+    """Return a number for JSON; infinity is "inf"."""
     return number if number != float("inf") else "inf"
 
 
 def distance_of(pair: Pair) -> tuple[float, float]:
-    """Proved bounds of the Euclidean distance, in the unit of the lengths, of ten digits: 0 and 0 in contact."""
+    """Return a lower and an upper bound of the Euclidean distance, proved, with ten digits; 0 and 0 in contact."""
     low, high = distance_at_once(pair) or _distance_by_arrays(pair)
     low, high = low if low >= 0 else 0.0, high if high >= 0 else float("inf")  # NaN is not known
     return _ten_digits(low, ROUND_FLOOR), _ten_digits(high, ROUND_CEILING)
 
 
 def _distance_by_arrays(pair: Pair) -> tuple[float, float]:
+    """Return the bounds of the distance that the numpy code for many rows finds."""
     from hypcheck.kernel.clearance import clearance  # noqa: PLC0415 - it loads numpy
 
     near = clearance(pair.row)
@@ -172,12 +178,15 @@ def _distance_by_arrays(pair: Pair) -> tuple[float, float]:
 
 
 def _ten_digits(number: float, rounding: str) -> float:
-    """The number rounded up or down, to hide the meaningless last digits of a guess; never beyond the next float."""
+    """Round a bound to ten digits, up or down as `rounding` says; more digits would mean nothing.
+
+    A bound that is rounded down stays at most `number`, one that is rounded up at least, so it is still proved.
+    """
     return float(Context(prec=10, rounding=rounding).create_decimal(Decimal(number)))
 
 
 def answer_as_text(answer: Answer) -> str:
-    """The answer as lines of text, without an end of line after the last: position, clearance, kind, proof."""
+    """Return the answer as lines of text, without a last end of line: position, distance, clearance, kind, proof."""
     decision, clearance = answer.decision, answer.clearance
     radii = f"{repr(clearance).removesuffix('.0')} spheroid {'radius' if clearance == 1 else 'radii'}"
     proof = proof_lines(answer.pair, answer.certificate)
@@ -194,6 +203,7 @@ def answer_as_text(answer: Answer) -> str:
 
 
 def _margin_lines(answer: Answer) -> Iterator[str]:
+    """Yield the line about the margin; none without a margin."""
     if answer.margin is None or answer.with_margin is None:
         return
     proof = "is not proved" if answer.with_margin is Position.CONTACT else "is proved"
@@ -202,6 +212,7 @@ def _margin_lines(answer: Answer) -> Iterator[str]:
 
 
 def _distance_as_text(low: float, high: float) -> str:
+    """Return the text of a distance between two bounds."""
     if high == 0:
         return "0"
     if high == float("inf"):
@@ -212,6 +223,7 @@ def _distance_as_text(low: float, high: float) -> str:
 
 
 def _meaning(clearance: float) -> str:
+    """Return the words that explain a clearance."""
     if clearance == float("inf"):
         return "too large for float64; scaled about its centre by 1 + clearance, the spheroid would just touch"
     if clearance == -1:
@@ -220,7 +232,7 @@ def _meaning(clearance: float) -> str:
 
 
 def kind_as_text(kind: Kind) -> str:
-    """The name of a kind and its meaning, on one line."""
+    """Return the name of a kind and its meaning, on one line."""
     return f"{kind.value}: {kind.description[0].lower()}{kind.description[1:].rstrip('.')}"
 
 
@@ -229,8 +241,8 @@ class SweepAnswer:
     """The answer about a sweep.
 
     row: sizes, the two centres, and the axis where the spheroid has one; behind an axis, heights where it ends.
-    passage: the exact decision. first: two neighbouring float64 that the time of the first contact lies between, or 0
-    twice; None without contact. certificate: proves `first`, and was checked; None if the surfaces touch only at an
+    passage: the exact decision. first: two neighbouring float64 between which the time of the first contact lies, or 0
+    and 0; None without contact. certificate: proves `first`, and was checked; None if the surfaces touch only at an
     irrational time, and if the hyperboloid ends.
     """
 
@@ -241,7 +253,7 @@ class SweepAnswer:
 
 
 def sweep_answer(row: Sequence[float]) -> SweepAnswer:
-    """Decide and prove a row of sizes, two centres and, if it has these, an axis and heights.
+    """Answer about the sweep of a row (sizes, two centres, perhaps an axis and heights), with a proof.
 
     Raises InputError for a row that is not valid, DisagreementError if the proof does not hold.
     """
@@ -261,11 +273,12 @@ def sweep_answer(row: Sequence[float]) -> SweepAnswer:
 
 
 def _heights_of(row: Sequence[float]) -> Sequence[float]:
+    """Return the heights at the end of the row of a sweep; an empty sequence if it has none."""
     return row[len(TILTED_SWEEP_COLUMNS) :]
 
 
 def sweep_as_json(answer: SweepAnswer) -> str:
-    """The answer as one JSON object on one line, rationals as strings such as "3/2"."""
+    """Return the answer as one JSON object on one line, rationals as strings such as "3/2"."""
     return json.dumps(
         {
             "hit": int(answer.passage.hit),
@@ -280,11 +293,12 @@ def sweep_as_json(answer: SweepAnswer) -> str:
 
 
 def _hit_label(answer: SweepAnswer) -> str:
+    """Return "contact" or "clear"."""
     return "contact" if answer.passage.hit else "clear"
 
 
 def sweep_as_text(answer: SweepAnswer) -> str:
-    """The answer as lines of text, without an end of line after the last: contact or clear, first contact, proof."""
+    """Return the answer as lines of text, without a last end of line: contact or clear, first contact, ends, proof."""
     sweep = answer.passage
     lines = [_hit_label(answer) + ", only touched for an instant" * sweep.grazes]
     if answer.first is not None:

@@ -33,7 +33,7 @@ from hypcheck.truth.swept import passage_of_row
 
 
 def answers(rows: Rows) -> TableAnswers:
-    """Position, tangency and clearance of every row; float64 (n, 7), (n, 10) or (n, 13) in, (n,) each out.
+    """Compute position, tangency and clearance (n,) of every row, float64 (n, 7), (n, 10) or (n, 13).
 
     Raises InputError about the first invalid row, DisagreementError if two oracles disagree about a row.
     """
@@ -52,7 +52,7 @@ def answers(rows: Rows) -> TableAnswers:
 
 
 def _answers_between_ends(rows: Rows) -> TableAnswers:
-    """The answers of rows with heights: rows with infinite heights together, the others one by one."""
+    """Answer rows with heights: rows whose heights are infinite together, the others one by one."""
     require_valid(rows)
     answered = answers(np.ascontiguousarray(rows[:, : len(TILTED_COLUMNS)]))
     for index in np.flatnonzero(np.isfinite(rows[:, 10:12]).any(axis=1)).tolist():
@@ -64,7 +64,7 @@ def _answers_between_ends(rows: Rows) -> TableAnswers:
 
 
 def _decided(rows: Rows, certain: Mask) -> tuple[Positions, Mask]:
-    """Positions and tangencies, decided without distances.
+    """Decide positions and tangencies without distances; return both, (n,).
 
     The filter never proves a tangency: λ proves a gap, and two points of the spheroid strictly on either side of the
     hyperboloid prove that it passes through the spheroid's inside. Of tilted rows the kernel decides those that are
@@ -86,17 +86,18 @@ _READ = {"csv": read_csv, "jsonl": read_jsonl, "npy": read_npy}
 _WRITE = {"csv": write_csv, "jsonl": write_jsonl, "npy": write_npy}
 
 MOST_WORKERS = 4
-"""Processes that answer, at most: memory stays small on any machine."""
+"""The most processes that answer, so that memory stays small on any machine."""
 
 CHUNKS_WITHOUT_WORKERS = 64
-"""Chunks that this process answers itself before it starts others, which is not worth it for a short table."""
+"""The number of chunks that this process answers before it starts others: a short table is not worth their start."""
 
 Advance = Callable[[int, int], object]
-"""Takes note of so many bytes read and so many rows answered."""
+"""A function that is called with a number of bytes that were read and a number of rows that were answered."""
 
 
 @contextmanager
 def _no_progress(_size: int | None) -> Iterator[Advance]:
+    """Show no progress."""
     yield lambda _bytes, _rows: None
 
 
@@ -111,11 +112,11 @@ def classify_table(
 ) -> None:
     """Write the answers about every row of the table at `route.source` to `route.target`.
 
-    `margin`, a length, asks for the position with it besides; of sweeps, InputError.
+    With `margin`, a length, the answers also have the position with this margin; a table of sweeps raises InputError.
 
-    `watch` is given the length of the source in bytes (None for a stream), and yields what takes note of progress. A
-    row that is not a valid query raises InputError, or with `mark` is marked as refused (127). `workers` processes
-    answer; None: one for each processor. This process answers the first `alone` chunks itself.
+    `watch` is given the length of the source in bytes (None for a stream), and yields an Advance, a function for
+    progress. A row that is not a valid query raises InputError, or with `mark` is marked as refused (127). `workers`
+    processes answer; None: one for each processor. This process answers the first `alone` chunks itself.
 
     The output appears when it is complete. After an error, the target is as it was before. Raises InputError if a file
     cannot be opened, read or written, NothingJudgedError if the table has no rows, and what answers() raises.
@@ -141,14 +142,14 @@ def classify_table(
 
 
 def _alone(table: Table, alone: int) -> int:
-    """The number of chunks before other processes start: 1 if rows may be tilted, because these take longer."""
+    """Return the number of chunks before other processes start: 1 if rows have more columns, which take longer."""
     return alone if table.columns == COLUMNS else 1
 
 
 def _answer_chunk(
     render: Callable[[TableChunk, Answers], bytes], margin: float | None, unread: UnreadChunk
 ) -> tuple[bytes, int]:
-    """The text that is written for a chunk, and its number of rows."""
+    """Answer a chunk; return the text to write for it, and its number of rows."""
     chunk = unread()
     if chunk.layout.has_end and margin is not None:
         raise InputError("--margin is for positions; x1, y1, z1 make the rows sweeps, so leave one of them out")
@@ -157,7 +158,7 @@ def _answer_chunk(
 
 
 def _sweeps_of_chunk(chunk: TableChunk) -> SweepAnswers:
-    """The answers about a chunk of sweeps, straight motions, 127 for its refused rows."""
+    """Answer a chunk of sweeps; the answer is 127 for its refused rows."""
     sweeps = [passage_of_row(row) for row in chunk.rows[~chunk.refused].tolist()]
     return SweepAnswers(
         _spread(chunk, [sweep.hit for sweep in sweeps], np.int8(REFUSED)),
@@ -167,7 +168,7 @@ def _sweeps_of_chunk(chunk: TableChunk) -> SweepAnswers:
 
 
 def _answers_of_chunk(chunk: TableChunk, margin: float | None) -> TableAnswers:
-    """The answers about a chunk of a table, 127 for its refused rows. Raises DisagreementError as answers()."""
+    """Answer a chunk of pairs; the answer is 127 for its refused rows. Raises DisagreementError as answers()."""
     rows = chunk.rows[~chunk.refused]
     valid = answers(rows)
     return TableAnswers(
@@ -179,7 +180,7 @@ def _answers_of_chunk(chunk: TableChunk, margin: float | None) -> TableAnswers:
 
 
 def _spread(chunk: TableChunk, values: ArrayLike, otherwise: ArrayLike) -> NDArray[Any]:
-    """The values of the valid rows of a chunk in their places, and another value for its refused rows, (n,)."""
+    """Put the values of the valid rows of a chunk in their places, and `otherwise` in those of refused rows, (n,)."""
     spread = np.full(len(chunk.rows), otherwise)
     spread[~chunk.refused] = values
     return spread
