@@ -61,7 +61,7 @@ STEPS = 8
 
 
 def _flip(pair: Pair, truth: Decision, answer: Position) -> AnyFlip | float:
-    """The change that makes an answer right; or the backward error if it is known directly: 0 or inf.
+    """Return the change that makes an answer right; or the backward error if it is known directly: 0 or inf.
 
     The error is 0 for a right answer and for the limit of right answers (the truth is a tangency from that side). It is
     inf for the answer "exterior" about a centre on the hyperboloid's axis: no relative change up to 1 brings this
@@ -80,7 +80,7 @@ def _flip(pair: Pair, truth: Decision, answer: Position) -> AnyFlip | float:
 
 
 def tolerated(pair: Pair, truth: Decision, answers: Iterable[Position], change: Fraction) -> bool | None:
-    """Whether a relative change up to `change` makes one of the wrong answers right; None if this is not decided."""
+    """Decide whether a relative change up to `change` makes one of the wrong answers right; None if undecided."""
     if change == 0:
         return False
     flips = [_flip(pair, truth, answer) for answer in answers]
@@ -99,7 +99,7 @@ def tolerated(pair: Pair, truth: Decision, answers: Iterable[Position], change: 
 
 
 def bracket(pair: Pair, truth: Decision, answer: Position, cuts: int = CUTS, steps: int = STEPS) -> Bracket:
-    """A bracket of the backward error of an answer to a valid pair; inf if no change up to 1 is enough.
+    """Return a bracket of the backward error of an answer to a valid pair; inf if no change up to 1 is enough.
 
     The upper end is at most RATIO times the lower if first derivatives describe the changes well (small changes of the
     surfaces), and often in other cases; it is 1 if no smaller change was found. Fewer `cuts` of a box and fewer `steps`
@@ -116,7 +116,7 @@ def bracket(pair: Pair, truth: Decision, answer: Position, cuts: int = CUTS, ste
 
 
 def quick_bracket(pair: Pair, truth: Decision, answer: Position) -> Bracket:
-    """As `bracket`, in less time: for an upright pair both ends are the error to DIGITS digits.
+    """Bracket the error as `bracket` does, in less time: for an upright pair both ends are the error to DIGITS digits.
 
     For other pairs it is narrower if the error is large: float64 proves the lower end if it can.
     """
@@ -145,7 +145,7 @@ _QUICK_CUTS = 5
 
 
 def lower_end(pair: Pair, truth: Decision, answer: Position) -> float:
-    """A lower bound of the error, proved with 256 bits, which a small error needs; 0 if none is found.
+    """Return a lower bound of the error, proved with 256 bits, which a small error needs; 0 if none is found.
 
     For an upright pair the error to DIGITS digits.
     """
@@ -158,7 +158,7 @@ def lower_end(pair: Pair, truth: Decision, answer: Position) -> float:
 
 
 def lower_ends(pairs: Sequence[Pair], truths: Sequence[Decision], answers: Sequence[Sequence[Position]]) -> list[float]:
-    """A lower bound, proved in float64, of the least error of several answers to each pair; 0 if none is found.
+    """Return a lower bound, proved in float64, of the least error of several answers to each pair; 0 if none is found.
 
     No bound is searched for an upright pair, for which `tolerated` takes little time, or if the hyperboloid ends. The
     bound is inf if no change up to 1 is enough.
@@ -181,12 +181,12 @@ def lower_ends(pairs: Sequence[Pair], truths: Sequence[Decision], answers: Seque
 
 
 def _tens(pairs: Sequence[Pair]) -> Rows:
-    """The pairs' ten numbers, (n, 10)."""
+    """Return the pairs' ten numbers, (n, 10)."""
     return np.array([(*pair.row[:7], *pair.axis) for pair in pairs]).reshape(len(pairs), len(TILTED_COLUMNS))
 
 
 def estimate(pair: Pair, truth: Decision, answer: Position) -> float:
-    """A fast estimate of the backward error, which ranks answers; for an upright pair the error to DIGITS digits.
+    """Estimate the backward error fast, to rank answers; for an upright pair it is the error to DIGITS digits.
 
     For other pairs it is an estimate from derivatives at the row, without a proof.
     """
@@ -209,7 +209,7 @@ def exponent(pair: Pair, truth: Decision, answer: Position) -> float:
 
 
 def excluded_at_once(pairs: Sequence[Pair], goals: Sequence[Goal], changes: Sequence[float]) -> list[bool]:
-    """A mask of pairs for which float64 proves that no change up to `changes` attains a goal; False is undecided."""
+    """Mark the pairs for which float64 proves that no change up to `changes` attains a goal; False is undecided."""
     held = float_boxes.excluded(_tens(pairs), goals, np.array(changes))
     return [bool(proved) and not pair.is_upright for proved, pair in zip(held, pairs, strict=True)]
 
@@ -223,7 +223,7 @@ def is_bracket(
     *,
     lower_holds: bool = False,
 ) -> bool:
-    """Whether proofs are found that the backward error of an answer lies between these ends.
+    """Decide whether proofs are found that the backward error of an answer lies between these ends.
 
     `lower_holds` says that the lower end is already proved, for example by excluded_at_once.
     """
@@ -238,7 +238,7 @@ def is_bracket(
 
 
 def _bisected(flip: AnyFlip) -> float:
-    """The error of a sharp flip, rounded up to DIGITS significant digits."""
+    """Return the error of a sharp flip, rounded up to DIGITS significant digits."""
     low = power_of_two(octave(flip.reached))  # the distance is not 0
     high = 2 * low
     for _ in range(math.ceil(DIGITS * math.log2(10))):
@@ -248,7 +248,7 @@ def _bisected(flip: AnyFlip) -> float:
 
 
 def _reached_end(flip: AnyFlip) -> Fraction:
-    """A change that reaches the goal, at most 9/8 times a change that was not found to reach it."""
+    """Return a change that reaches the goal, at most 9/8 times a change that was not found to reach it."""
     missed = rounded(flip.estimate(), BITS)
     high, step = rounded(missed * Fraction(11, 10), BITS), 2
     while high < 1 and not flip.reached(high):
@@ -261,7 +261,7 @@ def _reached_end(flip: AnyFlip) -> Fraction:
 
 
 def _excluded_end(flip: AnyFlip, high: Fraction) -> tuple[Fraction, Fraction]:
-    """A change below `high` that one certificate excludes (0 if none is found), and `high`."""
+    """Return a change below `high` that one certificate excludes (0 if none is found), and `high`."""
     low, step = rounded(high * Fraction(4, 5), BITS), 2
     while not flip.excluded(low, cuts=0):
         low, step = low / step, step * step
@@ -274,7 +274,7 @@ _LARGEST_STEP = 2**128
 
 
 def _narrowed(flip: AnyFlip, cuts: int, steps: int, ends: tuple[Fraction, Fraction]) -> tuple[Fraction, Fraction]:
-    """The two ends, narrowed by at most `steps` bisections."""
+    """Return the two ends, narrowed by at most `steps` bisections."""
     low, high = ends
     doubtful = high
     for _ in range(steps):
@@ -291,7 +291,7 @@ def _narrowed(flip: AnyFlip, cuts: int, steps: int, ends: tuple[Fraction, Fracti
 
 
 def _between(low: Fraction, high: Fraction) -> Fraction:
-    """A short number between two, midway by their logarithms when they are far apart."""
+    """Return a short number between two, midway by their logarithms when they are far apart."""
     ratio = high / low
     if ratio > 4:
         return low * (1 << (math.floor(ratio).bit_length() - 1) // 2)
@@ -350,7 +350,7 @@ def distance_exponents(rows: Rows, positions: Positions) -> Floats:
 
 
 def _changes_position(rows: Rows, positions: Positions, exponents: NDArray[np.int64], factor: float) -> Mask:
-    """Whether changes of 2^exponent · factor bring each row to another position, (n,)."""
+    """Decide whether changes of 2^exponent · factor bring each row to another position, (n,)."""
     change = np.ldexp(factor, exponents)[:, None]
     clear, side = positions != Position.CONTACT, (positions == Position.INTERIOR)[:, None]
     # A clear row is changed away from its position, and has flipped if it has another one.
@@ -364,4 +364,5 @@ def _changes_position(rows: Rows, positions: Positions, exponents: NDArray[np.in
 
 
 def _positions_of_changed(rows: Rows, direction: Floats, change: Floats) -> Positions:
+    """Return the exact positions of rows of which each number is changed by the relative direction · change."""
     return float_filter.positions(rows * (1 + direction * change))

@@ -39,7 +39,7 @@ Box = list[tuple[Fraction, Fraction]]
 
 
 def margin_at(sizes: Row, rest: Row, goal: Goal) -> Margin:
-    """The margin on the goal's side at one row."""
+    """Return the margin on the goal's side at one row."""
     form, (C, v) = Form([_number(plain, size) for size in sizes], plain.sqrt), _centre_and_axis(plain, rest)
     hint = multiplier((*sizes, *rest))
     for share in SHARES if hint * goal.side > 0 else ():
@@ -51,7 +51,7 @@ def margin_at(sizes: Row, rest: Row, goal: Goal) -> Margin:
 
 
 def certified(sizes: Row, box: Box, goal: Goal, cuts: int) -> bool:
-    """Whether it is proved that the goal is not attained with these sizes, centres and axes."""
+    """Decide whether it is proved that the goal is not attained with these sizes, centres and axes."""
     middle, radii = tuple((low + high) / 2 for low, high in box), [(high - low) / 2 for low, high in box]
     pull = [goal.sign * slope for slope in margin_at(sizes, middle, goal).derivatives()]
     corner = tuple(high if slope > 0 else low for slope, (low, high) in zip(pull, box, strict=True))
@@ -69,7 +69,7 @@ def certified(sizes: Row, box: Box, goal: Goal, cuts: int) -> bool:
 
 
 def _held(sizes: Row, worst: Margin, goal: Goal, middle: Row, radii: list[Fraction]) -> bool:
-    """Whether the certificate of the worst corner excludes the goal in the whole box."""
+    """Decide whether the certificate of the worst corner excludes the goal in the whole box."""
     points, reach = [_number(iv, part) for part in middle], [_number(iv, part) for part in radii]
     whole = [part + iv.mpf([-1, 1]) * radius for part, radius in zip(points, reach, strict=True)]
     form = Form([_number(iv, part) for part in sizes], iv.sqrt)
@@ -82,7 +82,11 @@ def _held(sizes: Row, worst: Margin, goal: Goal, middle: Row, radii: list[Fracti
 
 
 def _shares_of_radius(worst: Margin, q: Intervals) -> Iterator[mpf]:
-    """The shares of a radius to try along Σq: all, the middle to the hyperboloid, or up to where h turns before."""
+    """Yield the parts of a radius to try along Σq, the direction of the spheroid's point that is farthest along q.
+
+    They are 1, the middle between the nearest point of the hyperboloid and 1, and the place, if it is before 1, from
+    which on h no longer falls.
+    """
     form, one = worst.form, plain.mpf(1)
     width = form.width(worst.v, q)
     if not width:  # at the hyperboloid's centre h falls or rises in no direction
@@ -97,9 +101,11 @@ def _shares_of_radius(worst: Margin, q: Intervals) -> Iterator[mpf]:
 
 
 def _centre_and_axis(context: MPContext | MPIntervalContext, row: Row) -> tuple[Intervals, Intervals]:
+    """Convert six rationals to the context's numbers: the centre and the axis."""
     numbers = [_number(context, number) for number in row]
     return numbers[:3], numbers[3:]
 
 
 def _number(context: MPContext | MPIntervalContext, number: Fraction) -> ivmpf | mpf:
+    """Convert a rational to a number of the context, or an interval."""
     return context.mpf(number.numerator) / number.denominator

@@ -66,7 +66,7 @@ class Form:
         self.b2, self.d2 = b**2, d**2
 
     def hyperboloid(self, X: Vector) -> Number:
-        """h."""
+        """Return h(X), the left side of the hyperboloid's equation h = 0."""
         return self.D[0] * X[0] ** 2 + self.D[1] * X[1] ** 2 + self.D[2] * X[2] ** 2 - 1
 
     def gradient(self, X: Vector) -> Vector:
@@ -74,28 +74,28 @@ class Form:
         return [a * b for a, b in zip(self.D, X, strict=True)]
 
     def sigma(self, v: Vector) -> list[Vector]:
-        """Σ."""
+        """Return the matrix Σ for the axis v."""
         factor = (self.d2 - self.b2) / dot(v, v)
         return [[(i == j) * self.b2 + factor * v[i] * v[j] for j in range(3)] for i in range(3)]
 
     def sigma_times(self, v: Vector, q: Vector) -> Vector:
-        """Σ q, from the parts of q along v and across."""
+        """Return Σ q, from the parts of q along v and across."""
         along = self.d2 * dot(v, q) / dot(v, v)
         return [self.b2 * p + along * part for p, part in zip(across(v, q), v, strict=True)]
 
     def width(self, v: Vector, q: Vector) -> Number:
-        """√(qᵀ Σ q): the spheroid's half width along q, times |q|."""
+        """Return √(qᵀ Σ q): the spheroid's half width along q, times |q|."""
         aside = cross(v, q)
         return self.root((self.b2 * squares(aside) + self.d2 * dot(v, q) ** 2) / squares(v))
 
     def by_axis(self, v: Vector, q: Vector, n: Vector) -> Vector:
-        """The derivatives of nᵀ Σ q by the axis."""
+        """Return the derivatives of nᵀ Σ q by the axis."""
         square = dot(v, v)
         q_part, n_part = (self.d2 - self.b2) * dot(v, n) / square, (self.d2 - self.b2) * dot(v, q) / square
         return [q_part * a + n_part * b for a, b in zip(across(v, q), across(v, n), strict=True)]
 
     def pencil(self, at: Number, v: Vector) -> tuple[list[Vector], list[Vector], Vector]:
-        """M, the adjugate of M + λD, and its leading minors, the determinant last."""
+        """Return M, the adjugate of M + λD, and its leading minors, the determinant last; `at` is λ."""
         square = dot(v, v)
         excess = (1 / self.d2 - 1 / self.b2) / square
         M = [[(i == j) / self.b2 + excess * v[i] * v[j] for j in range(3)] for i in range(3)]
@@ -104,7 +104,7 @@ class Form:
         return M, adjoint, [G[0][0], adjoint[2][2], dot(G[0], adjoint[0])]
 
     def nearest(self, at: Number, C: Vector, v: Vector) -> tuple[Vector, list[Vector]] | None:
-        """X with (1 + λ Σ D) X = C and the matrix's inverse; None if M + λD is not proved positive definite."""
+        """Return X with (1 + λ Σ D) X = C and the matrix's inverse; None unless M + λD is proved positive definite."""
         M, adjoint, minors = self.pencil(at, v)
         if not all(part > 0 for part in minors):  # for an interval: each of its numbers
             return None
@@ -113,12 +113,12 @@ class Form:
 
 
 def squares(p: Vector) -> Number:
-    """The squared length of p; as an interval it does not reach below 0."""
+    """Return the squared length of p; as an interval it does not reach below 0."""
     return p[0] ** 2 + p[1] ** 2 + p[2] ** 2
 
 
 def across(v: Vector, q: Vector) -> Vector:
-    """The part of q across v, (v × q) × v/(v·v)."""
+    """Return the part of q across v, (v × q) × v/(v·v)."""
     square = squares(v)
     return [part / square for part in cross(cross(v, q), v)]
 
@@ -145,17 +145,17 @@ class Margin:
         return self.form.gradient(self.X)
 
     def value(self) -> Number:
-        """The margin: λ² nᵀ Σ n − 1 + λ h(X)."""
+        """Return the margin: λ² nᵀ Σ n − 1 + λ h(X)."""
         return (self.at * self.form.width(self.v, self.n)) ** 2 - 1 + self.at * self.form.hyperboloid(self.X)
 
     def derivatives(self) -> Vector:
-        """The margin's derivatives by the centre and the axis."""
+        """Return the margin's derivatives by the centre and the axis."""
         n = self.n
         by_axis = self.form.by_axis(self.v, n, n)
         return [*(2 * self.weight * part for part in n), *(-(self.at**2) * part for part in by_axis)]
 
     def size_derivatives(self) -> Vector:
-        """The margin's derivatives by the logarithms of the sizes."""
+        """Return the margin's derivatives by the logarithms of the sizes."""
         n = self.n
         terms = [2 * self.weight * a * b for a, b in zip(n, self.X, strict=True)]
         square = 2 * self.at**2 / dot(self.v, self.v)
@@ -165,7 +165,7 @@ class Margin:
 
 
 SHARES = (1.0, 1 - 2.0**-20, 0.5)
-"""Shares of the λ hinted at that are tried where M + λD is not seen to be definite there."""
+"""Factors of the hinted λ, tried in this order until M + λD is seen to be definite."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -188,7 +188,7 @@ class BoxKind:
     tiny: Number
 
     def exactly(self, number: Number) -> Number:
-        """The enclosure of a plain number."""
+        """Return the enclosure of a plain number."""
         return self.between(number, number)
 
 
@@ -203,13 +203,13 @@ class Place:
     radii: Vector
 
     def spread(self, slopes: Iterable[Number]) -> Number:
-        """A bound of a function's change from the middle to any place in the box."""
+        """Return a bound of a function's change from the middle to any place in the box."""
         terms = [self.kind.size(slope) * radius for slope, radius in zip(slopes, self.radii, strict=True)]
         return self.kind.safe * sum(terms[1:], terms[0]) + self.kind.nothing
 
 
 def stays_clear(place: Place, multiplier: Number) -> Any:  # noqa: ANN401 - a bool, or one of each row
-    """Whether φ at this λ is proved > 0 for every centre and axis of the box.
+    """Decide whether φ at this λ is proved > 0 for every centre and axis of the box.
 
     Its derivatives are 2λ n by the centre and −λ² times those of nᵀ Σ n by the axis, n = D X held fixed there.
     """
@@ -230,7 +230,7 @@ def stays_clear(place: Place, multiplier: Number) -> Any:  # noqa: ANN401 - a bo
 
 
 def _reach(place: Place, at: Number, X0: Vector, R: list[Vector]) -> tuple[Vector, Any]:
-    """Δ > 0 such that over the whole box X is within Δ of X0 and M + λD is definite; and whether this is proved.
+    """Find Δ > 0 such that in the whole box X is within Δ of X0 and M + λD is definite; and whether this is proved.
 
     With A = 1 + λ Σ D, A X = C, it is enough that |R (C − A X0)| + |1 − R A| Δ < Δ, R being the inverse of A in the
     middle (Rump): then A is regular for every axis of the box, and M + λD definite as it is in the middle.
@@ -254,7 +254,7 @@ def _reach(place: Place, at: Number, X0: Vector, R: list[Vector]) -> tuple[Vecto
 
 
 def stays_off(place: Place, side: Number, direction: Vector, shares: Iterable[Number]) -> Any:  # noqa: ANN401
-    """Whether a point of the spheroid is proved off a side for every centre and axis of the box.
+    """Decide whether a point of the spheroid is proved off a side for every centre and axis of the box.
 
     The point is the centre, or C + ρ Σq/√(qᵀΣq), ρ ≤ 1 one of the shares, which turns with the axis and stays in the
     spheroid; for ρ = 1 it is the spheroid's farthest in the fixed direction q.
@@ -278,7 +278,7 @@ def stays_off(place: Place, side: Number, direction: Vector, shares: Iterable[Nu
 
 
 def _crosses(place: Place, side: Number, offset0: Vector, offset: Vector, by_axis: Vector) -> Any:  # noqa: ANN401
-    """Whether h at centre + offset is off a side everywhere in the box; by_axis are the derivatives of half h."""
+    """Decide whether h at centre + offset is off a side in the whole box; by_axis are the derivatives of half h."""
     form, (C0, _), (C, _) = place.form, place.middle, place.whole
     height = side * form.hyperboloid([a + b for a, b in zip(C0, offset0, strict=True)])
     n = form.gradient([a + b for a, b in zip(C, offset, strict=True)])

@@ -97,7 +97,7 @@ class Query(Protocol):
 
 
 def check_certificate(pair: Query, certificate: Certificate) -> bool:
-    """Whether the certificate proves its claim about this pair; a double root proves tangency, not contact alone.
+    """Decide whether the certificate proves its claim about this pair; a double root proves a tangency.
 
     Numbers of other types are converted to their exact rationals: a single float would round all results, and a pivot
     could become > 0 by rounding. Raises ValueError for a claim that is not a position, and for NaN.
@@ -109,7 +109,7 @@ def check_certificate(pair: Query, certificate: Certificate) -> bool:
 
 
 def _proves_between(S: Matrix, H: Matrix, pair: Query, certificate: Certificate) -> bool:
-    """Whether the certificate proves its claim about a hyperboloid that ends."""
+    """Decide whether the certificate proves its claim about a hyperboloid that ends."""
     low, high, solid = pair.heights
     claim = Position(certificate.position)
     if claim is Position.CONTACT:
@@ -130,7 +130,7 @@ def _proves_between(S: Matrix, H: Matrix, pair: Query, certificate: Certificate)
 def _crosses_border(
     S: Matrix, H: Matrix, low: float | Fraction, high: float | Fraction, points: Sequence[Point], *, solid: bool
 ) -> bool:
-    """Whether points of the ellipsoid lie on both sides of the border of the body, or one of them on it."""
+    """Decide whether points of the ellipsoid lie on both sides of the border of the body, or one of them on it."""
     sides = set()
     for point in points:
         place = [*map(Fraction, point), Fraction(1)]
@@ -147,7 +147,7 @@ def _crosses_border(
 
 
 def _lies_between(pair: Query) -> bool:
-    """Whether the lowest and the highest point of the spheroid lie strictly between the ends."""
+    """Decide whether the lowest and the highest point of the spheroid lie strictly between the ends."""
     b, d, z = (Fraction(pair.row[place]) for place in (2, 3, 6))
     v = [Fraction(part) for part in pair.axis]
     reach = b * b + (d * d - b * b) * v[2] * v[2] / sum((part * part for part in v), Fraction(0))
@@ -157,7 +157,7 @@ def _lies_between(pair: Query) -> bool:
 
 
 def _cover(pieces: Sequence[Piece], low: float | Fraction, high: float | Fraction) -> bool:
-    """Whether pieces cover all heights from `low` to `high`, which may be infinite."""
+    """Decide whether pieces cover all heights from `low` to `high`, which may be infinite."""
     reached: float | Fraction | None = low
     for piece in pieces:
         if reached is None or (piece.low is not None and piece.low > reached):
@@ -167,7 +167,7 @@ def _cover(pieces: Sequence[Piece], low: float | Fraction, high: float | Fractio
 
 
 def is_positive(S: Matrix, H: Matrix, piece: Piece) -> bool:
-    """Whether S + λH + μZ of a piece is positive definite, and μ ≥ 0."""
+    """Decide whether S + λH + μZ of a piece is positive definite, and μ ≥ 0."""
     form, (low, high, mu) = pencil(S, H, piece.multiplier), (piece.low, piece.high, piece.plane)
     if low is not None and high is not None:
         form[2][2] += mu
@@ -202,7 +202,7 @@ def surfaces(pair: Query) -> tuple[Matrix, Matrix]:
 
 
 def proves(S: Matrix, H: Matrix, certificate: Certificate) -> bool:
-    """Whether the certificate proves its claim about an ellipsoid and any quadric, given by their matrices.
+    """Decide whether the certificate proves its claim about an ellipsoid and any quadric, given by their matrices.
 
     M, the upper 3×3 part of S, must be positive definite. Raises ValueError as check_certificate does.
     """
@@ -218,7 +218,7 @@ def proves(S: Matrix, H: Matrix, certificate: Certificate) -> bool:
 
 
 def _touches(both: Matrix, H: Matrix, side: int) -> bool:
-    """Whether φ reaches 0 from below at a number m of this sign; `both` is S + mH."""
+    """Decide whether φ reaches 0 from below at a number m of this sign; `both` is S + mH."""
     inner = pivots([row[:3] for row in both[:3]])
     zeros, f = inner.count(Fraction(0)), _derivatives(both, H)
     if min(inner) < 0 or any(f[: max(2, zeros + 1)]):
@@ -232,7 +232,7 @@ def pencil(S: Matrix, H: Matrix, at: Fraction) -> Matrix:
 
 
 def pivots(matrix: Matrix) -> list[Fraction]:
-    """The diagonal of L D Lᵀ by elimination, up to the first pivot that shows the matrix not positive semidefinite.
+    """Return the diagonal of L D Lᵀ by elimination, up to the first pivot that shows the matrix not semidefinite.
 
     All are > 0 if and only if the matrix is positive definite, all ≥ 0 if and only if it is semidefinite: a pivot of 0
     with a nonzero number in its row counts as −1.
@@ -268,6 +268,7 @@ def _derivatives(both: Matrix, H: Matrix) -> list[int]:
 
 
 def _at(form: Matrix, point: list[Fraction]) -> Fraction:
+    """Return the value of a quadratic form at a point."""
     rows = (sum((a * b for a, b in zip(row, point, strict=True) if a), Fraction(0)) for row in form)
     return sum((a * b for a, b in zip(rows, point, strict=True)), Fraction(0))
 
@@ -298,7 +299,7 @@ class PassageCertificate:
 
 
 def place(row: Sequence[float], time: Fraction) -> PairAtTime:
-    """The pair at a time of the sweep in a row of ten or thirteen numbers."""
+    """Return the pair at a time of the sweep in a row of ten or thirteen numbers."""
     numbers = [Fraction(number) for number in row]
     start, end = numbers[len(SIZES) : len(COLUMNS)], numbers[len(COLUMNS) : len(SWEEP_COLUMNS)]
     centre = [a + time * (b - a) for a, b in zip(start, end, strict=True)]
@@ -307,7 +308,7 @@ def place(row: Sequence[float], time: Fraction) -> PairAtTime:
 
 
 def clear_until(row: Sequence[float], certificate: PassageCertificate) -> Fraction | None:
-    """The time up to which the pieces prove the spheroid clear; None if there are no pieces, or one fails."""
+    """Return the time up to which the pieces prove the spheroid clear; None if there are no pieces, or one fails."""
     last = Fraction(0)
     S, H = surfaces(place(row, last))
     numbers, unit = over_one_denominator([number for matrix in (S, H) for line in matrix[:3] for number in line[:3]])
@@ -327,7 +328,7 @@ def clear_until(row: Sequence[float], certificate: PassageCertificate) -> Fracti
 def _bernstein(
     M: list[list[int]], D: list[int], unit: int, multiplier: Fraction, centers: Sequence[Rationals]
 ) -> tuple[int, int, int]:
-    """The Bernstein coefficients of φ between two centres, times one positive number; zeros unless M + λD > 0.
+    """Return the Bernstein coefficients of φ between two centres, times one positive number; zeros unless M + λD > 0.
 
     M and D are times `unit`. With λ = p/q, F = q M + p D has the same `unit`, and (M + λD)⁻¹ = q unit adj F / det F;
     so with centres that are times k, φ is [p q CᵀM adj(F) D C − unit k² (p + q) det F] / (q unit k² det F).
@@ -351,7 +352,7 @@ def _bernstein(
 
 
 def contact_at(row: Sequence[float], certificate: PassageCertificate) -> Fraction | None:
-    """The time from 0 to 1 at which the certificate proves contact; None if it does not."""
+    """Return the time from 0 to 1 at which the certificate proves contact; None if it does not."""
     time = certificate.time
     if time is None or not 0 <= time <= 1:
         return None
@@ -360,7 +361,7 @@ def contact_at(row: Sequence[float], certificate: PassageCertificate) -> Fractio
 
 
 def check_passage(row: Sequence[float], certificate: PassageCertificate, first: tuple[float, float] | None) -> bool:
-    """Whether the certificate proves the answer: clear all along, or the first contact from first[0] to first[1]."""
+    """Decide whether the certificate proves the answer: clear all along, or first contact from first[0] to first[1]."""
     if first is None:
         return certificate.time is None and clear_until(row, certificate) == 1
     lower, upper = (Fraction(bound) for bound in first)

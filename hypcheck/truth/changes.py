@@ -39,12 +39,12 @@ BITS = 12
 
 
 def goal_of(truth: Position, answer: Position) -> Goal:
-    """The goal that makes a wrong answer right; for "contact" it is enough to leave the clear position."""
+    """Return the goal that makes a wrong answer right; for "contact" it is enough to leave the clear position."""
     return Goal(truth, leave=True) if answer is Position.CONTACT else Goal(answer, leave=False)
 
 
 def corner(lengths: Lengths, change: Fraction, toward: Position) -> Lengths:
-    """The corner of the box of relative changes up to `change` that is nearest to `toward`; farthest if `change` < 0.
+    """Return the corner of the box of changes up to `change` that is nearest to `toward`; farthest if `change` < 0.
 
     The pair is upright; |change| < 1; `toward` is EXTERIOR or INTERIOR. Lengths are scaled by the denominator of
     `change`, which does not change the ratios.
@@ -79,18 +79,18 @@ class Flip:
         return tuple(map(Fraction, (*self.pair.row[: len(COLUMNS)], *self.pair.axis)))
 
     def reached(self, change: Fraction) -> bool:
-        """Whether a corner of the box of changes up to `change` (< 1) is found that attains the goal."""
+        """Decide whether a corner of the box of changes up to `change` (< 1) is found that attains the goal."""
         return self._attained(change, self._signs(change))
 
     def excluded(self, change: Fraction, cuts: int = CUTS) -> bool:
-        """Whether certificates are found that no change up to `change` (< 1) attains the goal."""
+        """Decide whether certificates are found that no change up to `change` (< 1) attains the goal."""
         from hypcheck.truth.box_certificate import certified  # noqa: PLC0415 - loads mpmath
 
         box = [(number - abs(number) * change, number + abs(number) * change) for number in self.row[len(SIZES) :]]
         return certified(self._sizes(change), box, self.goal, cuts)
 
     def reached_above(self, low: Fraction, ratio: Fraction) -> Fraction:
-        """A reached change above `low`, nearly the least one; 1 if none is found."""
+        """Return a reached change above `low`, nearly the least one; 1 if none is found."""
         high = rounded(low * Fraction(17, 16), BITS)
         patterns = tuple(self._pointed(high))
         while high < 1 and not self._attained(high, patterns):
@@ -101,7 +101,7 @@ class Flip:
         return min(high, change)
 
     def estimate(self) -> Fraction:
-        """The change that is enough by the derivatives at the row, an estimate in (0, 1/2]."""
+        """Return the change that is enough by the derivatives at the row, an estimate in (0, 1/2]."""
         margin = self._margin(self.row[: len(SIZES)], self.row[len(SIZES) :])
         value = abs(fraction(margin.value()))
         derivatives = (*margin.derivatives(), *margin.size_derivatives())
@@ -116,11 +116,11 @@ class Flip:
         return margin_at(sizes, rest, self.goal)
 
     def _sizes(self, change: Fraction) -> Row:
-        """The sizes at their best corner."""
+        """Return the sizes at their best corner."""
         return _moved(self.row[: len(SIZES)], self.goal.sizes, change)
 
     def _attained(self, change: Fraction, patterns: Iterable[Signs]) -> bool:
-        """Whether a corner of these signs of centre and axis attains the goal, by exact decisions."""
+        """Decide whether a corner of these signs of centre and axis attains the goal, by exact decisions."""
         sizes, rest = self._sizes(change), self.row[len(SIZES) :]
         corners = (Lengths.of((*sizes, *_moved(rest, signs, change))) for signs in patterns)
         return any(self._is_attained_at(lengths) for lengths in corners)
@@ -138,7 +138,7 @@ class Flip:
                 yield signs
 
     def _pointed(self, change: Fraction) -> Iterator[Signs]:
-        """The signs of the derivatives of φ at the row, then at the corner that these signs give."""
+        """Yield the signs of the derivatives of φ at the row, then at the corner that these signs give."""
         signs: Signs = (0,) * 6
         for _ in range(2):
             margin = self._margin(self._sizes(change), _moved(self.row[len(SIZES) :], signs, change))
@@ -153,20 +153,20 @@ class UprightFlip(Flip):
     sharp: ClassVar[bool] = True
 
     def reached(self, change: Fraction) -> bool:
-        """Whether the best corner of the box of changes up to `change` (< 1) attains the goal."""
+        """Decide whether the best corner of the box of changes up to `change` (< 1) attains the goal."""
         # "Equals contact" is not monotone (a corner can pass right through), "is no longer the truth" is. From exterior
         # the corner opposite to the exterior one has α, b, d and z grown, γ, x and y shrunk.
         best = corner(_lengths(self.pair), -change if self.goal.leave else change, self.goal.side)
         return self._is_attained_at(best)
 
     def excluded(self, change: Fraction, cuts: int = CUTS) -> bool:  # noqa: ARG002 - as Flip has it
-        """Whether no change up to `change` (< 1) attains the goal."""
+        """Decide whether no change up to `change` (< 1) attains the goal."""
         return not self.reached(change)
 
 
 @lru_cache(64)
 def _lengths(pair: Pair) -> Lengths:
-    """The lengths of a pair, cached: several questions about the same pair follow each other."""
+    """Return the lengths of a pair, cached: several questions about the same pair follow each other."""
     return pair.lengths
 
 

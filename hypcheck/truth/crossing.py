@@ -32,7 +32,7 @@ Homogeneous = tuple[Vector, int]
 
 
 def points(pair: Query, lengths: Lengths) -> tuple[Point, ...]:
-    """The centre and a point of the spheroid on the other side of the hyperboloid (or the centre alone, on it).
+    """Return the centre and a point of the spheroid on the other side of the hyperboloid (or the centre alone, on it).
 
     The other point of an upright pair may lie on the hyperboloid. For a tilted pair it is strictly on the other side,
     which also excludes tangency; such points always exist, because X(λ) tends to a point within the spheroid or beyond.
@@ -54,12 +54,12 @@ def points(pair: Query, lengths: Lengths) -> tuple[Point, ...]:
 
 
 def _upright_candidates(pair: Query, lengths: Lengths, outward: bool) -> Iterator[Point]:
-    """Points of the spheroid in the plane through the axis: first simple ones, then points that tend to the best."""
+    """Yield points of the spheroid in the plane through the axis: first simple ones, then some that near the best."""
     _, _, b, d, x, y, z = (Fraction(number) for number in pair.row[:7])
     radius = root_of(x * x + y * y, 30, upward=True)
 
     def moved(across: Fraction, along: Fraction) -> Point:
-        """The centre moved by these parts of b and d: away from the axis and to the waist, or opposite."""
+        """Return the centre moved by these parts of b and d: away from the axis and to the waist, or opposite."""
         to_waist = min(abs(z), along * d) if outward else -along * d
         height = z - to_waist if z >= 0 else z + to_waist
         if not radius:
@@ -85,7 +85,7 @@ def _upright_candidates(pair: Query, lengths: Lengths, outward: bool) -> Iterato
 
 
 def _near_surface(lengths: Lengths, bits: int) -> tuple[Fraction, Fraction] | None:
-    """About the hyperboloid's nearest point to the centre, in spheroid radii: its radius and its height.
+    """Find approximately the hyperboloid's nearest point to the centre, in spheroid radii: its radius and its height.
 
     The radius is given as a multiple of the centre's, except on the axis. None if `bits` is too small.
     """
@@ -102,7 +102,7 @@ def _near_surface(lengths: Lengths, bits: int) -> tuple[Fraction, Fraction] | No
 
 
 def _multiplier_of_nearest(lengths: Lengths, bits: int) -> Fraction | None:
-    """The root of F(t) = A P/(A+t)² − B Q/(B−t)² − 1 to `bits` bits of its distance to 0 and to the nearer pole.
+    """Return the root of F(t) = A P/(A+t)² − B Q/(B−t)² − 1 to `bits` bits of its distance to 0 and to the nearer pole.
 
     With t = −A m/n or t = B m/n, 0 ≤ m < n, the sign of F is that of a difference of integers.
     """
@@ -123,7 +123,7 @@ def _multiplier_of_nearest(lengths: Lengths, bits: int) -> Fraction | None:
         m, n = share.numerator, share.denominator
         return not falls_toward_A(m, n) if inside else falls_toward_B(m, n)
 
-    # First the share's odds as powers of two, 2^j : 1; then the share itself between two of these.
+    # First the ratio of the share's distances from 0 and from 1, as a power of 2; then the share between two of these.
     step, low = 1, 0
     direction = -1 if too_far(_odds(0)) else 1
     while too_far(_odds(low + direction * step)) is (direction < 0):
@@ -138,12 +138,13 @@ def _multiplier_of_nearest(lengths: Lengths, bits: int) -> Fraction | None:
 
 
 def _odds(exponent: int) -> Fraction:
-    """The share whose odds are 2^exponent to 1."""
+    """Return the number between 0 and 1 that is 2^exponent times as far from 0 as from 1."""
     odds = Fraction(2) ** exponent
     return odds / (odds + 1)
 
 
 def _bisect(too_far: Callable[[Fraction], bool], low: Fraction, high: Fraction, steps: int) -> Fraction:
+    """Halve the interval `steps` times toward the place where `too_far` becomes true; return its middle."""
     for _ in range(steps):
         middle = (low + high) / 2
         low, high = (low, middle) if too_far(middle) else (middle, high)
@@ -171,7 +172,7 @@ class Forms:
         self.under_M, self.under_D = q * t * self.V, p * s
 
     def in_spheroid(self, point: Homogeneous) -> bool:
-        """Whether (X − C)ᵀ M (X − C) ≤ 1."""
+        """Decide whether (X − C)ᵀ M (X − C) ≤ 1."""
         X, w = point
         offset = [a - w * b for a, b in zip(X, self.center, strict=True)]
         return bool(dot(offset, times(self.M, offset)) <= w * w * self.under_M)
@@ -193,19 +194,19 @@ class Forms:
         return matrix, self.under_M * whole
 
     def homogeneous(self, point: Point) -> Homogeneous:
-        """A point that is given in the caller's coordinates."""
+        """Convert a point from the caller's coordinates."""
         numbers, under = over_one_denominator(point)
         return [number * self.unit for number in numbers], under
 
     def fraction(self, point: Homogeneous) -> Point:
-        """A point in the caller's coordinates."""
+        """Convert a point to the caller's coordinates."""
         (x, y, z), w = point
         under = w * self.unit
         return (Fraction(x, under), Fraction(y, under), Fraction(z, under))
 
 
 def _tilted_candidates(forms: Forms, F: Quartic) -> Iterator[Homogeneous]:
-    """Points that tend to the best one: first the steepest direction from the centre, X(λ), then X at a pole."""
+    """Yield points that tend to the best one: first the steepest direction from the centre, X(λ), then X at a pole."""
     gradient = forms.gradient(forms.center)
     steepest, under = times(forms.inverse, gradient), forms.V * forms.under_D
     square = Fraction(dot(steepest, gradient), under * forms.under_D)
@@ -227,7 +228,7 @@ def _tilted_candidates(forms: Forms, F: Quartic) -> Iterator[Homogeneous]:
 def _across_the_pole(
     forms: Forms, F: Quartic, adjoint: tuple[Matrix, int], point: Homogeneous, bits: int
 ) -> Iterator[Homogeneous]:
-    """From a point on the centre's side to the hyperboloid, and a little beyond it, in the pole's null direction.
+    """Yield points a little beyond the hyperboloid, from one on the centre's side, in the pole's null direction.
 
     The step beyond is so small that only `bits` bits distinguish it from the hyperboloid: near tangency there is little
     room.
@@ -248,7 +249,7 @@ def _across_the_pole(
 
 
 def shortened(offset: Sequence[Fraction], bits: int, most: int) -> Iterator[tuple[Fraction, Fraction, Fraction]]:
-    """An offset, a little shorter so that it stays in the spheroid, with `bits` bits and more, below `most`."""
+    """Yield an offset, a little shorter so that it stays in the spheroid, with `bits` bits and more, below `most`."""
     longest = max(map(abs, offset))
     unit = power_of_two(exponent_of(longest))
     while bits < most:
@@ -259,7 +260,7 @@ def shortened(offset: Sequence[Fraction], bits: int, most: int) -> Iterator[tupl
 
 
 def _plus(point: Homogeneous, direction: Homogeneous, factor: Fraction) -> Homogeneous:
-    """A point and a multiple of a direction, each over its denominator."""
+    """Add a multiple of a direction to a point; both are given over their denominators."""
     (X, w), (offset, under) = point, direction
     n, k = factor.numerator * w, factor.denominator * under
     return [a * k + n * b for a, b in zip(X, offset, strict=True)], w * k

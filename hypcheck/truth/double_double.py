@@ -26,7 +26,7 @@ _SPLITTER = 134217729.0  # 2²⁷ + 1: cuts 53 bits into 26 and 26 with a sign
 
 
 def two_product(first: Floats, second: Floats) -> DoubleDouble:
-    """The rounded product and its rounding error, exactly for |operands| < 2⁹⁹⁶ and a product of 0 or over 2⁻⁹⁶⁸."""
+    """Return the rounded product and its exact rounding error, for |operands| < 2⁹⁹⁶ and a product 0 or > 2⁻⁹⁶⁸."""
     product = first * second
     first_high, first_low = _split(first)
     second_high, second_low = _split(second)
@@ -38,7 +38,7 @@ def two_product(first: Floats, second: Floats) -> DoubleDouble:
 
 
 def two_square(value: Floats) -> DoubleDouble:
-    """The rounded square and its rounding error; the range is that of two_product."""
+    """Return the rounded square and its rounding error; the range is that of two_product."""
     square = value * value
     high, low = _split(value)
     error = high * high - square
@@ -48,24 +48,24 @@ def two_square(value: Floats) -> DoubleDouble:
 
 
 def add(first: DoubleDouble, second: DoubleDouble) -> DoubleDouble:
-    """The sum. Roundings: 1 in low + low, 2 in adding the error of high + high; relative to |first| + |second|."""
+    """Return the sum. Roundings: 1 in low + low, 2 in adding high + high's error; relative to |first| + |second|."""
     total, error = two_sum(first[0], second[0])
     return two_sum(total, error + (first[1] + second[1]))
 
 
 def subtract(first: DoubleDouble, second: DoubleDouble) -> DoubleDouble:
-    """The difference, as add."""
+    """Return the difference; roundings as in add."""
     return add(first, (-second[0], -second[1]))
 
 
 def add_float(first: DoubleDouble, second: Floats | float) -> DoubleDouble:
-    """The sum with a float64, as add."""
+    """Return the sum with a float64; roundings as in add."""
     total, error = two_sum(first[0], second)
     return two_sum(total, error + first[1])
 
 
 def sum_of(numbers: Sequence[DoubleDouble]) -> DoubleDouble:
-    """The sum of one or more numbers, added in order; roundings as in add."""
+    """Return the sum of one or more numbers, added in order; roundings as in add."""
     total, *others = numbers
     for number in others:
         total = add(total, number)
@@ -73,19 +73,19 @@ def sum_of(numbers: Sequence[DoubleDouble]) -> DoubleDouble:
 
 
 def multiply(first: DoubleDouble, second: DoubleDouble) -> DoubleDouble:
-    """The product. Roundings: low × low left out 1, the two cross products 2, their sum 2, adding the error 3."""
+    """Return the product. Roundings: low × low left out 1, two cross products 2, their sum 2, adding the error 3."""
     product, error = two_product(first[0], second[0])
     return two_sum(product, error + (first[0] * second[1] + first[1] * second[0]))
 
 
 def square(value: DoubleDouble) -> DoubleDouble:
-    """The square, as multiply."""
+    """Return the square; roundings as in multiply."""
     product, error = two_square(value[0])
     return two_sum(product, error + 2.0 * (value[0] * value[1]))
 
 
 def divide(first: DoubleDouble, second: DoubleDouble) -> DoubleDouble:
-    """The quotient.
+    """Return the quotient.
 
     With q the quotient of the high parts, high − q·high is exact. Roundings: q·low 1, low − that 2, the whole remainder
     3, its division by the high part alone 3, the rounding of that 3.
@@ -97,14 +97,14 @@ def divide(first: DoubleDouble, second: DoubleDouble) -> DoubleDouble:
 
 
 def quotient_of_floats(first: Floats, second: Floats) -> DoubleDouble:
-    """The quotient of two float64: the remainder is exact, its division 1."""
+    """Return the quotient of two float64: the remainder is exact, its division 1."""
     quotient = first / second
     product, error = two_product(quotient, second)
     return two_sum(quotient, ((first - product) - error) / second)
 
 
 def square_root(value: DoubleDouble) -> DoubleDouble:
-    """The square root of a value ≥ 0.
+    """Return the square root of a value ≥ 0.
 
     With s the root of the high part, high − s² is exact. Roundings: the remainder 3, halved by its division by 2s,
     which adds 2; the Newton step itself leaves out remainder²/(8s³), 2.
@@ -116,7 +116,7 @@ def square_root(value: DoubleDouble) -> DoubleDouble:
 
 
 def rounds_to_high(value: DoubleDouble, error: Floats) -> Mask:
-    """Whether every number that is off the value by `error` at most rounds to the value's high part."""
+    """Decide whether every number that is off the value by `error` at most rounds to the value's high part."""
     high, low = value
     reach = 1.001 * error + 2.0**-104 * np.abs(high)  # 2⁻¹⁰⁴ for the rounding of low ± reach
     return np.asarray((high + (low + reach) == high) & (high + (low - reach) == high))

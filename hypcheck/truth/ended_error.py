@@ -59,11 +59,11 @@ class EndedFlip:
         return not pair.solid and Position.CONTACT not in sides and pair.z in (pair.z_min, pair.z_max)
 
     def estimate(self) -> Fraction:
-        """A power of two that is not excluded, though its half is; or the least power that is tested."""
+        """Return a power of two that is not excluded, though its half is; or the least power that is tested."""
         return power_of_two(1 + last(lambda exponent: self.excluded(power_of_two(exponent)), _LEAST_OCTAVE, 0))
 
     def excluded(self, change: Fraction, cuts: int = 0) -> bool:  # noqa: ARG002 - as changes.Flip has it
-        """Whether it is proved that no change up to this size gives the answer; False is undecided."""
+        """Decide whether it is proved that no change up to this size gives the answer; False is undecided."""
         if change > _LARGEST:
             return False
         off, growth = 2 * change / (1 - change), self._growth(change)
@@ -79,11 +79,11 @@ class EndedFlip:
         return self._sure_side(off) not in (None, self.answer) or self._position(1 - growth, -off) is Position.CONTACT
 
     def reached(self, change: Fraction) -> bool:
-        """Whether a change of that size is found that gives the answer."""
+        """Decide whether a change of that size is found that gives the answer."""
         return any(exact.position(Lengths.of(row)) is self.answer for row in self._changed(change))
 
     def _changed(self, change: Fraction) -> Iterator[tuple[Fraction | float, ...]]:
-        """The pair with every number changed by that much, in many combinations of directions."""
+        """Yield the pair with every number changed by that much, in many combinations of directions."""
         pair = self.pair
         size = 1 + change if self.answer is Position.CONTACT else 1 - change
         for a, g, r, h, low, high in product((1 + change, 1 - change), repeat=6):
@@ -101,7 +101,7 @@ class EndedFlip:
                 )
 
     def _growth(self, change: Fraction) -> Fraction:
-        """η, rounded up."""
+        """Return η of the module's docstring for ε = `change`, rounded up."""
         pair = self.pair
         b, d = Fraction(pair.b), Fraction(pair.d)
         v2 = sum((Fraction(part) ** 2 for part in pair.axis), Fraction(0))
@@ -116,14 +116,14 @@ class EndedFlip:
         return rounded(eta, _BITS) * Fraction(1001, 1000) if eta else eta
 
     def _position(self, factor: Fraction, longer: Fraction) -> Position | None:
-        """The position of the spheroid times `factor` beside a wall longer by `longer`; None if either vanishes."""
+        """Return the position of the spheroid times `factor` beside a wall longer by `longer`; None if one vanishes."""
         pair = self.pair
         low = _times(pair.z_min, 1 + longer if pair.z_min < 0 else 1 - longer)
         high = _times(pair.z_max, 1 + longer if pair.z_max > 0 else 1 - longer)
         return _scaled_position(pair, factor, (low, high)) if factor > 0 and low < high else None
 
     def _sure_side(self, off: Fraction) -> Position | None:
-        """The side of the centre after every relative change up to `off`; None if it can be on both sides."""
+        """Return the side of the centre after every relative change up to `off`; None if it can be on both sides."""
         pair = self.pair
         x, y, z = (Fraction(part) for part in (pair.x, pair.y, pair.z))
         outward = (x * x + y * y) / Fraction(pair.alpha) ** 2
@@ -142,24 +142,25 @@ class EndedFlip:
 
 
 def _scaled_position(pair: Pair, factor: Fraction, ends: Sequence[float | Fraction]) -> Position:
-    """The position of the spheroid times `factor` beside a wall with these ends."""
+    """Return the position of the spheroid times `factor` beside a wall with these ends."""
     b, d = factor * Fraction(pair.b), factor * Fraction(pair.d)
     row = (pair.alpha, pair.gamma, b, d, pair.x, pair.y, pair.z, *pair.axis, *ends, pair.solid)
     return exact.position(Lengths.of(row))
 
 
 def _times(height: float, factor: Fraction) -> float | Fraction:
+    """Multiply a height by a factor; an infinite one stays as it is."""
     return Fraction(height) * factor if math.isfinite(height) else height
 
 
 _GUESSED, _NARROW_BITS = 40, 56
 _WIDTH = 2.0**-14
-"""Where to guess better takes longer than to halve the interval."""
+"""The width of the guess: below it, to guess better takes longer than to halve the interval."""
 _FARTHEST = 2200
 
 
 def clearance(pair: Pair, decision: Decision) -> float:
-    """The clearance in spheroid radii, within 2⁻⁵⁴ of 1 + clearance; 0 for a touch, −1 for a centre on the wall."""
+    """Return the clearance in radii, within 2⁻⁵⁴ of 1 + clearance; 0 for a touch, −1 for a centre on the wall."""
     low, high = enclosure(pair, decision)
     try:
         return float((low + high) / 2)
@@ -168,7 +169,7 @@ def clearance(pair: Pair, decision: Decision) -> float:
 
 
 def enclosure(pair: Pair, decision: Decision) -> tuple[Fraction, Fraction]:
-    """Bounds of the clearance, at most 2⁻⁵⁶ of 1 + clearance apart; for a clear pair none is < 0."""
+    """Return bounds of the clearance, at most 2⁻⁵⁶ of 1 + clearance apart; for a clear pair none is < 0."""
     if decision.tangent:
         return Fraction(0), Fraction(0)
     low, high = _bracket(pair)
@@ -182,7 +183,10 @@ def enclosure(pair: Pair, decision: Decision) -> tuple[Fraction, Fraction]:
 
 
 def _bracket(pair: Pair) -> tuple[Fraction, Fraction]:
-    """Two factors, the spheroid scaled by the first being clear and by the second in contact."""
+    """Find two factors: the spheroid scaled by the first is clear, scaled by the second it is in contact.
+
+    Both are 0 if the centre is on the border.
+    """
     guess = least.to_border(pair, width=_WIDTH)
     if math.isfinite(guess.upper) and guess.lower > 0:
         loose = Fraction(1, 2**_GUESSED)
@@ -197,4 +201,5 @@ def _bracket(pair: Pair) -> tuple[Fraction, Fraction]:
 
 
 def _meets(pair: Pair, factor: Fraction) -> bool:
+    """Decide whether the spheroid times `factor` meets the wall or a disc."""
     return _scaled_position(pair, factor, (pair.z_min, pair.z_max)) is Position.CONTACT

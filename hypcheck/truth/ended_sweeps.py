@@ -74,13 +74,13 @@ class EndedSweep:
     parts: tuple[StraightSweep, ...] = ()
 
     def meets(self, time: Fraction) -> bool:
-        """Whether there is contact at a rational time."""
+        """Decide whether there is contact at a rational time."""
         if self.whole.position(time) is not Position.CONTACT:
             return False
         return not self.parts or not _clear_on_one_side(part.position(time) for part in self.parts)
 
     def clear(self, first: Fraction, last: Fraction) -> bool:
-        """Whether there is provably no contact between two times: by larger spheroids that contain the moving ones."""
+        """Decide whether larger spheroids, which contain the moving ones, prove no contact between two times."""
         middle, half = (first + last) / 2, (last - first) / 2
         if _larger(self.whole, middle, half) is not Position.CONTACT:
             return True
@@ -95,18 +95,19 @@ class EndedSweep:
         return polynomials
 
     def clusters(self, bits: int) -> list[Interval]:
-        """Disjoint intervals, shorter than 2^-bits spheroids, with all times at which contact begins or ends."""
+        """Return disjoint intervals, shorter than 2^-bits spheroids, with all times at which contact begins or ends."""
         longest = max(_radii(sweep) for sweep in (self.whole, *self.parts))
         return _clusters(self.critical, bits + math.ceil(longest).bit_length())
 
 
 def _clear_on_one_side(positions: Iterator[Position]) -> bool:
+    """Decide whether all positions are the same, and not contact."""
     sides = set(positions)
     return len(sides) == 1 and Position.CONTACT not in sides
 
 
 def _larger(sweep: StraightSweep, middle: Fraction, half: Fraction) -> Position:
-    """The position of a spheroid that contains the moving one at all times about one.
+    """Return the position of a spheroid that contains the moving one at all times about one.
 
     A spheroid moved by a vector is contained in the unmoved one enlarged by the vector's length in radii.
     """
@@ -119,7 +120,7 @@ def _larger(sweep: StraightSweep, middle: Fraction, half: Fraction) -> Position:
 
 
 def _radii(sweep: StraightSweep) -> Fraction:
-    """An upper bound of the sweep's length in radii of the spheroid in the sweep's direction."""
+    """Return an upper bound of the sweep's length in radii of the spheroid in the sweep's direction."""
     start, (u, v, w) = sweep.start, map(abs, sweep.step)
     if sweep.is_upright and start.upward == (0, 0, 1):
         return Fraction(u + v, start.b) + Fraction(w, start.d)
@@ -127,7 +128,7 @@ def _radii(sweep: StraightSweep) -> Fraction:
 
 
 def first_contact(sweep: EndedSweep) -> Interval | None:
-    """An enclosure of the time of first contact; None if there is no contact."""
+    """Return an enclosure of the time of first contact; None if there is no contact."""
     if sweep.meets(START):
         return START, START
     if not sweep.whole.moves or _clear_in_pieces(sweep):
@@ -141,12 +142,12 @@ def first_contact(sweep: EndedSweep) -> Interval | None:
 
 
 def meets(sweep: EndedSweep) -> bool:
-    """Whether there is contact: the result of first_contact, but faster if some time shows contact."""
+    """Decide whether there is contact: the result of first_contact, but faster if some time shows contact."""
     return any(sweep.meets(Fraction(time, 4)) for time in (0, 4, 2, 1, 3)) or first_contact(sweep) is not None
 
 
 def grazes(sweep: StraightSweep) -> bool:
-    """Whether all contact on a sweep with contact is a touch."""
+    """Decide whether all contact on a sweep with contact is a touch."""
     critical = EndedSweep(sweep).critical
     gaps = (time for time in _gaps(_clusters(critical, _BITS[0])) if time is not None)
     if any(_is_deep(sweep, time) for time in (START, END, *gaps)):
@@ -157,12 +158,12 @@ def grazes(sweep: StraightSweep) -> bool:
 
 
 def _is_deep(sweep: StraightSweep, time: Fraction) -> bool:
-    """Whether there is contact at a time that is not a touch."""
+    """Decide whether there is contact at a time that is not a touch."""
     return sweep.position(time) is Position.CONTACT and not sweep.tangent(time)
 
 
 def _with_all_roots(polynomials: Sequence[Polynomial]) -> Polynomial:
-    """A primitive polynomial, not 0, with the roots of all, each of them simple."""
+    """Return a primitive polynomial, not 0, with the roots of all, each of them simple."""
     product: Polynomial = (1,)
     for f in map(squarefree, polynomials):
         product = polynomial_product(product, quotient(f, primitive(common_divisor(product, f))))
@@ -170,11 +171,12 @@ def _with_all_roots(polynomials: Sequence[Polynomial]) -> Polynomial:
 
 
 def _clear_in_pieces(sweep: EndedSweep) -> bool:
+    """Decide whether each quarter of the sweep is proved clear as a whole."""
     return all(sweep.clear(Fraction(place, 4), Fraction(place + 1, 4)) for place in range(4))
 
 
 def _clusters(critical: Sequence[Polynomial], bits: int) -> list[Interval]:
-    """Disjoint intervals in order that hold all roots in [0, 1]: enclosures that overlap, or meet, are one."""
+    """Return disjoint intervals in order that hold all roots in [0, 1]: enclosures that overlap, or meet, are one."""
     clusters: list[Interval] = []
     for low, high in sorted(time for f in critical for time in enclosures(f, bits)):
         if clusters and low <= clusters[-1][1]:
@@ -185,14 +187,14 @@ def _clusters(critical: Sequence[Polynomial], bits: int) -> list[Interval]:
 
 
 def _gaps(clusters: Sequence[Interval]) -> list[Fraction | None]:
-    """A time before the first cluster, between each and the next, and after the last; None where there is no room."""
+    """Return a time before the first cluster, between each and the next, and after the last; None if there is none."""
     ends = [START, *(high for _, high in clusters)]
     begins = [*(low for low, _ in clusters), END]
     return [None if low >= high else (low + high) / 2 for low, high in zip(ends, begins, strict=True)]
 
 
 def _first_of(sweep: EndedSweep, clusters: Sequence[Interval]) -> tuple[Interval | None, bool]:
-    """The first cluster of critical times that has contact in it or just after it, and whether the contact is certain.
+    """Find the first cluster of critical times with contact in it or just after it; return whether it is certain, too.
 
     None if there is no contact. The start of the sweep must be clear.
     """
@@ -208,14 +210,14 @@ def _first_of(sweep: EndedSweep, clusters: Sequence[Interval]) -> tuple[Interval
 
 
 def _at_ends(sweep: StraightSweep, *, sides: bool) -> Iterator[Polynomial]:
-    """Polynomials that are 0 where E touches a rim, or the plane of an end; with `sides`, where its centre is in it."""
+    """Yield polynomials that are 0 where E touches a rim or an end's plane; with `sides`, where its centre is in it."""
     sections = [Sections.of(sweep.at(Fraction(time)), over_content=False) for time in range(3)]
     unit = sections[0].unit
     whole = math.isqrt(unit)
     root: Any = whole if whole * whole == unit else QuadraticSurd(0, 1, unit)  # type: ignore[arg-type]  # for speed
 
     def through(polynomials: Iterable[Polynomial], height: int) -> InTime:
-        """The quadratic in t, doubled, that at 0, 1, 2 has the values of these polynomials at a height."""
+        """Return the quadratic in t, doubled, that at 0, 1, 2 has the values of these polynomials at a height."""
         values = (of.value(f, height) for of, f in zip(sections, polynomials, strict=True))
         start, here, there = (even + odd * root for even, odd in values)
         return InTime((there - 2 * here + start, 4 * here - there - 3 * start, 2 * start))
@@ -230,7 +232,7 @@ def _at_ends(sweep: StraightSweep, *, sides: bool) -> Iterator[Polynomial]:
 
 
 def _where_touched(c3: InTime, c2: InTime, c1: InTime, c0: InTime) -> Iterator[Polynomial]:
-    """Polynomials that are 0 where the circle just touches the ellipse.
+    """Yield polynomials that are 0 where the circle just touches the ellipse.
 
     Far away the circle misses E, so that Δ > 0 or c0 = c1 = 0 there (sections.py). Where one of them is 0 at all times,
     what is left therefore is not.
@@ -243,6 +245,6 @@ def _where_touched(c3: InTime, c2: InTime, c1: InTime, c0: InTime) -> Iterator[P
 
 
 def _zeros(f: InTime) -> list[Polynomial]:
-    """A list with a polynomial that is 0 wherever f is; an empty list if that is a constant, 0 or not."""
+    """Return a list with a polynomial that is 0 wherever f is; an empty list if that is a constant, 0 or not."""
     norm = norm_of(f.f)
     return [norm] if len(norm) > 1 else []

@@ -69,13 +69,13 @@ class Decision:
 
 
 def position(lengths: Lengths) -> Position:
-    """The exact position of the spheroid."""
+    """Return the exact position of the spheroid."""
     whole = _upright_position(cubic(lengths)) if lengths.is_upright else _tilted(quartic(lengths)).position
     return ended_position(lengths, whole) if lengths.has_ends else whole
 
 
 def decide(lengths: Lengths) -> Decision:
-    """The exact position of the spheroid, whether it only touches, and the kind of an upright pair without ends."""
+    """Decide exactly: the position, whether the spheroid only touches, the kind of an upright pair without ends."""
     whole = _without_ends(lengths)
     if not lengths.has_ends:
         return whole
@@ -85,7 +85,7 @@ def decide(lengths: Lengths) -> Decision:
 
 
 def _without_ends(lengths: Lengths) -> Decision:
-    """The decision about the whole hyperboloid."""
+    """Return the decision about the whole hyperboloid."""
     if not lengths.is_upright:
         return _tilted(quartic(lengths))
     kind = kind_of(lengths)
@@ -93,7 +93,7 @@ def _without_ends(lengths: Lengths) -> Decision:
 
 
 def kind_of(lengths: Lengths) -> Kind:
-    """The kind of an upright pair: the row of the table of root patterns (kinds.py)."""
+    """Return the kind of an upright pair: the row of the table of root patterns (kinds.py)."""
     g = cubic(lengths)
     where, discriminant = _upright_position(g), cubic_discriminant(*g.coefficients)
     if where is Position.EXTERIOR:
@@ -102,6 +102,7 @@ def kind_of(lengths: Lengths) -> Kind:
 
 
 def _upright_position(g: Cubic) -> Position:
+    """Decide the position of an upright pair beside the hyperboloid without ends, by its cubic."""
     h = g.n2 * g.n2 - 3 * g.n3 * g.n1
     if h <= 0:
         return Position.CONTACT  # g never falls: it has no local maximum
@@ -121,12 +122,12 @@ def _upright_position(g: Cubic) -> Position:
 
 
 def cubic_discriminant(n3: Number, n2: Number, n1: Number, n0: Number) -> Number:
-    """N⁴ Δ, Δ as in equation (13)."""
+    """Return N⁴ Δ, where Δ is the discriminant of equation (13) and N = n3."""
     return n1 * n1 * (n2 * n2 - 4 * n3 * n1) + n0 * (n2 * (18 * n3 * n1 - 4 * n2 * n2) - 27 * n3 * n3 * n0)
 
 
 def _contact_kind(g: Cubic, discriminant: int) -> Kind:
-    """The row of the root-pattern table, for a pair already known to be in contact."""
+    """Return the row of the root-pattern table, for a pair already known to be in contact."""
     if discriminant < 0:
         return Kind.CROSSING_ONE_CURVE
     if discriminant > 0:  # three real roots, none of the patterns that are clear
@@ -142,14 +143,14 @@ def _contact_kind(g: Cubic, discriminant: int) -> Kind:
 
 
 def _inner_tangency(above: int) -> Kind:
-    """The kind of a double root m < 0, by the sign of m + A."""
+    """Return the kind of a double root m < 0, by the sign of m + A."""
     if above > 0:
         return Kind.INTERIOR_TANGENT_POINT
     return Kind.INTERIOR_TANGENT_CIRCLE if above == 0 else Kind.CROSSING_THROAT_NODE
 
 
 def _outer_tangency(g: Cubic, top: int, bottom: int) -> Kind:
-    """The kind of a double root m = top/bottom > 0, by the order of m, B and the simple root."""
+    """Return the kind of a double root m = top/bottom > 0, by the order of m, B and the simple root."""
     below = g.s * bottom - top * g.t  # the sign of B − m
     if below > 0:
         return Kind.EXTERIOR_TANGENT_POINT
@@ -160,6 +161,7 @@ def _outer_tangency(g: Cubic, top: int, bottom: int) -> Kind:
 
 
 def _tilted(F: Quartic) -> Decision:
+    """Decide about a tilted pair beside the hyperboloid without ends, by its quartic."""
     contact = Decision(Position.CONTACT)
     if F.side == 0 or changes_of_sign(F.coefficients) < 3:
         return contact  # the centre on the hyperboloid, or one positive root alone
@@ -172,12 +174,12 @@ def _tilted(F: Quartic) -> Decision:
 
 
 def discriminant(F: Quartic) -> int:
-    """27 times the discriminant."""
+    """Return 27 times the discriminant of F."""
     return int(quartic_discriminant(*F.coefficients))
 
 
 def quartic_discriminant(a: Number, b: Number, c: Number, d: Number, e: Number) -> Number:
-    """27 times the discriminant, by the quartic's two invariants."""
+    """Return 27 times the discriminant of a quartic, by its two invariants."""
     ae, bd, cc = a * e, b * d, c * c
     H = 12 * ae - 3 * bd + cc
     J = c * (72 * ae + 9 * bd - 2 * cc) - 27 * (a * d * d + e * b * b)
@@ -185,7 +187,7 @@ def quartic_discriminant(a: Number, b: Number, c: Number, d: Number, e: Number) 
 
 
 def _three_beyond(F: Quartic) -> bool:
-    """Whether all three positive roots, distinct ones, are ≥ ℓ.
+    """Decide whether all three positive roots, distinct ones, are ≥ ℓ.
 
     By Descartes' rule for the Taylor coefficients at ℓ, all roots being real: three changes of sign. F(ℓ) ≤ 0 counts as
     −: if it is 0, the sign of F′(ℓ) at a simple root alone shows which of the roots ℓ is.
@@ -195,7 +197,7 @@ def _three_beyond(F: Quartic) -> bool:
 
 
 def _derivative(F: Quartic, order: int) -> tuple[int, ...]:
-    """The derivative of this order over its factorial, the highest power first."""
+    """Return the derivative of this order over its factorial, the highest power first."""
     if order == 1:
         return (4 * F.f4, 3 * F.f3, 2 * F.f2, F.f1)
     if order == 2:
@@ -204,12 +206,15 @@ def _derivative(F: Quartic, order: int) -> tuple[int, ...]:
 
 
 def _signs_at_first(F: Quartic) -> list[int]:
-    """The signs of the first three derivatives at p/q."""
+    """Return the signs of the first three derivatives at p/q."""
     return [sign_at(_derivative(F, order), Fraction(F.p, F.q)) for order in (1, 2, 3)]
 
 
 def _signs_at_second(F: Quartic) -> list[int]:
-    """The same at ℓ = (e1 + √w)/D, w = e1² + 4 e0 e2, D = 2 e2 > 0: by Horner's rule for numbers u + v √w."""
+    """Return the signs of the first three derivatives at ℓ, by Horner's rule for numbers u + v √w.
+
+    Here ℓ = (e1 + √w)/D, w = e1² + 4 e0 e2, D = 2 e2 > 0.
+    """
     e, D = F.e1, 2 * F.e2
     w = e * e + 2 * F.e0 * D
     signs = []
@@ -223,7 +228,7 @@ def _signs_at_second(F: Quartic) -> list[int]:
 
 
 def _with_multiple_root(F: Quartic) -> Decision:
-    """The decision if F has a multiple root; there is only one, and it is rational."""
+    """Return the decision if F has a multiple root; there is only one, and it is rational."""
     m = double_root(F)
     if m <= 0 or (beyond := _beyond(F, m)) > 0:
         return Decision(Position.CONTACT)
@@ -233,27 +238,27 @@ def _with_multiple_root(F: Quartic) -> Decision:
 
 
 def _beyond(F: Quartic, m: Fraction) -> int:
-    """The sign of m − ℓ, m > 0."""
+    """Return the sign of m − ℓ, m > 0."""
     n, k = m.numerator, m.denominator
     past = F.q * n - F.p * k if F.at_first else F.e2 * n * n - F.e1 * n * k - F.e0 * k * k
     return sign_of(past)
 
 
 def double_root(F: Quartic) -> Fraction:
-    """The multiple root of a quartic that has exactly one (double or triple), by Euclid's algorithm on F and F′."""
+    """Return the multiple root of a quartic with exactly one (double or triple), by Euclid's algorithm on F and F′."""
     common = common_divisor(F.coefficients, _derivative(F, 1))
     degree = len(common) - 1  # a multiple of (λ − m)^degree
     return Fraction(-common[1], degree * common[0])
 
 
 def ended_position(lengths: Lengths, whole: Position) -> Position:
-    """The exact position; `whole` is that without ends."""
+    """Return the exact position; `whole` is that without ends."""
     sections = Sections.of(lengths)
     return Position.CONTACT if _meet(sections, lengths, whole) else _side(sections, lengths)
 
 
 def ended_limit(lengths: Lengths, whole: Position, whole_limit: Position | None) -> Position | None:
-    """The clear position that a smaller spheroid would have if a contact is only a touch, else None.
+    """Return the clear position that a smaller spheroid would have if a contact is only a touch, else None.
 
     `whole_limit` is this clear position for the pair without ends, whose position is `whole`.
     """
@@ -272,7 +277,7 @@ def ended_limit(lengths: Lengths, whole: Position, whole_limit: Position | None)
 
 
 def _meet(sections: Sections, lengths: Lengths, whole: Position) -> bool:
-    """Whether E meets W or, if the body is solid, one of the discs."""
+    """Decide whether E meets W or, if the body is solid, one of the discs."""
     if whole is Position.EXTERIOR or (whole is Position.INTERIOR and not lengths.solid):
         return False
     if whole is Position.CONTACT:
@@ -284,12 +289,12 @@ def _meet(sections: Sections, lengths: Lengths, whole: Position) -> bool:
 
 
 def _ends(lengths: Lengths) -> list[tuple[int, int]]:
-    """The finite ends, each with the direction from the body out through it."""
+    """Return the finite ends, each with the direction from the body out through it."""
     return [(end, outward) for end, outward in ((lengths.low, -1), (lengths.high, 1)) if end is not None]
 
 
 def _between(sections: Sections, lengths: Lengths) -> bool:
-    """Whether all of E lies between the ends."""
+    """Decide whether all of E lies between the ends."""
     return all(
         sections.sign(sections.above, end) * outward > 0 and sections.sign(sections.inside, end) <= 0
         for end, outward in _ends(lengths)
@@ -297,7 +302,7 @@ def _between(sections: Sections, lengths: Lengths) -> bool:
 
 
 def _beyond_ends(sections: Sections, lengths: Lengths) -> bool:
-    """Whether all of E lies below or above both ends."""
+    """Decide whether all of E lies below or above both ends."""
     return any(
         sections.sign(sections.above, end) * outward < 0 and sections.sign(sections.inside, end) < 0
         for end, outward in _ends(lengths)
@@ -305,7 +310,7 @@ def _beyond_ends(sections: Sections, lengths: Lengths) -> bool:
 
 
 def _side(sections: Sections, lengths: Lengths) -> Position:
-    """Interior if the centre lies in the body, else exterior."""
+    """Return interior if the centre lies in the body, else exterior."""
     inside = side_of_center(lengths) <= 0 and all(
         sections.sign(sections.above, end) * outward >= 0 for end, outward in _ends(lengths)
     )

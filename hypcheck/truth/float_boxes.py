@@ -83,7 +83,7 @@ class Enclosures:
         return np.asarray(np.maximum(np.abs(self.low), np.abs(self.high)))
 
     def root(self) -> Enclosures:
-        """The square root; negative numbers in an interval are ignored, since they cannot occur."""
+        """Return the square root; negative numbers in an interval are ignored, since they cannot occur."""
         return Enclosures(np.maximum(_down(np.sqrt(np.maximum(self.low, 0.0))), 0.0), _up(np.sqrt(self.high)))
 
 
@@ -91,14 +91,17 @@ Number: TypeAlias = Enclosures | Floats | float
 
 
 def _enclosed(value: Number) -> Enclosures:
+    """Return the value as enclosures; a float encloses itself."""
     return value if isinstance(value, Enclosures) else Enclosures(np.asarray(value), np.asarray(value))
 
 
 def _down(values: Floats) -> Floats:
+    """Return the next floats below."""
     return np.asarray(np.nextafter(values, -np.inf))
 
 
 def _up(values: Floats) -> Floats:
+    """Return the next floats above."""
     return np.asarray(np.nextafter(values, np.inf))
 
 
@@ -149,7 +152,7 @@ class Boxes:
 
 
 def lower_ends(rows: Rows, goals: Sequence[Goal]) -> Floats:
-    """For each row (n, 10) a change that is proved not to attain its goal, a lower bound: float64 (n,); 0 if none is.
+    """Return for each row (n, 10) a change that is proved not to attain its goal: float64 (n,); 0 if none is proved.
 
     It is a power of 2^(1/8) below 1, and nearly the largest that one certificate excludes.
     """
@@ -158,7 +161,7 @@ def lower_ends(rows: Rows, goals: Sequence[Goal]) -> Floats:
 
 
 def _lower_ends(rows: Rows, goals: Sequence[Goal]) -> Floats:
-    """By a search among the steps of the ladder; for few rows many steps are tried at a time, at the same cost."""
+    """Search the largest proved change among the steps of _LADDER; for few rows many steps are tried at a time."""
     low, high = np.full(len(rows), -1), np.full(len(rows), len(_LADDER))
     active = np.arange(len(rows))
     while len(active):
@@ -176,13 +179,13 @@ def _lower_ends(rows: Rows, goals: Sequence[Goal]) -> Floats:
 
 
 def excluded(rows: Rows, goals: Sequence[Goal], changes: Floats, cuts: int = 0) -> Mask:
-    """A mask of rows with certificates that no change up to `changes` (n,), each below 1, attains the goal."""
+    """Return a mask of rows with certificates that no change up to `changes` (n,), each below 1, attains the goal."""
     with np.errstate(all="ignore"):
         return _certified(_boxes(_normalised(rows), goals, changes), cuts)
 
 
 def _normalised(rows: Rows) -> Rows:
-    """The same pairs scaled so that lengths and axes are about 1; NaN if float64 does not hold these exactly."""
+    """Return the same pairs scaled so that lengths and axes are about 1; NaN if float64 does not hold these exactly."""
     exponents = np.empty(rows.shape, dtype=np.int64)
     for part in (slice(0, len(COLUMNS)), slice(len(COLUMNS), None)):
         exponents[:, part] = np.frexp(np.abs(rows[:, part]).max(axis=1))[1][:, None]
@@ -191,7 +194,7 @@ def _normalised(rows: Rows) -> Rows:
 
 
 def _boxes(rows: Rows, goals: Sequence[Goal], change: Floats) -> Boxes:
-    """All changes of the rows up to `change` (n,), rounded outward."""
+    """Make the boxes of all changes of the rows up to `change` (n,), rounded outward."""
     signs = np.array([goal.sizes for goal in goals], dtype=np.float64).reshape(-1, len(SIZES)).T
     grown, shrunk = _up(1 + change), _down(1 - change)
     sizes = rows[:, : len(SIZES)].T
@@ -204,7 +207,7 @@ def _boxes(rows: Rows, goals: Sequence[Goal], change: Floats) -> Boxes:
 
 
 def _certified(boxes: Boxes, cuts: int) -> Mask:
-    """A mask of the goals that are proved not to be attained in their boxes, (n,); a box is cut up to `cuts` times."""
+    """Return a mask of the goals proved not to be attained in their boxes, (n,); a box is cut up to `cuts` times."""
     held = np.ones(len(boxes.side), dtype=np.bool_)
     owners = np.arange(len(boxes.side))
     for left in range(cuts, -1, -1):
@@ -220,7 +223,7 @@ def _certified(boxes: Boxes, cuts: int) -> Mask:
 
 
 def _halves(boxes: Boxes, pull: Floats) -> Boxes:
-    """The two halves of each box, cut across the number that loosens the bounds most."""
+    """Return the two halves of each box, cut across the number that loosens the bounds most."""
     middle, chosen = boxes.middle, np.argmax(np.abs(pull) * boxes.radii, axis=0)
     cut = chosen == np.arange(len(pull))[:, None]
     return Boxes(
@@ -233,7 +236,7 @@ def _halves(boxes: Boxes, pull: Floats) -> Boxes:
 
 
 def _held(boxes: Boxes) -> tuple[Mask, Floats]:
-    """A mask of goals that one certificate excludes in a box, (n,); and the margin's change by each number, (6, n)."""
+    """Return a mask of goals that one certificate excludes in a box, (n,), and slopes of the margin, (6, n)."""
     sign = np.where(boxes.leave, -1.0, 1.0)
     pull = sign * np.stack(_margin_at(boxes.sizes, boxes.middle, boxes.side).derivatives())
     worst = _margin_at(boxes.sizes, np.where(pull > 0, boxes.high, boxes.low), boxes.side)
@@ -246,7 +249,7 @@ def _held(boxes: Boxes) -> tuple[Mask, Floats]:
 
 
 def _margin_at(sizes: Floats, rest: Floats, side: Floats) -> Margin:
-    """The margins of n rows."""
+    """Return the margins of n rows."""
     form, C, v = Form(list(sizes), np.sqrt), rest[:3], list(rest[3:])
     hint, at, nearest = multipliers(sizes, C, rest[3:]), np.zeros(len(side)), C
     for share in SHARES:
@@ -258,7 +261,7 @@ def _margin_at(sizes: Floats, rest: Floats, side: Floats) -> Margin:
 
 
 def _proved(boxes: Boxes, at: Floats, X: list[Floats], C: list[Floats]) -> Mask:
-    """A mask of goals that the certificates of the worst corners exclude; all goals leave a side, or all reach one."""
+    """Mark the goals that certificates of the worst corners exclude; all goals leave a side, or all reach one."""
     points = [_enclosed(part) for part in boxes.middle]
     whole = [Enclosures(low, high) for low, high in zip(boxes.low, boxes.high, strict=True)]
     form = Form([_enclosed(size) for size in boxes.sizes], KIND.root)

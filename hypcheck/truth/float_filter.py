@@ -68,7 +68,7 @@ class SizeLines:
     width: float
 
     def proved(self, squares: Floats, heights: Floats, otherwise: int) -> Positions:
-        """The position of centres with these x² + y² and z², int8 (n,), where it is proved so, else `otherwise`."""
+        """Return the position of centres with these x² + y² and z², int8 (n,), where it is proved, else `otherwise`."""
         result = np.full(len(squares), otherwise, dtype=np.int8)
         for lines, nearest, beyond, position in (
             (self.exterior, np.minimum, np.greater, Position.EXTERIOR),
@@ -83,13 +83,14 @@ class SizeLines:
         return result
 
     def _touching(self, squares: Floats, heights: Floats) -> Mask:
+        """Return a mask of the centres whose spheroid holds the surface's point at the same height and azimuth."""
         constant, slope = self.surface
         here, there = np.sqrt(squares), np.sqrt(constant + slope * heights)
         return np.asarray(np.abs(here - there) + LINE_MARGIN * (here + there) < self.width)
 
 
 def _envelope(lines: tuple[Line, ...], heights: Floats, nearest: Callable[..., Floats]) -> Floats:
-    """The least, or the greatest, of the lines at each height."""
+    """Return the least, or the greatest, of the lines at each height."""
     (first, slope), *others = lines
     border = slope * heights
     border += first
@@ -121,12 +122,12 @@ def lines_for_sizes(alpha: float, gamma: float, b: float, d: float, reach: int) 
 
 
 def _moved(exact: list[tuple[Fraction, Fraction]], factor: float) -> tuple[Line, ...]:
-    """The lines in floats, moved to the safe side."""
+    """Return the lines in floats, moved to the safe side."""
     return tuple((float(constant) * factor, float(slope) * factor) for constant, slope in exact)
 
 
 CHUNK = 32_768
-"""Rows at a time: many enough for numpy's overhead, few enough for the filter's temporaries to stay in the cache."""
+"""The number of rows at a time: many for numpy's overhead, few enough for temporary arrays to stay in the cache."""
 
 MARGIN = 1 + 64 * 2.0**-53
 LEAST, GREATEST = 2.0**-100, 2.0**100
@@ -134,7 +135,7 @@ LEAST_MULTIPLIER, GREATEST_MULTIPLIER = 2.0**-450, 2.0**450
 UNDECIDED = 2
 
 STEP = 1 - 2.0**-30
-"""Points a computed direction leads to are this many radii away: the rest covers the direction's rounding."""
+"""The length, in radii, of a step in a computed direction; what is missing to 1 covers the direction's rounding."""
 
 Directions = tuple[tuple[float, float], ...]
 UPRIGHT: Directions = ((1.0, 0.0), (0.0, 1.0))
@@ -145,7 +146,7 @@ Squares = tuple[Floats, ...]
 
 
 def positions(rows: Rows) -> Positions:
-    """The exact position of every row, (n, 7), (n, 10) or (n, 13): int8 (n,).
+    """Return the exact position of every row, (n, 7), (n, 10) or (n, 13): int8 (n,).
 
     Rows of seven whose columns lie in memory one behind the other (the transpose of a (7, n) array) are decided
     fastest; each row of a tilted spheroid is decided on its own, and so are ends. Raises InputError about the first
@@ -168,7 +169,7 @@ def positions(rows: Rows) -> Positions:
 
 
 def filtered(rows: Rows) -> Positions:
-    """The positions of valid rows that the filter proves, or UNDECIDED: int8 (n,)."""
+    """Return the positions of valid rows that the filter proves, or UNDECIDED: int8 (n,)."""
     columns = np.ascontiguousarray(rows.T)
     if _all_safe(columns):
         return _proved(columns)
@@ -179,6 +180,7 @@ def filtered(rows: Rows) -> Positions:
 
 
 def _chunk(rows: Rows, first_number: int) -> Positions:
+    """Return the exact positions of some rows. Raises InputError about the first invalid row."""
     columns = rows.T if rows.strides[0] == rows.itemsize else np.ascontiguousarray(rows.T)
     if _all_safe(columns):  # and so valid
         result = _proved(columns)
@@ -191,7 +193,7 @@ def _chunk(rows: Rows, first_number: int) -> Positions:
 
 
 def _all_safe(columns: Floats) -> bool:
-    """Whether all rows are safe, by the extremes of each column; comparisons with a NaN are false."""
+    """Decide whether all rows are safe, by the extremes of each column; comparisons with a NaN are false."""
     if not columns.size:
         return True
     least, greatest = columns[:4].min(axis=1), columns[:4].max(axis=1)
@@ -205,13 +207,14 @@ def _all_safe(columns: Floats) -> bool:
 
 
 def _safe(columns: Floats) -> Mask:
+    """Return a mask of the rows, given by columns, whose lengths are 0 or from LEAST to GREATEST."""
     lengths = np.abs(columns)
     inside: Mask = (lengths <= GREATEST) & ((lengths >= LEAST) | (lengths == 0))
     return np.asarray(inside.all(axis=0))
 
 
 def _proved(columns: Floats) -> Positions:
-    """A position, or UNDECIDED, of safe rows (7, n): by more and more expensive witnesses for the undecided rows."""
+    """Return the position, or UNDECIDED, of safe rows (7, n), by more and more expensive tests of undecided rows."""
     with np.errstate(all="ignore"):  # a NaN or an infinity compares false, which is undecided
         result = _by_lines(columns)
         rest = np.flatnonzero(result == UNDECIDED)
@@ -226,7 +229,7 @@ def _proved(columns: Floats) -> Positions:
 
 
 def _by_lines(columns: Floats) -> Positions:
-    """The positions that lines prove if all rows have the same sizes; else UNDECIDED for all."""
+    """Return the positions that lines prove if all rows have the same sizes; else UNDECIDED for all."""
     sizes, (x, y, z) = columns[:4], columns[4:]
     if not columns.size or (sizes != sizes[:, :1]).any():
         return np.full(columns.shape[1], UNDECIDED, dtype=np.int8)
@@ -237,13 +240,13 @@ def _by_lines(columns: Floats) -> Positions:
 
 
 def _squares(columns: Floats) -> Squares:
-    """A, B, P and Q of each row, (n,) each."""
+    """Return A, B, P and Q of each row, (n,) each."""
     alpha, gamma, b, d, x, y, z = columns
     return (alpha / b) ** 2, (gamma / d) ** 2, (x * x + y * y) / (b * b), (z / d) ** 2
 
 
 def _level(A: Floats, B: Floats, P: Floats, Q: Floats) -> Positions:
-    """By the surface's point at the centre's height: contact if it is within a radius; else its λ may prove clear."""
+    """Test the surface's point at the centre's height: within a radius it proves contact; its λ may prove clear."""
     a, stretch, r = np.sqrt(A), np.sqrt(1 + Q / B), np.sqrt(P)
     surface, size = a * stretch, a / stretch
     within = np.abs(r - surface) + (MARGIN - 1) * (r + surface) < 2 - MARGIN
@@ -251,11 +254,12 @@ def _level(A: Floats, B: Floats, P: Floats, Q: Floats) -> Positions:
 
 
 def _maximum(A: Floats, B: Floats, P: Floats, Q: Floats) -> Positions:
+    """Return EXTERIOR or INTERIOR where the λ of the local maximum of g proves it, else UNDECIDED."""
     return _clear(A, B, P, Q, _local_maximum(A, B, P, Q))
 
 
 def _local_maximum(A: Floats, B: Floats, P: Floats, Q: Floats) -> Floats:
-    """The λ of the local maximum of g, approximately; no accuracy is needed."""
+    """Return the λ of the local maximum of g, approximately; no accuracy is needed."""
     c2 = A - B + 1 - P - Q
     c1 = B * (P - A - 1) + A * (1 - Q)
     root = np.sqrt(c2 * c2 - 3 * c1)
@@ -263,7 +267,7 @@ def _local_maximum(A: Floats, B: Floats, P: Floats, Q: Floats) -> Floats:
 
 
 def _clear(A: Floats, B: Floats, P: Floats, Q: Floats, at: Floats) -> Positions:
-    """+1 or −1 where λ = `at` proves it, else UNDECIDED."""
+    """Return EXTERIOR or INTERIOR where λ = `at` proves it, else UNDECIDED."""
     size = np.abs(at)
     usable = (size > LEAST_MULTIPLIER) & (size < GREATEST_MULTIPLIER)
     # λ > 0:  P/(A+λ) > Q/(B−λ) + 1 + 1/λ;   λ = −μ < 0:  Q/(B+μ) + 1 > P/(A−μ) + 1/μ.  A pole stays on its side.
@@ -276,22 +280,23 @@ def _clear(A: Floats, B: Floats, P: Floats, Q: Floats, at: Floats) -> Positions:
 
 
 def _shift(proved: Mask, position: Position) -> Positions:
-    """The numbers that, added to UNDECIDED, give `position` where it is proved; a sum is faster than a choice."""
+    """Return numbers that, added to UNDECIDED, give `position` where it is proved; a sum is faster than a choice."""
     return proved.view(np.int8) * np.int8(position - UNDECIDED)
 
 
 def _upright(A: Floats, B: Floats, P: Floats, Q: Floats) -> Positions:
-    """Contact, by points above, below and beside the centre, and along the normal at it."""
+    """Return CONTACT where points above, below and beside the centre, or along the normal at it, prove it."""
     r, z = np.sqrt(P), np.sqrt(Q)
     return _contact(A, B, r, z, UPRIGHT, (r / A, z / B))
 
 
 def _slanted(A: Floats, B: Floats, P: Floats, Q: Floats) -> Positions:
+    """Return CONTACT where points in SLANTED directions from the centre prove it, else UNDECIDED."""
     return _contact(A, B, np.sqrt(P), np.sqrt(Q), SLANTED)
 
 
 def _along_the_normal(A: Floats, B: Floats, P: Floats, Q: Floats) -> Positions:
-    """Contact, by points towards the nearest one of the surface and away from it."""
+    """Return CONTACT where points towards the nearest one of the surface, and away from it, prove it."""
     r, z, at = np.sqrt(P), np.sqrt(Q), _local_maximum(A, B, P, Q)
     return _contact(A, B, r, z, (), (r / (A + at), z / (B - at)))
 
@@ -299,7 +304,7 @@ def _along_the_normal(A: Floats, B: Floats, P: Floats, Q: Floats) -> Positions:
 def _contact(
     A: Floats, B: Floats, r: Floats, z: Floats, directions: Directions, normal: tuple[Floats, Floats] | None = None
 ) -> Positions:
-    """0 where points of the closed ball on both sides of the hyperboloid were found, else UNDECIDED.
+    """Return CONTACT where points of the closed ball on both sides of the hyperboloid are found, else UNDECIDED.
 
     All is in the half plane r, |z| ≥ 0. Points lie in the `directions` away from the axis and to the waist, or the
     other way, a little less than one radius from the centre, and along the `normal`, of any length.

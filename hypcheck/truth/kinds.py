@@ -44,7 +44,7 @@ class Kind(Enum):
         roots: str,
         description: str,
     ) -> Kind:
-        """A member with the columns of the table as attributes; its value is only the name."""
+        """Return a member with the columns of the table as attributes; its value is only the name."""
         member = object.__new__(cls)
         member._value_ = name
         member.position, member.limit_of, member.contact_set = position, limit_of, contact_set

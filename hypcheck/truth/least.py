@@ -54,10 +54,10 @@ from hypcheck.truth.double_double import DoubleDouble
 _SLACK = 256 * 2.0**-53
 _FINE_SLACK = 256 * double_double.ERROR
 _OVERLAP = 2.0**-49
-"""Of angles up to 2π the roundings of a middle, and of its cosine and sine, are less than half of that."""
+"""How far cells overlap. Roundings of a middle angle up to 2π, and of its cosine and sine, are less than half of it."""
 _MOST_CELLS, _MOST_FINE_CELLS, _ROUNDS = 60_000, 20_000, 60
 _ALIKE = 4
-"""A cell of which height and angle loosen the bound up to this factor alike is cut across both."""
+"""A cell is cut across height and angle if neither loosens the bound more than this factor times the other."""
 _RANGE = (2.0**-200, 2.0**200)
 _WIDTH = 2.0**-40
 
@@ -92,7 +92,7 @@ _ELSEWHERE = LeastValue(math.inf, math.inf, _NOWHERE)
 
 
 def position(pair: Pair) -> Position | None:
-    """The position of a pair; None if the bounds do not decide."""
+    """Return the position of a pair; None if the bounds do not decide."""
     meets = to_border(pair, side_alone=True).meets
     if meets is None:
         return None
@@ -103,13 +103,16 @@ def position(pair: Pair) -> Position | None:
 
 
 def _is_within(alpha: float, gamma: float, x: Fraction, y: Fraction, w: Fraction) -> bool:
-    """Whether a point lies in the body of the hyperboloid without ends, exactly."""
+    """Decide exactly whether the point (x, y, w) lies inside the hyperboloid without ends, or on it."""
     return (x * x + y * y) * Fraction(gamma) ** 2 <= Fraction(alpha) ** 2 * (Fraction(gamma) ** 2 + w * w)
 
 
 @np.errstate(over="ignore", invalid="ignore")  # an overflow gives no bound: _bounds
 def to_border(pair: Pair, *, side_alone: bool = False, width: float = _WIDTH) -> LeastValue:
-    """The least n on the wall and, for a solid, on the discs, within `width` of n²; or until its side of 1 is known."""
+    """Enclose the least n on the wall and, for a solid, on the discs, within `width` of n².
+
+    With `side_alone`, only until it is known whether n is above 1.
+    """
     lengths = [abs(number) for number in (*pair.row[:7], pair.z_min, pair.z_max) if number and math.isfinite(number)]
     if not (min(lengths) > _RANGE[0] and max(lengths) < _RANGE[1]):
         return NOTHING
@@ -122,7 +125,7 @@ def to_border(pair: Pair, *, side_alone: bool = False, width: float = _WIDTH) ->
 
 
 def _to_disc(pair: Pair, end: float) -> LeastValue:
-    """The least n in an end disc; infinite if it is at the rim, which the wall includes."""
+    """Enclose the least n in an end disc; infinite if it is at the rim, which the wall includes."""
     if not math.isfinite(end):
         return _ELSEWHERE
     b2, d2, x, y, height = (Fraction(number) for number in (pair.b, pair.d, pair.x, pair.y, end))
@@ -140,7 +143,7 @@ def _to_disc(pair: Pair, end: float) -> LeastValue:
 
 
 def _to_wall(pair: Pair, *, side_alone: bool, width: float) -> LeastValue:
-    """Branch and bound over the wall, in double-double as soon as the roundings of float64 matter."""
+    """Enclose the least n on the wall by branch and bound, in double-double once roundings of float64 matter."""
     cells, at, most = _first_cells(pair), _at, _MOST_CELLS
     above, point, below = math.inf, _NOWHERE, -1.0
     for _ in range(_ROUNDS):
@@ -181,7 +184,7 @@ class _Bounds:
 
 
 def _bounds(pair: Pair, cells: Floats, at: Callable[[Pair, Floats, Floats], _Values]) -> _Bounds:
-    """Bounds in cells, from a value and slopes in the middle of each, or at the end of the wall that it reaches."""
+    """Compute bounds in cells, from a value and slopes in the middle of each, or at the end of the wall it reaches."""
     w, t, half, k = cells
     below, level, above = (np.clip(height, pair.z_min, pair.z_max) for height in (w - half, w, w + half))
     level = np.where(below == pair.z_min, below, np.where(above == pair.z_max, above, level))
@@ -210,7 +213,7 @@ def _bounds(pair: Pair, cells: Floats, at: Callable[[Pair, Floats, Floats], _Val
 
 
 def _first_cells(pair: Pair) -> Floats:
-    """Cells (4, n) of middles w, θ and half widths that cover the part of the wall that can be nearest."""
+    """Make cells that cover the part of the wall that can be nearest: middles w, θ and their half widths, (4, n)."""
     reach = pair.alpha * math.hypot(1, min(max(pair.z, pair.z_min), pair.z_max) / pair.gamma)
     center = math.hypot(pair.x, pair.y)
     level = min(max(pair.z, pair.z_min), pair.z_max)
@@ -227,9 +230,10 @@ def _first_cells(pair: Pair) -> Floats:
 
 @dataclass(frozen=True, slots=True)
 class _Values:
-    """At n points X (3, n) of the wall: q − 1, a bound of its error, and the slopes of q.
+    """At n points X (3, n) of the wall: q − 1, a bound of its error, and the slopes of q by height and by angle.
 
-    To a point e radii away q changes by the slopes, within `blur` e, and within `error`.
+    q is n² of the module's docstring. To a point e radii away q changes by the slopes, within `blur` e, and within
+    `error`.
     """
 
     excess: Floats
@@ -241,7 +245,7 @@ class _Values:
 
 
 def _at(pair: Pair, w: Floats, t: Floats) -> _Values:
-    """The values, in float64, at the points of height w and angle t."""
+    """Compute the values, in float64, at the points of height w and angle t."""
     r = pair.alpha * np.hypot(1, w / pair.gamma)
     turn = np.stack([np.cos(t), np.sin(t)])
     X = np.concatenate([r * turn, w[None]])
@@ -252,18 +256,19 @@ def _at(pair: Pair, w: Floats, t: Floats) -> _Values:
 
 
 def _center(pair: Pair) -> Floats:
+    """Return the spheroid's centre as a column, (3, 1)."""
     return np.array([[pair.x], [pair.y], [pair.z]])
 
 
 def _error(pair: Pair, X: Floats, q: Floats, slack: float) -> Floats:
-    """The error of q − 1, if n has an error of slack (|X| + |C|)/m, and the subtraction one of slack."""
+    """Return the error of q − 1, if n has an error of slack (|X| + |C|)/m, and the subtraction one of slack."""
     size = np.abs(X) + np.abs(_center(pair))
     off = slack * np.sqrt((size * size).sum(axis=0)) / min(pair.b, pair.d)
     return np.asarray(off * (2 * np.sqrt(q) + off) + slack)
 
 
 def _slopes(pair: Pair, v: Floats, D: Floats, r: Floats, turn: Floats, w: Floats) -> tuple[Floats, Floats, Floats]:
-    """q of D = X − C and its slopes, in float64."""
+    """Compute q for D = X − C, and its slopes by height and by angle, in float64."""
     along = v @ D
     across = D - along * v[:, None]
     q = (across * across).sum(axis=0) / pair.b**2 + (along / pair.d) ** 2
@@ -273,7 +278,7 @@ def _slopes(pair: Pair, v: Floats, D: Floats, r: Floats, turn: Floats, w: Floats
 
 
 def _at_finely(pair: Pair, w: Floats, t: Floats) -> _Values:
-    """As _at, with q − 1 in double-double."""
+    """Compute the values as _at does, with q − 1 in double-double."""
     ratio = double_double.quotient_of_floats(w, np.array([pair.gamma]))
     stretch = double_double.square_root(double_double.add_float(double_double.square(ratio), 1.0))
     r = double_double.multiply(stretch, _number(pair.alpha))
@@ -295,21 +300,23 @@ def _at_finely(pair: Pair, w: Floats, t: Floats) -> _Values:
 
 
 def _number(number: float) -> DoubleDouble:
+    """Return a float64 as one double-double number, (1,)."""
     return np.array([number]), np.zeros(1)
 
 
 def _unit(parts: list[Floats]) -> list[DoubleDouble]:
-    """A vector in double-double, of length 1."""
+    """Scale a vector to length 1, in double-double."""
     norm = double_double.square_root(double_double.sum_of([double_double.two_square(part) for part in parts]))
     return [double_double.divide((part, np.zeros_like(part)), norm) for part in parts]
 
 
 def _rounded(parts: list[DoubleDouble]) -> Floats:
+    """Round a vector in double-double to float64, (3, n)."""
     return np.stack([high for high, _ in parts])
 
 
 def _cut(cells: Floats, shares: Floats) -> Floats:
-    """The cells, each cut in two across the direction that loosens its bound most, or in four; the parts overlap."""
+    """Cut each cell in two across the direction that loosens its bound most, or in four; the parts overlap."""
     for row in (0, 1):
         wide = shares[row] * _ALIKE >= shares[1 - row]
         room = (np.abs(cells[0]) + cells[2] if row == 0 else 1.0) * _OVERLAP

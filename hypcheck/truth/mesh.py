@@ -20,7 +20,7 @@ Mesh = tuple[Vertices, Triangles]
 
 
 def fcl_module() -> Any:  # noqa: ANN401 - the wheel has no types
-    """The module of python-fcl. Raises ImportError where it is not installed: it has no wheel for some platforms."""
+    """Import python-fcl. Raises ImportError where it is not installed: it has no wheel for some platforms."""
     import fcl  # noqa: PLC0415
 
     return fcl
@@ -71,7 +71,10 @@ def distance_to_mesh(vertices: Vertices, triangles: Triangles) -> float:
 
 
 def side_of_center(pair: Pair) -> Position:
-    """INTERIOR if C lies between the ends where F(C) = (x² + y²)/α² − z²/γ² − 1 ≤ 0, else EXTERIOR, exactly."""
+    """Decide exactly on which side C is: INTERIOR if it is between the ends and F(C) ≤ 0, else EXTERIOR.
+
+    F(C) = (x² + y²)/α² − z²/γ² − 1.
+    """
     lengths = pair.lengths
     alpha2, gamma2 = lengths.alpha**2, lengths.gamma**2
     inside = (lengths.x**2 + lengths.y**2 - alpha2) * gamma2 <= lengths.z**2 * alpha2
@@ -79,7 +82,7 @@ def side_of_center(pair: Pair) -> Position:
 
 
 Measure = Callable[[Vertices, Triangles], float]
-"""Measures the distance from C to a mesh."""
+"""A function that measures the distance from C to a mesh."""
 
 
 class MeshOutcome(Enum):

@@ -53,7 +53,7 @@ class Meridian:
     one: int
 
     def tangents_meet(self, e: int, f: int) -> tuple[int, int]:
-        """The intersection (r, z) of the tangents at e and f in units, rounded down; the arc's point if e = f."""
+        """Return where the tangents at e and f meet, (r, z) in units, rounded down; if e = f, the arc's point."""
         product, square, total = e * f, self.one * self.one, (e + f) * self.one
         return (
             ((self.a.numerator * (product + square)) << UNIT_BITS) // (self.a.denominator * total),
@@ -62,7 +62,7 @@ class Meridian:
 
 
 def meridian_of(pair: Pair) -> Meridian:
-    """The pair in its meridian half plane: exact except for two roundings of the centre, whatever the magnitudes."""
+    """Put the pair into its meridian half plane: exact except for two roundings of the centre, at any magnitudes."""
     lengths = pair.lengths
     a, c = Fraction(lengths.alpha, lengths.b), Fraction(lengths.gamma, lengths.d)
     return Meridian(
@@ -77,7 +77,7 @@ def meridian_of(pair: Pair) -> Meridian:
 
 
 def window_of(meridian: Meridian) -> tuple[int, int] | None:
-    """The e of the first and the last point with |r − ρ| ≤ 5/4 and |z − ζ| ≤ 5/4, rounded outwards; None without any.
+    """Return e of the first and the last point with |r − ρ| and |z − ζ| ≤ 5/4, rounded outwards; None if there is none.
 
     Both conditions hold on one interval of e, since r and z grow with e. The roundings make it stick out by less than
     2⁻⁶⁰ radii: one step of X moves the bound's own r by a/one, one of Z its z by c/one, a step of e either by less.
@@ -95,19 +95,19 @@ def window_of(meridian: Meridian) -> tuple[int, int] | None:
 
 
 def _e_of_radius(meridian: Meridian, r: int, *, up: bool = False) -> int:
-    """e = X + √(X² − 1), X = r/a, rounded down, or up to more than it; 0 if r is below the waist's radius."""
+    """Return e = X + √(X² − 1), X = r/a, rounded down, or with `up` to more than it; 0 if r is below the waist's."""
     x = _quotient(r, meridian.a, meridian.one, up=up)
     return x + isqrt(x * x - meridian.one**2) + up if x >= meridian.one else 0
 
 
 def _e_of_height(meridian: Meridian, z: int, *, up: bool = False) -> int:
-    """e = Z + √(Z² + 1), Z = z/c, rounded down, or up to more than it; 0 where z is below the waist."""
+    """Return e = Z + √(Z² + 1), Z = z/c, rounded down, or with `up` to more than it; 0 if z is below the waist."""
     height = _quotient(z, meridian.c, meridian.one, up=up)
     return height + isqrt(height * height + meridian.one**2) + up if height >= 0 else 0
 
 
 def _quotient(length: int, radius: Fraction, one: int, *, up: bool) -> int:
-    """length / radius in multiples of 1/one, rounded down, or up to more than it."""
+    """Return length / radius in multiples of 1/one, rounded down, or with `up` to more than it."""
     return length * radius.denominator * one // (radius.numerator << UNIT_BITS) + up
 
 
@@ -160,13 +160,13 @@ class Bounds:
 
 
 def cell_of(meridian: Meridian, low: int, high: int) -> MeridianCell:
-    """The cell over the arc from e = `low` to e = `high`."""
+    """Return the cell over the arc from e = `low` to e = `high`."""
     start, end = _seen_from_center(meridian, low, low), _seen_from_center(meridian, high, high)
     return MeridianCell(low, high, start, _seen_from_center(meridian, low, high), end)
 
 
 def halves(meridian: Meridian, cell: MeridianCell) -> tuple[MeridianCell, MeridianCell]:
-    """The cell cut in two: by octaves of e while it spans many, in the middle of e from then on."""
+    """Return the cell cut in two: by octaves of e while it spans many, in the middle of e from then on."""
     octaves = (cell.high // cell.low).bit_length() - 1
     middle = cell.low << octaves // 2 if octaves > 1 else (cell.low + cell.high) // 2
     cut = _seen_from_center(meridian, middle, middle)
@@ -190,7 +190,7 @@ def bounds_of(cell: MeridianCell, *, outside: bool) -> Bounds:
 
 
 def _least_along(direction: Point, cell: MeridianCell) -> float:
-    """The least component of the triangle's corners along a direction, or 0 if the direction is too short."""
+    """Return the least component of the triangle's corners along a direction, or 0 if the direction is too short."""
     length = _length(direction)
     if length < _VANISHING:
         return 0.0
@@ -198,11 +198,12 @@ def _least_along(direction: Point, cell: MeridianCell) -> float:
 
 
 def _nearest(segments: tuple[Segment, ...]) -> Point:
-    """Approximately the point of the segments that is nearest to C."""
+    """Find approximately the point of the segments that is nearest to C."""
     return min((_nearest_on(p, q) for p, q in segments), key=_length)
 
 
 def _nearest_on(p: Point, q: Point) -> Point:
+    """Find approximately the point of the segment from p to q that is nearest to C."""
     along = (q[0] - p[0], q[1] - p[1])
     square = along[0] * along[0] + along[1] * along[1]
     if square == 0.0:
@@ -216,7 +217,7 @@ def _length(v: Point) -> float:
 
 
 def _seen_from_center(meridian: Meridian, e: int, f: int) -> Point:
-    """The intersection of the tangents at e and f (the arc's point if e = f), relative to C. It is rounded once."""
+    """Return the intersection of the tangents at e and f (the arc's point if e = f), relative to C, rounded once."""
     r, z = meridian.tangents_meet(e, f)
     return ((r - meridian.rho) / UNIT, (z - meridian.zeta) / UNIT)
 
@@ -263,14 +264,17 @@ def refine(pair: Pair) -> MeshVerdict:
 
 
 def _facets(cells: Iterable[MeridianCell], *, chords: bool) -> tuple[Segment, ...]:
+    """Return the chords, or the tangents, of all cells."""
     return tuple(segment for cell in cells for segment in (cell.chord if chords else cell.tangents))
 
 
 def _least(bounds: Iterable[Bounds]) -> float:
+    """Return the least lower bound, inf if there is none."""
     return min((bound.lower for bound in bounds), default=float("inf"))
 
 
 def _why_open(levels: int, lower: float, upper: float) -> str:
+    """Say why nothing is decided."""
     if upper - lower <= RESOLUTION:
         return f"the distance is within {RESOLUTION:.1e} radii of 1: a tangency, or as near as float64 meshes tell"
     return f"too many cells stay open at level {levels}: the surfaces run close along an arc"

@@ -117,6 +117,7 @@ class MeshScene:
         return np.array(rows).reshape(-1, 5)
 
     def _parts(self) -> Iterator[tuple[float, float, float]]:
+        """Yield the strips of the wall, and the discs of a solid, within reach: part, least and greatest s or r."""
         if self.low <= self.high:
             first, last = (math.asinh(height / self.gamma) for height in (self.low, self.high))
             steps = np.linspace(first, last, 2 + math.ceil(last - first))
@@ -158,11 +159,12 @@ class MeshScene:
 
 
 def _lengths(vectors: Floats) -> Floats:
+    """Return the lengths of vectors (n, 3)."""
     return np.asarray(np.sqrt(np.einsum("nj,nj->n", vectors, vectors)))
 
 
 def verdict(pair: Pair, measure: Measure = distance_to_mesh) -> MeshVerdict:
-    """The verdict about any valid pair, if `measure`, the distance to a mesh, confirms it; else undecided.
+    """Return the verdict about any valid pair, if `measure`, the distance to a mesh, confirms it; else undecided.
 
     Raises UnavailableError if FCL cannot be imported.
     """
@@ -187,7 +189,7 @@ def refine(pair: Pair) -> MeshVerdict:
 
 
 def scene_of(pair: Pair) -> MeshScene | None:
-    """The pair with the spheroid as the unit ball; None if roundings would prevent every decision."""
+    """Return the pair with the spheroid as the unit ball; None if roundings would prevent every decision."""
     if pair.is_upright:
         # Theorem 1: lengths across the axis in units of b, those along it in units of d.
         seven = [pair.alpha / pair.b, pair.gamma / pair.d, 1.0, 1.0, pair.x / pair.b, pair.y / pair.b, pair.z / pair.d]
@@ -202,6 +204,7 @@ def scene_of(pair: Pair) -> MeshScene | None:
 
 
 def _cut(scene: MeshScene) -> MeshVerdict:
+    """Cut cells until all are decided, or no decision is possible."""
     cells, side = scene.whole(), scene.side
     beyond: list[tuple[Floats, Floats]] = []
     for level in range(_LEVELS):
@@ -226,17 +229,17 @@ def _cut(scene: MeshScene) -> MeshVerdict:
 
 
 def _undecided(side: Position, levels: int, reason: str) -> MeshVerdict:
-    """The outcome of a search that decides nothing, and why."""
+    """Return the outcome of a search that decides nothing, and why."""
     return MeshVerdict(MeshOutcome.UNDECIDED, side, (), levels, reason=reason)
 
 
 def _slack_of(size: Floats, root: Floats) -> Floats:
-    """Bounds of corners' rounding errors, (n,): `size` bounds the coordinates, `root` maps the spheroid to a ball."""
+    """Bound the rounding errors of corners, (n,): `size` bounds the coordinates, `root` maps the spheroid to a ball."""
     return np.asarray(80 * _U * (1 + size * np.abs(root).max()))
 
 
 def _scaled(numbers: Sequence[float]) -> list[float]:
-    """The numbers times a power of two that makes the largest about 1."""
+    """Return the numbers times a power of two that makes the largest about 1."""
     exponent = math.frexp(max(map(abs, numbers)))[1]
     return [math.ldexp(number, -exponent) for number in numbers]
 
@@ -250,13 +253,14 @@ def _mesh_of(corners: Floats, faces: Faces) -> Mesh:
 
 
 def _has_area(vertices: Floats, faces: Indices) -> Mask:
+    """Return a mask of the triangles that have an area."""
     p, q, r = (vertices[faces[:, k]] for k in range(3))
     normal = np.cross(q - p, r - p)
     return np.asarray((normal * normal).sum(axis=1) > 1e-150)
 
 
 def _least_along(corners: Floats) -> Floats:
-    """The least component of a cell's corners along the direction to their middle."""
+    """Return the least component of a cell's corners along the direction to their middle."""
     middle = np.einsum("nij->nj", corners) / _CORNERS
     length = np.sqrt(np.einsum("nj,nj->n", middle, middle))
     along = _least(np.einsum("nij,nj->ni", corners, middle))
@@ -264,5 +268,5 @@ def _least_along(corners: Floats) -> Floats:
 
 
 def _least(numbers: Floats) -> Floats:
-    """The least number of each row; numpy takes long for `min` along a short axis."""
+    """Return the least number of each row; numpy takes long for `min` along a short axis."""
     return np.asarray(np.minimum.reduce([*numbers.T]))

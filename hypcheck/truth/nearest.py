@@ -78,10 +78,11 @@ class NearestPoint:
 
 @dataclass(frozen=True, slots=True)
 class Dual:
-    """D = value/under in ν = λ/unit; the interval is where first = a ν + b > 0 and second > 0, of degree 2 at most.
+    """The function D of a pair, as a quotient of polynomials in ν = λ/unit: D = value/under.
 
-    `slope` is value′ under − value under′, so that D′ = slope/under². The degree of `value` is one more than that of
-    `under`, the degree of `slope` twice it.
+    The interval of λ is where `first`, which is linear, and `second`, of degree 2 at most, are > 0. A ν is given as an
+    integer L and a number of bits: ν = L/2^shift. `slope` is value′ under − value under′, so that D′ = slope/under².
+    The degree of `value` is one more than that of `under`, the degree of `slope` twice it.
     """
 
     value: Polynomial
@@ -93,21 +94,21 @@ class Dual:
 
     @classmethod
     def of(cls, lengths: Lengths) -> Dual:
-        """The dual of a pair."""
+        """Return the dual of a pair."""
         return _upright(lengths) if lengths.is_upright else _general(lengths)
 
     def inside(self, L: int, shift: int) -> bool:
-        """Whether ν = L/2^shift lies in the interval."""
+        """Decide whether ν = L/2^shift lies in the interval."""
         return value_at(self.first, L, shift) > 0 and value_at(self.second, L, shift) > 0
 
     def direction(self, L: int, shift: int) -> int:
-        """The sign of D′ at ν = L/2^shift; beyond an end of the interval the sign that points back to it."""
+        """Return the sign of D′ at ν = L/2^shift; beyond an end of the interval the sign that points back to it."""
         if not self.inside(L, shift):
             return 1 if L < 0 else -1
         return sign_of(value_at(self.slope, L, shift))
 
     def end(self, side: int, shift: int) -> int:
-        """The last multiple of 2^-shift in the interval on one side of 0, as a distance from 0."""
+        """Return the last multiple of 2^-shift in the interval on one side of 0, as a distance from 0."""
         a, b = self.first
         e2, e1, e0 = self.second
         e1 *= side
@@ -121,7 +122,7 @@ class Dual:
         return last - (not self.inside(side * last, shift))
 
     def touches(self, at: Fraction) -> bool:
-        """Whether D, rising up to ν = `at` in the closed interval from the side of 0, is 1 there: the surfaces touch.
+        """Decide whether the surfaces touch at ν = `at`: D, rising up to it in the closed interval from 0, is 1 there.
 
         There value − under has a root, of a higher order than under, and is negative before it. Inside the interval,
         where under > 0, that is a root of order 2.
@@ -138,7 +139,7 @@ class Dual:
 
 
 def _upright(lengths: Lengths) -> Dual:
-    """The D of an upright pair; each group of lengths has its own unit."""
+    """Return the D of an upright pair; each group of lengths has its own unit."""
     p, q, R = reduced((lengths.alpha**2, lengths.b**2, lengths.x**2 + lengths.y**2))
     s, t, Z = reduced((lengths.gamma**2, lengths.d**2, lengths.z**2))
     under = (-q * t, q * s - p * t, p * s)
@@ -146,9 +147,11 @@ def _upright(lengths: Lengths) -> Dual:
 
 
 def _general(lengths: Lengths) -> Dual:
-    """The D of any pair. With N = q t V M and Q = p s D in integers, M + λD = (N + νQ)/(q t V) for ν = λ q t V/(p s).
+    """Return the D of any pair.
 
-    The adjugate of N + νQ is that of N, plus ν times a mixed one, plus ν² times that of Q.
+    p, s, q, t are the squares of α, γ, b, d, and V is that of the axis. With N = q t V M and Q = p s D in integers, M +
+    λD = (N + νQ)/(q t V) for ν = λ q t V/(p s). The adjugate of N + νQ is that of N, plus ν times a mixed one, plus ν²
+    times that of Q.
     """
     p, s, q, t = lengths.alpha**2, lengths.gamma**2, lengths.b**2, lengths.d**2
     v, C = lengths.axis, (lengths.x, lengths.y, lengths.z)
@@ -169,7 +172,7 @@ def _general(lengths: Lengths) -> Dual:
 def _quotient(
     over: Polynomial, under: Polynomial, first: tuple[int, int], second: tuple[int, int, int], unit: tuple[int, int]
 ) -> Dual:
-    """D = ν (over/under − m)/n, where the unit is m/n."""
+    """Return the Dual with D = ν (over/under − m)/n, where the unit of λ is m/n."""
     m, n = unit
     value = (*difference((0, *over), scaled(m, under)), 0)
     under = scaled(n, under)
@@ -180,7 +183,7 @@ def _quotient(
 
 
 def value_at(f: Polynomial, L: int, shift: int) -> int:
-    """f(L/2^shift) times 2^shift to the power of f's degree."""
+    """Return f(L/2^shift) times 2^shift to the power of f's degree."""
     total = scale = 0
     for coefficient in f:
         total = total * L + (coefficient << scale)
@@ -190,7 +193,7 @@ def value_at(f: Polynomial, L: int, shift: int) -> int:
 
 @dataclass(frozen=True, slots=True)
 class Enclosure:
-    """low ≤ 2^bits · clearance ≤ high."""
+    """Integers that enclose a clearance: low ≤ 2^bits · clearance ≤ high."""
 
     low: int
     high: int
@@ -211,12 +214,12 @@ class Enclosure:
 
 
 def nearest(pair: Pair) -> NearestPoint:
-    """The position and the clearance of any valid pair."""
+    """Return the position and the clearance of any valid pair."""
     return _in_closed_form(pair.lengths) or _enclosed(Dual.of(pair.lengths))
 
 
 def multiplier(row: Sequence[float | Fraction]) -> Fraction:
-    """Approximately the λ at which D is largest, for ten valid numbers; a hint without a proof.
+    """Find approximately the λ at which D is largest, for ten valid numbers; a hint without a proof.
 
     If this is an end of the interval, the hint is a little before it, because M + λD must be definite around it.
     """
@@ -230,9 +233,9 @@ def multiplier(row: Sequence[float | Fraction]) -> Fraction:
 
 
 def _in_closed_form(lengths: Lengths) -> NearestPoint | None:
-    """The nearest point of an upright pair with its centre on the axis or in the waist plane, or None.
+    """Return the nearest point if D is largest at an end of its interval, else None.
 
-    These are the pairs for which D can be largest at an end of its interval; None if it is not, or for another pair.
+    That can be so only for an upright pair with its centre on the axis or in the plane of the waist.
     """
     if not lengths.is_upright or (lengths.z and (lengths.x or lengths.y)):
         return None
@@ -248,7 +251,7 @@ def _in_closed_form(lengths: Lengths) -> NearestPoint | None:
 
 
 def _enclosed(dual: Dual) -> NearestPoint:
-    """The clearance in a precision that doubles until it suffices."""
+    """Find the nearest point with a precision that doubles until it suffices."""
     side = dual.direction(0, 0)
     if not side:  # the centre is on the hyperboloid
         return NearestPoint(Position.CONTACT, -1.0, Fraction(0), NearestStage.EXACT)
@@ -272,16 +275,16 @@ def _enclosed(dual: Dual) -> NearestPoint:
 
 
 def _position(clearance: float, side: int) -> Position:
-    """Contact unless the clearance is above 0; else exterior or interior, as `side` is above or below 0."""
+    """Return contact unless the clearance is above 0; else exterior or interior, as `side` is above or below 0."""
     return Position.CONTACT if clearance <= 0 else Position(side)
 
 
 def _start(dual: Dual, side: int, bits: int) -> tuple[int, int, bool]:
-    """ν = L/2^shift near the optimum, and whether that is at the end of the interval.
+    """Find a ν near the one at which D is largest; return L, shift and whether that is an end of the interval.
 
-    The ratio of its distance from 0 to its distance from the end is right within a factor of 2: it is searched among
-    powers of 2. No optimum inside the interval is so near to its end as the last of them. The unit is one in which
-    `bits` bits count the distance to the nearer end.
+    ν = L/2^shift. The ratio of its distance from 0 to its distance from the end is right within a factor of 2: it is
+    searched among powers of 2. No optimum inside the interval is so near to its end as the last of them. The unit is
+    one in which `bits` bits count the distance to the nearer end.
     """
     size = _bits(dual.slope)
     probe = next(shift for shift in (64, size) if shift == size or dual.end(side, shift))
@@ -313,12 +316,14 @@ def _start(dual: Dual, side: int, bits: int) -> tuple[int, int, bool]:
 
 
 def _room(dual: Dual, L: int, shift: int) -> int:
-    """The distance from ν = L/2^shift to the nearer end of the interval, in the same unit, rounded down, at least 1."""
+    """Return the distance from ν = L/2^shift to the nearer end of the interval, in units of 2^-shift, at least 1."""
     return max(1, min(dual.end(1, shift) - L, dual.end(-1, shift) + L))
 
 
 def _newton(dual: Dual, L: int, shift: int, bits: int) -> tuple[int, int]:
-    """ν near the optimum by Newton's iteration, and an estimate of its error, both in units of 2^-shift.
+    """Improve ν = L/2^shift, near the maximum of D, by Newton's iteration; return the new L and its error, estimated.
+
+    Both are in units of 2^-shift. ν, L and D are those of Dual.
 
     From a start good to half of `bits` one step does; each squares the error relative to the nearer end's distance. The
     steps D′/|D″| are computed with twice as many bits as they need, from coefficients cut off: they prove nothing.
@@ -341,7 +346,7 @@ def _newton(dual: Dual, L: int, shift: int, bits: int) -> tuple[int, int]:
 
 
 def _cut(f: Polynomial, exponent: int, bits: int) -> Polynomial:
-    """Approximately f(2^exponent u) as a polynomial in u, up to a factor, its largest coefficient of `bits` bits."""
+    """Return about f(2^exponent u) as a polynomial in u, up to a factor; its largest coefficient has `bits` bits."""
     sizes = [
         part.bit_length() + exponent * power for part, power in zip(f, range(len(f) - 1, -1, -1), strict=True) if part
     ]
@@ -350,7 +355,7 @@ def _cut(f: Polynomial, exponent: int, bits: int) -> Polynomial:
 
 
 def _fixed(f: Polynomial, L: int, bits: int) -> int:
-    """About f(L/2^bits)."""
+    """Return about f(L/2^bits)."""
     total = 0
     for part in f:
         total = (total * L >> bits) + part
@@ -358,7 +363,10 @@ def _fixed(f: Polynomial, L: int, bits: int) -> int:
 
 
 def _doubt(dual: Dual, L: int, shift: int, width: int) -> int:
-    """A distance from L within which the sign of D′ proves the optimum to be; `width` if this suffices, else more."""
+    """Return a distance from ν = L/2^shift, in units of 2^-shift, within which D is largest, as the sign of D′ proves.
+
+    It is `width` if this suffices, else more.
+    """
     side = dual.direction(L, shift)
     while dual.direction(L + side * width, shift) * side > 0:
         width <<= 8
@@ -366,7 +374,10 @@ def _doubt(dual: Dual, L: int, shift: int, width: int) -> int:
 
 
 def _enclosure(dual: Dual, L: int, width: int, shift: int, bits: int) -> Enclosure:
-    """The clearance from D at L and the slope there, with the square roots rounded outward at 2^-bits."""
+    """Enclose the clearance by D and its slope at ν = L/2^shift; D is largest within `width` units of 2^-shift of it.
+
+    Square roots are rounded outward at 2^-bits.
+    """
     value, under, slope = (value_at(f, L, shift) for f in (dual.value, dual.under, dual.slope))
     low = _root(value, under << shift, bits)
     high = _root(value * under + abs(slope) * width, under * under << shift, bits) + 1
@@ -374,7 +385,7 @@ def _enclosure(dual: Dual, L: int, width: int, shift: int, bits: int) -> Enclosu
 
 
 def _clearance_of_square(numerator: int, denominator: int) -> float:
-    """The clearance of an exactly known squared distance."""
+    """Return the clearance of an exactly known squared distance."""
     if numerator == denominator:
         return 0.0
     bits = _FIRST_BITS
@@ -387,7 +398,7 @@ def _clearance_of_square(numerator: int, denominator: int) -> float:
 
 
 def ratio(numerator: int, denominator: int) -> float:
-    """The quotient, denominator > 0, rounded to nearest; ±inf beyond the largest float64."""
+    """Return the quotient, denominator > 0, rounded to nearest; ±inf beyond the largest float64."""
     try:
         return numerator / denominator
     except OverflowError:
@@ -395,13 +406,15 @@ def ratio(numerator: int, denominator: int) -> float:
 
 
 def _root(numerator: int, denominator: int, bits: int) -> int:
-    """The square root of the quotient (of 0, where that is negative), in units of 2^-bits, rounded down."""
+    """Return the square root of the quotient (of 0, where that is negative), in units of 2^-bits, rounded down."""
     return math.isqrt(max(0, (numerator << 2 * bits) // denominator))
 
 
 def _bits(f: Polynomial) -> int:
+    """Return the number of bits of the largest coefficient."""
     return max(abs(part) for part in f).bit_length()
 
 
 def _fraction(L: int, shift: int) -> Fraction:
+    """Return L/2^shift."""
     return Fraction(L, 1 << shift)

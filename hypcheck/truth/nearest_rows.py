@@ -59,7 +59,7 @@ class NearestBatch:
 
 
 def positions(rows: Rows) -> NearestBatch:
-    """The positions and tangencies of rows (n, 7) or (n, 10). Raises InputError about the first invalid row.
+    """Return the positions and tangencies of rows (n, 7) or (n, 10). Raises InputError about the first invalid row.
 
     Clearances are only right within a factor, and 0 if tangent.
     """
@@ -67,11 +67,12 @@ def positions(rows: Rows) -> NearestBatch:
 
 
 def clearances(rows: Rows) -> NearestBatch:
-    """The clearances and positions of rows (n, 7) or (n, 10). Raises InputError about the first invalid row."""
+    """Return the clearances and positions of rows (n, 7) or (n, 10). Raises InputError about the first invalid row."""
     return _run(rows, clearances_wanted=True)
 
 
 def _run(rows: Rows, *, clearances_wanted: bool) -> NearestBatch:
+    """Decide rows in double-double arithmetic, chunk by chunk, and exactly where that leaves a doubt."""
     require_valid(rows)
     count = len(rows)
     batch = NearestBatch(
@@ -120,9 +121,11 @@ class ScaledArrays:
 
 @dataclass(frozen=True, slots=True)
 class DualArrays:
-    """D at a λ and its error bound; the gap to D's supremum and its error bound; the sign of λ, 0 if uncertain.
+    """Values of the dual function D at a λ, (n,) each.
 
-    All (n,); gap_error is inf if it is only known that the supremum is not below D.
+    `value` is D, with the error bound `error`; `gap` is how far the supremum of D is above it, with the error bound
+    `gap_error`, which is inf if it is only known that the supremum is not below D. `side` is the sign of λ, 0 if it is
+    uncertain.
     """
 
     value: DoubleDouble
@@ -133,14 +136,14 @@ class DualArrays:
 
 
 def decide_upright(rows: Rows) -> Decided:
-    """Clearance and position of valid rows (n, 7) if double-double arithmetic can decide them; n ~ 4096 is fastest."""
+    """Decide clearance and position of valid rows (n, 7) in double-double where it can; n ~ 4096 is fastest."""
     with np.errstate(all="ignore"):
         scaled = _scale(rows)
         return _judge(scaled.inside, _evaluate(scaled, *_solve(scaled)))
 
 
 def _scale(rows: Rows) -> ScaledArrays:
-    """A, B, P and Q of the rows."""
+    """Compute A, B, P and Q of the rows."""
     columns = np.ascontiguousarray(rows.T)
     alpha, gamma, b, d, x, y, z = columns
     A, B, Q = (
@@ -159,7 +162,7 @@ def _scale(rows: Rows) -> ScaledArrays:
 
 
 def _solve(scaled: ScaledArrays) -> tuple[Floats, Floats]:
-    """A + λ and B − λ in float64, the smaller one to nearly full relative precision, at the λ where F vanishes.
+    """Find A + λ and B − λ in float64, the smaller one to nearly full relative precision, at the λ where F vanishes.
 
     With p = a r, q = c z, W = A + B, τ = A + λ and σ = B − λ = W − τ: F = 0 is τ √(1 + (q/σ)²) = p, and its left side
     is convex and increasing in τ, so Newton's iteration falls steadily onto the root from any start above it. Where the
@@ -192,7 +195,7 @@ def _solve(scaled: ScaledArrays) -> tuple[Floats, Floats]:
 
 
 def _start(p: Floats, q: Floats, W: Floats) -> tuple[Floats, Floats]:
-    """τ and σ with τ at or above the root, each within a modest factor.
+    """Find τ and σ with τ at or above the root, each within a modest factor.
 
     τ < p and τ/p < σ/q bound τ; the second is p/τ > q/σ. That τ is also less than twice the root. If it is over W/2 the
     root is over W/4, and q²/σ² = (p − τ)(p + τ)/τ² ≤ (g + σ)·32p/W² with g = max(p − W, 0) bounds σ from below.
@@ -209,7 +212,7 @@ def _start(p: Floats, q: Floats, W: Floats) -> tuple[Floats, Floats]:
 
 
 def _evaluate(scaled: ScaledArrays, tau: Floats, sigma: Floats) -> DualArrays:
-    """The dual at the λ that is u = min(τ, σ) from its pole; with −A near, `one` is 1, else −1, and λ = one·size."""
+    """Compute the dual at the λ that is u = min(τ, σ) from its pole; λ = one·size, `one` being 1 near −A, else −1."""
     near_minus_A = tau <= sigma
     one = np.where(near_minus_A, 1.0, -1.0)
     near_square, far_square = _swapped(near_minus_A, scaled.P, scaled.Q)
@@ -250,12 +253,12 @@ def _evaluate(scaled: ScaledArrays, tau: Floats, sigma: Floats) -> DualArrays:
 
 
 def _swapped(straight: Mask, first: DoubleDouble, second: DoubleDouble) -> tuple[DoubleDouble, DoubleDouble]:
-    """The two numbers, exchanged where `straight` is false."""
+    """Return the two numbers, exchanged where `straight` is false."""
     return double_double.where(straight, first, second), double_double.where(straight, second, first)
 
 
 def _judge(inside: Mask, dual: DualArrays) -> Decided:
-    """The clearance and position by the dual, and masks of those that the error bounds make certain.
+    """Return the clearance and position by the dual, and masks of those that the error bounds make certain.
 
     A row is called clear only by its own λ with D(λ) > 1, on the side of the sign of λ.
     """
@@ -269,7 +272,9 @@ def _judge(inside: Mask, dual: DualArrays) -> Decided:
 
 
 def _gap(slope: Floats, slope_error: Floats, curvature: Floats, pole: Floats) -> tuple[Floats, Floats]:
-    """distance² − D(λ) as an estimate and a bound of its error, from |F|, its error, and |F′| at λ.
+    """Estimate distance² − D(λ) from |F|, its error, and |F′| at λ; return the estimate and a bound of its error.
+
+    `pole` is the distance from λ to the nearer pole.
 
     Within a distance k·pole of λ, |F′| lies between (1 + k)⁻³ and (1 − k)⁻³ times its value at λ, as both its terms are
     inverse cubes of the distances to the poles. So with κ = |F|/(|F′|·pole) ≤ 1/8 the root lies within 2κ·pole, since
@@ -283,7 +288,7 @@ def _gap(slope: Floats, slope_error: Floats, curvature: Floats, pole: Floats) ->
 
 
 def _clearance(squared: DoubleDouble, error: Floats) -> tuple[DoubleDouble, Floats]:
-    """√squared − 1 and a bound of its error, for a squared distance known within `error`.
+    """Return √squared − 1 and a bound of its error, for a squared distance known within `error`.
 
     |√s − √t| is at most |s − t|/√s, and at most √|s − t|, which is what serves near a distance of 0. The sum of D and
     the gap is rounded by η s, which leaves (η/2)√s after the root; the root is rounded by η√s, and the subtraction by

@@ -37,17 +37,20 @@ _RANGE = (2.0**-100, 2.0**100)
 _U = 2.0**-53
 _STEPS = 3
 _LEAST_SQUARE = 2.0**-10
-"""Nearer to the hyperboloid, in squares of radii, a bound of φ says too little of √(1 + φ)."""
+"""The least square of a distance, in radii, that is decided: below it a bound of φ says too little of √(1 + φ)."""
 
 _ROUNDED = 2.0**-90
-"""More than the error of L against its terms, 32 η = 2⁻⁹⁷."""
+"""More than the relative error of L, 32 η = 2⁻⁹⁷ of the sum of its terms."""
 
 Triple = tuple[Floats, Floats, Floats]
 
 
 @dataclass(frozen=True, slots=True)
 class Decided:
-    """For each row the clearance, whether it is proved correctly rounded, the position, and whether it is proved."""
+    """For each of n rows the clearance and the position, each with a mask of the rows where it is proved.
+
+    A clearance is proved if it is correctly rounded.
+    """
 
     clearance: Floats
     clearance_certain: Mask
@@ -56,7 +59,7 @@ class Decided:
 
 
 def decide(rows: Rows) -> Decided:
-    """Clearance and position of valid rows (n, 10) as far as double-double arithmetic can decide.
+    """Compute clearance and position of valid rows (n, 10) as far as double-double arithmetic can decide.
 
     The position is certain where the clearance is, and a tangency never is.
     """
@@ -70,7 +73,7 @@ def decide(rows: Rows) -> Decided:
 
 
 def _inside(rows: Rows) -> Mask:
-    """A mask of the rows whose lengths are within the limits, and whose axis can be scaled exactly."""
+    """Return a mask of the rows whose lengths are within the limits, and whose axis can be scaled exactly."""
     size = np.abs(rows)
     lengths = np.where(size[:, :7] > 0, size[:, :7], 1.0)
     axis = np.where(size[:, 7:] > 0, size[:, 7:], size[:, 7:].max(axis=1, keepdims=True))
@@ -80,7 +83,10 @@ def _inside(rows: Rows) -> Mask:
 
 @dataclass(frozen=True, slots=True)
 class _Pairs:
-    """Columns of the rows: 1/b², 1/d² and 1/α², 1/γ² in float64, the axis with its largest number in [1/2, 1)."""
+    """The columns of rows: `sizes` are α, γ, b, d, (4, n), `thick` is 1/b², `long` is 1/d², `D` is 1/α², 1/α², −1/γ².
+
+    The axis is scaled so that its largest number is in [1/2, 1).
+    """
 
     sizes: Floats
     centre: Triple
@@ -91,7 +97,7 @@ class _Pairs:
 
     @classmethod
     def of(cls, rows: Rows) -> _Pairs:
-        """The columns of rows (n, 10)."""
+        """Make the columns of rows (n, 10)."""
         alpha, gamma, b, d, x, y, z, *axis = np.ascontiguousarray(rows.T)
         exponents = np.frexp(np.max(np.abs(axis), axis=0))[1]
         v_x, v_y, v_z = (np.ldexp(part, -exponents) for part in axis)
@@ -101,6 +107,7 @@ class _Pairs:
 
 
 def _decided(rows: Rows) -> tuple[Floats, Positions, Mask]:
+    """Compute the clearance and the position of rows, and a mask of the rows where both are proved."""
     pairs = _Pairs.of(rows)
     X, at = _polished(pairs, *_start(pairs))
     L, below, above = _enclosed(pairs, X, at)
@@ -115,7 +122,7 @@ def _decided(rows: Rows) -> tuple[Floats, Positions, Mask]:
 
 
 def _start(pairs: _Pairs) -> tuple[Triple, Floats]:
-    """X and λ, a hint without a proof: r = 0 at this λ."""
+    """Find X and λ near the best ones, a hint without a proof: r = 0 at this λ."""
     at = multipliers(pairs.sizes, pairs.centre, pairs.axis)
     adjugate, determinant = _adjugate(_matrix(pairs, at))
     zero = np.zeros_like(at)
@@ -125,7 +132,7 @@ def _start(pairs: _Pairs) -> tuple[Triple, Floats]:
 
 
 def multipliers(sizes: Floats, centre: Iterable[Floats], axis: Iterable[Floats]) -> Floats:
-    """Approximately the λ at which φ is largest, (n,): the root of φ's slope, found by bisection between its poles.
+    """Find approximately the λ at which φ is largest, (n,): the root of its slope, by bisection between its poles.
 
     A hint without a proof, from sizes (4, n) and the columns of centres and axes.
     """
@@ -154,27 +161,31 @@ def multipliers(sizes: Floats, centre: Iterable[Floats], axis: Iterable[Floats])
 
 
 def _root(A1: Floats, A2: Floats, B: Floats, P1: Floats, P2: Floats, Q: Floats) -> Floats:
-    """The root of A1 P1/(A1 + λ)² + A2 P2/(A2 + λ)² − B Q/(B − λ)² − 1 between −min(A1, A2) and B, by bisection."""
+    """Find by bisection the λ from −min(A1, A2) to B at which φ's slope is 0, for each row, (n,).
+
+    The slope is A1 P1/(A1 + λ)² + A2 P2/(A2 + λ)² − B Q/(B − λ)² − 1. The ratio of λ's distance from 0 to its distance
+    from the end of the interval is searched, by its logarithm.
+    """
     least = np.minimum(A1, A2)
     outside = P1 / A1 + P2 / A2 - Q / B - 1 > 0
     end = np.where(outside, B, least)
     low, high = np.full(len(A1), -300.0), np.full(len(A1), 60.0)
     for _ in range(40):
         middle = (low + high) / 2
-        odds = np.exp2(middle)
-        left = end / (1 + odds)
-        gone = left * odds
+        ratio = np.exp2(middle)
+        left = end / (1 + ratio)
+        gone = left * ratio
         one, two, three = np.where(
             outside, (A1 + gone, A2 + gone, left), (A1 - least + left, A2 - least + left, B + gone)
         )
         reached = (A1 * P1 / one**2 + A2 * P2 / two**2 - B * Q / three**2 - 1 > 0) != outside
         low, high = np.where(reached, low, middle), np.where(reached, middle, high)
-    odds = np.exp2(low)
-    return np.asarray(np.where(outside, B, -least) * odds / (1 + odds))
+    ratio = np.exp2(low)
+    return np.asarray(np.where(outside, B, -least) * ratio / (1 + ratio))
 
 
 def _polished(pairs: _Pairs, X: Triple, at: Floats) -> tuple[Triple, Floats]:
-    """Newton's steps for r = 0 and h = 0 in float64, from a hint to a better one."""
+    """Improve the hint X, λ = `at` by Newton's steps for r = 0 and h = 0 in float64."""
     for _ in range(_STEPS):
         residual, n = _residual(pairs, X, at)
         adjugate, determinant = _adjugate(_matrix(pairs, at))
@@ -187,7 +198,10 @@ def _polished(pairs: _Pairs, X: Triple, at: Floats) -> tuple[Triple, Floats]:
 
 
 def _enclosed(pairs: _Pairs, X: Triple, at: Floats) -> tuple[DoubleDouble, Floats, Floats]:
-    """L, and bounds of sup φ's distance below and above it; inf where the bounds do not hold."""
+    """Compute L at X and λ = `at`, and how far below and above it the supremum of φ can be; inf if nothing is proved.
+
+    L and φ are those of the module's docstring: sup φ is the squared distance of the hyperboloid, in radii, less 1.
+    """
     _, _, b, d = pairs.sizes
     height, terms = _height(pairs, X)
     w = tuple(_subtracted(x, c) for x, c in zip(X, pairs.centre, strict=True))
@@ -220,7 +234,7 @@ def _enclosed(pairs: _Pairs, X: Triple, at: Floats) -> tuple[DoubleDouble, Float
 
 
 def _least_eigenvalue(pairs: _Pairs, at: Floats) -> Floats:
-    """A lower bound of the eigenvalues of M + λD, from the minors of a smaller matrix; 0 if these give none."""
+    """Return a lower bound of the eigenvalues of M + λD, from the minors of a smaller matrix; 0 if these give none."""
     matrix = _matrix(pairs, at)
     scale = pairs.thick + pairs.long + np.abs(at) * (pairs.D[0] - pairs.D[2])
     adjugate, determinant = _adjugate(matrix)
@@ -239,14 +253,14 @@ def _least_eigenvalue(pairs: _Pairs, at: Floats) -> Floats:
 
 
 def _matrix(pairs: _Pairs, at: Floats) -> tuple[Floats, ...]:
-    """The upper half of M + λD: 00, 01, 02, 11, 12, 22."""
+    """Return the upper half of M + λD: 00, 01, 02, 11, 12, 22."""
     v = pairs.axis
     excess, own = (pairs.long - pairs.thick) / dot(v, v), [pairs.thick + at * D for D in pairs.D]
     return tuple(excess * v[i] * v[j] + (own[i] if i == j else 0.0) for i in range(3) for j in range(i, 3))
 
 
 def _adjugate(matrix: tuple[Floats, ...]) -> tuple[tuple[Floats, ...], Floats]:
-    """The upper half of a symmetric matrix's adjugate, and its determinant."""
+    """Return the upper half of a symmetric matrix's adjugate, and its determinant."""
     g00, g01, g02, g11, g12, g22 = matrix
     a00, a01, a02 = g11 * g22 - g12 * g12, g02 * g12 - g01 * g22, g01 * g12 - g02 * g11
     adjugate = (a00, a01, a02, g00 * g22 - g02 * g02, g01 * g02 - g00 * g12, g00 * g11 - g01 * g01)
@@ -254,13 +268,13 @@ def _adjugate(matrix: tuple[Floats, ...]) -> tuple[tuple[Floats, ...], Floats]:
 
 
 def _times(matrix: tuple[Floats, ...], q: Triple) -> Triple:
-    """The product of a symmetric matrix, given by its upper half, and a vector."""
+    """Return the product of a symmetric matrix, given by its upper half, and a vector."""
     m00, m01, m02, m11, m12, m22 = matrix
     return dot((m00, m01, m02), q), dot((m01, m11, m12), q), dot((m02, m12, m22), q)
 
 
 def _residual(pairs: _Pairs, X: Triple, at: Floats) -> tuple[Triple, Triple]:
-    """r = M (X − C) + λ D X and n = D X."""
+    """Return r = M (X − C) + λ D X and n = D X."""
     offset, v = [x - c for x, c in zip(X, pairs.centre, strict=True)], pairs.axis
     square, along = dot(v, v), dot(v, offset)
     across = cross(v, cross(offset, v))
@@ -273,7 +287,7 @@ def _residual(pairs: _Pairs, X: Triple, at: Floats) -> tuple[Triple, Triple]:
 
 
 def _height(pairs: _Pairs, X: Triple) -> tuple[DoubleDouble, Floats]:
-    """h(X), and the sum of the magnitudes of its terms."""
+    """Return h(X), and the sum of the magnitudes of its terms."""
     alpha, gamma = pairs.sizes[0], pairs.sizes[1]
     x, y, z = (
         double_double.square(double_double.quotient_of_floats(coordinate, size))
@@ -284,16 +298,17 @@ def _height(pairs: _Pairs, X: Triple) -> tuple[DoubleDouble, Floats]:
 
 
 def _subtracted(first: Floats, second: Floats) -> DoubleDouble:
-    """The difference of two float64, exactly."""
+    """Return the difference of two float64, exactly."""
     zero = np.zeros_like(first)
     return double_double.subtract((first, zero), (second, zero))
 
 
 def _cross(v: tuple[DoubleDouble, ...], w: tuple[DoubleDouble, ...], k: int) -> DoubleDouble:
-    """A component of v × w."""
+    """Return a component of v × w."""
     i, j = (k + 1) % 3, (k + 2) % 3
     return double_double.subtract(double_double.multiply(v[i], w[j]), double_double.multiply(v[j], w[i]))
 
 
 def _sum_of_squares(numbers: list[DoubleDouble] | tuple[DoubleDouble, ...]) -> DoubleDouble:
+    """Return the sum of the squares of numbers."""
     return double_double.sum_of([double_double.square(number) for number in numbers])

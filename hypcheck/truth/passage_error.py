@@ -54,7 +54,7 @@ class SizeError:
 
 @lru_cache(_REMEMBERED)
 def passage_of(row: Row) -> Passage:
-    """The passage of a sweep; cached, because the truth is needed before and after the answers."""
+    """Return the passage of a sweep; cached, because the truth is needed before and after the answers."""
     return passage_of_row(row)
 
 
@@ -70,12 +70,12 @@ def hits(rows: Rows) -> Positions:
 
 
 def hits_at_size(row: Sequence[Rational], scale: Rational = 1) -> bool:
-    """Whether the row's sweep has contact with b and d multiplied by `scale` > 0: exact, monotone in `scale`."""
+    """Decide whether the row's sweep has contact with b and d multiplied by `scale` > 0: exact, monotone in `scale`."""
     return meets(sweep_of_row(row, scale))
 
 
 def size_error(row: Sequence[Rational], answer: bool) -> SizeError:
-    """The size error of an answer, exact to RELATIVE_WIDTH of itself."""
+    """Return the size error of an answer, exact to RELATIVE_WIDTH of itself."""
     truth = passage_of_row(row)
     if truth.hit == answer or truth.grazes:
         return SizeError(0.0, 0.0)
@@ -95,7 +95,7 @@ def size_error(row: Sequence[Rational], answer: bool) -> SizeError:
 
 
 def is_tolerated(row: Sequence[Rational], answer: bool, tolerance: Fraction) -> bool:
-    """Whether an answer is right for b and d both multiplied by 1 + tolerance, or for both by 1 − tolerance.
+    """Decide whether an answer is right for b and d both multiplied by 1 + tolerance, or for both by 1 − tolerance.
 
     By monotony it is enough to decide one of the two. If the tolerance is 1 or more, no smaller spheroid is left, so
     that the answer "no contact" is always tolerated.
@@ -106,7 +106,7 @@ def is_tolerated(row: Sequence[Rational], answer: bool, tolerance: Fraction) -> 
 
 
 def tolerance(row: Sequence[Rational], units: Rational, roundoff: Rational) -> Fraction:
-    """The relative change of b and d that covers relative changes of `units` roundoffs of each input.
+    """Return the relative change of b and d that covers relative changes of `units` roundoffs of each input.
 
     δ = units · roundoff, and the tolerance is δ K. Where an answer is right for inputs each of which is changed by δ of
     itself at most (the axis by δ of its length), it is right for b and d both multiplied by 1 + δ K, or both by
@@ -136,7 +136,7 @@ def tolerance(row: Sequence[Rational], units: Rational, roundoff: Rational) -> F
 
 
 def time_is_within(row: Sequence[Rational], time: Rational, change: Rational) -> bool:
-    """Whether a spheroid whose size differs by at most the share `change` can have its first contact at this time.
+    """Decide whether a spheroid of a size changed by at most `change` can have its first contact at this time.
 
     The time, from 0 to 1, is too early if the spheroid grown by `change` is clear up to it, and too late if the shrunk
     spheroid has contact before it; with a change of 1 no shrunk spheroid is left. Both are decided at times that differ
@@ -151,7 +151,7 @@ def time_is_within(row: Sequence[Rational], time: Rational, change: Rational) ->
 
 @lru_cache(_REMEMBERED)
 def time_is_tolerated(row: Row, time: float, units: Rational, roundoff: Rational) -> bool:
-    """Whether a time of first contact is right for sizes changed by the `tolerance`, on a sweep with contact.
+    """Decide whether a time of first contact is right for sizes changed by the `tolerance`, on a sweep with contact.
 
     Cached, because causes of wrong times need it again.
     """
@@ -163,13 +163,13 @@ def time_is_tolerated(row: Row, time: float, units: Rational, roundoff: Rational
 
 
 def radii_off(row: Row, time: float) -> float:
-    """The length of the sweep between a time and the first contact, in spheroid radii."""
+    """Return the length of the sweep between a time and the first contact, in spheroid radii."""
     result = passage_of(row)
     return max(result.first_lower - time, time - result.first_upper, 0.0) * sweep_in_radii(row)
 
 
 def sweep_in_radii(row: Row) -> float:
-    """The length of the sweep in spheroid radii; lengths along and across the spheroid's axis are in units of d and b.
+    """Return the length of the sweep in spheroid radii; along and across the spheroid's axis the units are d and b.
 
     Of an upright spheroid its square is (Δx² + Δy²)/b² + Δz²/d².
     """

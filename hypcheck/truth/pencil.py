@@ -58,14 +58,14 @@ class Cubic:
 
 
 def cubic(lengths: Lengths) -> Cubic:
-    """The cubic of equation (14) of the paper over the common denominator b² d²."""
+    """Return the cubic of equation (14) of the paper over the common denominator b² d²."""
     p, s, q, t = _squares(lengths)
     n3, n2, n1, n0 = cubic_coefficients(lengths, lengths.x, lengths.y, lengths.z)
     return Cubic(n3, n2, n1, n0, p, q, s, t)
 
 
 def cubic_coefficients(sizes: Lengths, x: Number, y: Number, z: Number) -> tuple[Number, ...]:
-    """n3, n2, n1, n0 for these sizes and a centre whose coordinates are any kind of number."""
+    """Return n3, n2, n1, n0 for these sizes and a centre whose coordinates are any kind of number."""
     p, s, q, t = _squares(sizes)
     radius, height = across_and_along(sizes, x, y, z)
     n2 = (p + q - radius) * t - (s + height) * q
@@ -73,7 +73,7 @@ def cubic_coefficients(sizes: Lengths, x: Number, y: Number, z: Number) -> tuple
 
 
 def across_and_along(sizes: Lengths, x: Number, y: Number, z: Number) -> tuple[Number, Number]:
-    """R and Z, the squares of a centre's parts across the hyperboloid's axis and along it."""
+    """Return R and Z, the squares of a centre's parts across the hyperboloid's axis and along it."""
     if sizes.upward == _VERTICAL:
         return x * x + y * y, z * z
     center, along = (x, y, z), dot((x, y, z), sizes.upward)
@@ -82,7 +82,7 @@ def across_and_along(sizes: Lengths, x: Number, y: Number, z: Number) -> tuple[N
 
 
 def side_of_center(lengths: Lengths) -> int:
-    """The sign of the hyperboloid's equation at the spheroid's centre: 1 outside, −1 inside, 0 on it."""
+    """Return the sign of the hyperboloid's equation at the spheroid's centre: 1 outside, −1 inside, 0 on it."""
     p, s, _, _ = _squares(lengths)
     R, Z = across_and_along(lengths, lengths.x, lengths.y, lengths.z)
     return sign_with_root(R * s - Z * p - p * s, 0, 0)
@@ -92,7 +92,7 @@ _VERTICAL = (0, 0, 1)
 
 
 def local_maximum(g: Cubic, bits: int) -> tuple[int, int]:
-    """The place of g's local maximum, which must exist, to about `bits` bits: top/bottom, bottom > 0."""
+    """Return the place of g's local maximum, which must exist, to about `bits` bits: top/bottom, bottom > 0."""
     h = g.n2 * g.n2 - 3 * g.n3 * g.n1
     shift = max(0, bits + 8 - h.bit_length() // 2)
     root, n2 = math.isqrt(h << 2 * shift), g.n2 << shift
@@ -128,7 +128,7 @@ class Quartic:
 
 
 def quartic(lengths: Lengths) -> Quartic:
-    """The quartic of a pair whose spheroid is neither upright nor a sphere."""
+    """Return the quartic of a pair whose spheroid is neither upright nor a sphere."""
     constants = _constants(lengths)
     p, s, q, *_, e0, e1, e2 = constants
     (f4, f3, f2, f1, f0), height = _quartic(lengths, constants, lengths.x, lengths.y, lengths.z)
@@ -138,12 +138,12 @@ def quartic(lengths: Lengths) -> Quartic:
 
 
 def quartic_coefficients(sizes: Lengths, x: Number, y: Number, z: Number) -> tuple[Number, ...]:
-    """The coefficients of F, for λ itself, for these sizes and this axis and a centre of any kind of number."""
+    """Return the coefficients of F, for λ itself, for these sizes and this axis and a centre of any kind of number."""
     return _quartic(sizes, _constants(sizes), x, y, z)[0]
 
 
 def second_factor(sizes: Lengths) -> tuple[int, int, int]:
-    """e0, e1, e2 of det(M + λD)'s second factor E = e0 + e1 λ − e2 λ², for λ itself."""
+    """Return e0, e1, e2 of det(M + λD)'s second factor E = e0 + e1 λ − e2 λ², for λ itself."""
     *_, e0, e1, e2 = _constants(sizes)
     return e0, e1, e2
 
@@ -155,7 +155,7 @@ _Constants = tuple[int, int, int, int, int, int, int, int, int, int]
 def _quartic(
     sizes: Lengths, constants: _Constants, x: Number, y: Number, z: Number
 ) -> tuple[tuple[Number, ...], Number]:
-    """The coefficients, and p s times the hyperboloid's equation at the centre, except for its constant."""
+    """Return the coefficients, and p s times the hyperboloid's equation at the centre, except for its constant."""
     p, s, q, t, V, g1, g2, e0, e1, e2 = constants
     R, Z = across_and_along(sizes, x, y, z)
     N2, T = _products(sizes, x, y, z)
@@ -168,6 +168,7 @@ def _quartic(
 
 
 def _constants(sizes: Lengths) -> _Constants:
+    """Compute the constants of F that do not depend on the centre."""
     p, s, q, t = _squares(sizes)
     W, c = across_and_along(sizes, *sizes.axis)
     V, g1, g2 = W + c, t * W + q * c, q * W + t * c
@@ -175,13 +176,13 @@ def _constants(sizes: Lengths) -> _Constants:
 
 
 def _squares(sizes: Lengths) -> tuple[int, int, int, int]:
-    """p, s, q, t."""
+    """Return p, s, q, t of the module's docstring, times w·w if the hyperboloid is tilted."""
     unit = dot(sizes.upward, sizes.upward)
     return sizes.alpha**2 * unit, sizes.gamma**2 * unit, sizes.b**2 * unit, sizes.d**2 * unit
 
 
 def _products(sizes: Lengths, x: Number, y: Number, z: Number) -> tuple[Number, Number]:
-    """N² and T."""
+    """Return N² and T of the module's docstring."""
     if sizes.upward == _VERTICAL:
         a, b, c = sizes.axis
         across = x * b - y * a
@@ -194,7 +195,7 @@ def _products(sizes: Lengths, x: Number, y: Number, z: Number) -> tuple[Number, 
 
 
 def slope_of_quotient(F: Quartic) -> Polynomial:
-    """A polynomial that has the sign of φ′ on (0, ℓ), the highest power first.
+    """Return a polynomial that has the sign of φ′ on (0, ℓ), the highest power first.
 
     φ is F over the determinant of M + λD, up to a positive factor, so that its slope has the sign of
     F′ K − F K′, K = (p ± q μ)(e0 + e1 μ − e2 μ²).
@@ -206,7 +207,7 @@ def slope_of_quotient(F: Quartic) -> Polynomial:
 
 
 def toward_maximum(F: Quartic) -> Iterator[Fraction]:
-    """Numbers μ > 0 that tend to the maximum of φ on (0, ℓ], by bisection; not all of them are < ℓ."""
+    """Yield numbers μ > 0 that tend to the maximum of φ on (0, ℓ], by bisection; not all of them are < ℓ."""
     slope = slope_of_quotient(F)
     largest = max(abs(coefficient) for coefficient in (*F.coefficients, *slope)).bit_length()
     low, high = Fraction(1, 2 << largest), Fraction(2 << largest)
@@ -220,12 +221,12 @@ def toward_maximum(F: Quartic) -> Iterator[Fraction]:
 
 
 def inside(F: Quartic, at: Fraction) -> bool:
-    """Whether 0 < at < ℓ."""
+    """Decide whether 0 < at < ℓ."""
     n, k = at.numerator, at.denominator
     before_first = F.side > 0 or F.q * n < F.p * k
     return n > 0 and before_first and F.e2 * n * n - F.e1 * n * k < F.e0 * k * k
 
 
 def rises(F: Quartic, slope: Polynomial, at: Fraction) -> bool:
-    """Whether `at` lies in (0, ℓ) before the maximum of φ, whose slope has this polynomial's sign."""
+    """Decide whether `at` lies in (0, ℓ) before the maximum of φ, whose slope has this polynomial's sign."""
     return inside(F, at) and sign_at(slope, at) > 0

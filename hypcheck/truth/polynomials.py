@@ -20,7 +20,7 @@ Interval = tuple[Fraction, Fraction]
 
 
 def value(f: Sequence[int], x: Fraction) -> int:
-    """f(x) times a positive number (the denominator of x to the power of f's degree)."""
+    """Return f(x) times a positive number, the denominator of x to the power of f's degree."""
     numerator, denominator = x.as_integer_ratio()
     result, scale = 0, 1
     for coefficient in f:
@@ -30,40 +30,40 @@ def value(f: Sequence[int], x: Fraction) -> int:
 
 
 def sign_at(f: Sequence[int], x: Fraction) -> int:
-    """The sign of f at x."""
+    """Return the sign of f at x."""
     return sign_of(value(f, x))
 
 
 def trimmed(f: Sequence[int]) -> Polynomial:
-    """The polynomial without leading zeros; () for 0."""
+    """Return the polynomial without leading zeros; () for 0."""
     first = next((place for place, coefficient in enumerate(f) if coefficient), len(f))
     return tuple(f[first:])
 
 
 def primitive(f: Sequence[int]) -> Polynomial:
-    """The polynomial without leading zeros and over the gcd of its coefficients, signs kept; () for 0."""
+    """Return the polynomial without leading zeros and over the gcd of its coefficients, signs kept; () for 0."""
     content = math.gcd(*f)  # never negative
     return tuple([coefficient // content for coefficient in trimmed(f)])
 
 
 def polynomial_sum(*terms: Sequence[int]) -> Polynomial:
-    """The sum of polynomials; leading zeros are kept."""
+    """Return the sum of polynomials; leading zeros are kept."""
     columns = itertools.zip_longest(*(term[::-1] for term in terms), fillvalue=0)
     return tuple(map(sum, columns))[::-1]
 
 
 def scaled(factor: int, f: Sequence[int]) -> Polynomial:
-    """The polynomial times a number."""
+    """Return the polynomial times a number."""
     return tuple([factor * coefficient for coefficient in f])
 
 
 def difference(f: Sequence[int], g: Sequence[int]) -> Polynomial:
-    """f − g, both with as many coefficients."""
+    """Return f − g; both have as many coefficients."""
     return tuple([a - b for a, b in zip(f, g, strict=True)])
 
 
 def polynomial_product(f: Sequence[int], g: Sequence[int]) -> Polynomial:
-    """The product of two polynomials."""
+    """Return the product of two polynomials."""
     if not f or not g:
         return ()
     result = [0] * (len(f) + len(g) - 1)
@@ -74,12 +74,12 @@ def polynomial_product(f: Sequence[int], g: Sequence[int]) -> Polynomial:
 
 
 def derivative(f: Sequence[int]) -> Polynomial:
-    """The derivative."""
+    """Return the derivative."""
     return tuple([part * power for part, power in zip(f, range(len(f) - 1, 0, -1), strict=False)])
 
 
 def remainder(f: Sequence[int], g: Sequence[int]) -> Polynomial:
-    """The remainder of f by g ≠ 0, times a positive number that leaves the coefficients coprime; () for 0."""
+    """Return the remainder of f by g ≠ 0, times a positive number that leaves the coefficients coprime; () for 0."""
     lead, sign = abs(g[0]), 1 if g[0] > 0 else -1
     rest = list(f)
     while len(rest) >= len(g):
@@ -90,7 +90,7 @@ def remainder(f: Sequence[int], g: Sequence[int]) -> Polynomial:
 
 
 def signed_chain(f: Polynomial, g: Polynomial) -> list[Polynomial]:
-    """f, g and the negated remainders of Euclid's algorithm, each up to a positive factor."""
+    """Return f, g and the negated remainders of Euclid's algorithm, each up to a positive factor."""
     chain = [f]
     while g:
         chain.append(primitive(g))
@@ -100,19 +100,19 @@ def signed_chain(f: Polynomial, g: Polynomial) -> list[Polynomial]:
 
 @lru_cache(maxsize=16)  # the roots of one polynomial are needed in several intervals
 def sturm_chain(f: Polynomial) -> tuple[Polynomial, ...]:
-    """f, f′ and the negated remainders of Euclid's algorithm, each up to a positive factor; the last is gcd(f, f′)."""
+    """Return f, f′ and the negated remainders of Euclid's algorithm, up to positive factors; the last is gcd(f, f′)."""
     return tuple(signed_chain(primitive(f), derivative(f)))
 
 
 def common_divisor(f: Polynomial, g: Polynomial) -> Polynomial:
-    """The greatest common divisor of two polynomials, up to a constant factor; () of twice 0."""
+    """Return the greatest common divisor of two polynomials, up to a constant factor; () of twice 0."""
     while g:
         f, g = g, remainder(f, g)
     return f
 
 
 def quotient(f: Polynomial, g: Polynomial) -> Polynomial:
-    """f over one of its factors, both primitive; in integers, by Gauss's lemma."""
+    """Divide f by one of its factors g, both primitive; in integers, by Gauss's lemma."""
     rest, quotient = list(f), []
     while len(rest) >= len(g):
         factor, left = divmod(rest[0], g[0])
@@ -128,7 +128,7 @@ def quotient(f: Polynomial, g: Polynomial) -> Polynomial:
 
 @lru_cache(maxsize=16)  # the roots of a polynomial are needed more than once
 def squarefree(f: Polynomial) -> Polynomial:
-    """The primitive polynomial with the roots of f, each of them simple."""
+    """Return the primitive polynomial with the roots of f, each of them simple."""
     f = primitive(f)
     if _coprime_in_a_field(f, derivative(f)):
         return f
@@ -140,7 +140,7 @@ _PRIME = 2**61 - 1
 
 
 def _coprime_in_a_field(f: Polynomial, g: Polynomial) -> bool:
-    """Whether f and g have no common factor modulo a prime that does not divide f's first coefficient.
+    """Decide whether f and g have no common factor modulo a prime that does not divide f's first coefficient.
 
     They have none in integers then: a common factor's first coefficient divides f's, so that it keeps its degree modulo
     the prime. The integers of Euclid's algorithm stay short here, however long the coefficients are.
@@ -160,12 +160,12 @@ def _coprime_in_a_field(f: Polynomial, g: Polynomial) -> bool:
 
 
 def linear_factor(root: Fraction) -> Polynomial:
-    """The primitive linear polynomial with this root."""
+    """Return the primitive linear polynomial with this root."""
     return (root.denominator, -root.numerator)
 
 
 def shifted_by_one(f: Sequence[int]) -> list[int]:
-    """The coefficients of f(s + 1), by Horner's scheme."""
+    """Return the coefficients of f(s + 1), by Horner's scheme."""
     shifted = list(f)
     for last in range(len(shifted) - 1, 0, -1):
         for place in range(1, last + 1):
@@ -174,7 +174,7 @@ def shifted_by_one(f: Sequence[int]) -> list[int]:
 
 
 def changes_between(g: Sequence[int]) -> int:
-    """The number of changes of sign in the coefficients of (1+s)^n g(1/(1+s)).
+    """Return the number of changes of sign in the coefficients of (1+s)^n g(1/(1+s)).
 
     t = 1/(1 + s) takes s in (0, ∞) to t in (0, 1). So by Descartes' rule g has this number of roots in (0, 1), or an
     even number fewer.
@@ -183,13 +183,13 @@ def changes_between(g: Sequence[int]) -> int:
 
 
 def halves(g: Sequence[int]) -> tuple[list[int], list[int]]:
-    """g between 0 and 1/2, and between 1/2 and 1, each as a polynomial on (0, 1)."""
+    """Return g between 0 and 1/2, and between 1/2 and 1, each as a polynomial on (0, 1)."""
     left = [number << power for power, number in enumerate(g)]
     return left, shifted_by_one(left)
 
 
 def separated(f: Sequence[int], most: int | None = None) -> Iterator[tuple[Fraction, Fraction, int]]:
-    """Intervals (low, high, count) that hold all roots of f in [0, 1], in any order, by halving (Collins and Akritas).
+    """Yield intervals (low, high, count) that hold all roots of f in [0, 1], unordered, by halving (Collins, Akritas).
 
     An open interval with one root, and without a root at its ends, has the count 1. A root x that is met is (x, x, 0).
     Intervals are halved `most` times at most: such a small one has the roots that the rule of signs counts, or an even
@@ -213,7 +213,7 @@ def separated(f: Sequence[int], most: int | None = None) -> Iterator[tuple[Fract
 
 
 def roots_from_0_to_1(f: Polynomial) -> list[Interval]:
-    """Disjoint enclosures of the roots of a primitive f in [0, 1], in order: open intervals, or (x, x) where x is met.
+    """Enclose the roots of a primitive f in [0, 1], in order: disjoint open intervals, or (x, x) where x is met.
 
     Neither end of an open interval is a root. Raises AssertionError for f = 0.
     """
@@ -225,7 +225,7 @@ def roots_from_0_to_1(f: Polynomial) -> list[Interval]:
 
 
 def _none_by_descartes(f: Polynomial) -> bool:
-    """Whether the rule of signs excludes a root in [0, 1]; False is undecided."""
+    """Decide whether the rule of signs excludes a root in [0, 1]; False is undecided."""
     return bool(f[-1]) and bool(sum(f)) and not changes_between(f)
 
 
@@ -246,7 +246,7 @@ UNIT_INTERVAL_WIDTH_BITS = 60
 
 
 def narrowed(f: Polynomial, low: Fraction, high: Fraction) -> Interval:
-    """An enclosure that roots_from_0_to_1 gave of a root of f, narrowed; (x, x) where the root x is met."""
+    """Return an enclosure that roots_from_0_to_1 gave of a root of f, narrowed; (x, x) where the root x is met."""
     f = squarefree(f)
     while (high - low) * 2**UNIT_INTERVAL_WIDTH_BITS > low:
         low, high = _halved(f, low, high)
@@ -254,7 +254,7 @@ def narrowed(f: Polynomial, low: Fraction, high: Fraction) -> Interval:
 
 
 def _halved(f: Polynomial, low: Fraction, high: Fraction) -> Interval:
-    """The half that holds the one root, a simple one, of an open interval; (x, x) where it is the middle x."""
+    """Return the half that holds the one root, a simple one, of an open interval; (x, x) where it is the middle x."""
     middle = (low + high) / 2
     sign = value(f, middle)
     if sign == 0:

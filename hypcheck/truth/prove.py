@@ -50,7 +50,7 @@ from hypcheck.truth.swept import Passage, by_roots, by_steps, reach, sweep_of_ro
 
 
 def prove(pair: Pair, decision: Decision | None = None) -> Certificate:
-    """A certificate for the exact answer about a pair; `decision` is this answer, if the caller already has it."""
+    """Make a certificate for the exact answer about a pair; `decision` is this answer, if the caller has it."""
     lengths = pair.lengths
     decision = decision or exact.decide(lengths)
     if pair.has_ends:
@@ -64,7 +64,7 @@ def prove(pair: Pair, decision: Decision | None = None) -> Certificate:
 
 
 def double_root(lengths: Lengths) -> Fraction:
-    """The double root of det(S + λH) of a tangency."""
+    """Return the double root of det(S + λH) of a tangency."""
     if not lengths.is_upright:
         F = quartic(lengths)
         return exact.double_root(F) * F.side
@@ -74,7 +74,7 @@ def double_root(lengths: Lengths) -> Fraction:
 
 
 def _cubic_multiplier(g: Cubic) -> Fraction:
-    """The local maximum of g, rounded to the fewest bits at which g stays positive; their number is a power of two."""
+    """Round the local maximum of g to the fewest bits at which g stays positive; their number is a power of two."""
     for bits in precisions():
         at = rounded(Fraction(*local_maximum(g, bits)), bits)
         # Below 0, g > 0 means λ > −A: g(−A) ≤ 0, and g rises up to there.
@@ -84,7 +84,7 @@ def _cubic_multiplier(g: Cubic) -> Fraction:
 
 
 def _quartic_multiplier(F: Quartic) -> Fraction:
-    """A λ between 0 and ℓ at which F is positive, rounded to the fewest bits; their number is a power of two."""
+    """Return a λ between 0 and ℓ at which F is positive, rounded to the fewest bits; their number is a power of two."""
     multiplier = next(at for at in toward_maximum(F) if inside(F, at) and sign_at(F.coefficients, at) > 0)
     for bits in precisions():
         at = rounded(multiplier, bits)
@@ -97,7 +97,7 @@ _WALL_BITS = (8, 24, 64, 160)
 
 
 def _prove_beside_ends(pair: Pair, position: Position) -> Certificate:
-    """A certificate for this position, the exact one, beside a hyperboloid that ends.
+    """Return a certificate for this position, the exact one, beside a hyperboloid that ends.
 
     For a touch, and for a crossing that floats do not find, it has only the position: see certificate.py.
     """
@@ -113,7 +113,7 @@ def _prove_beside_ends(pair: Pair, position: Position) -> Certificate:
 
 
 def _wall_pieces(pair: Pair) -> Iterator[Piece]:
-    """Pieces of [z_min, z_max] that prove that the wall, or a solid body, is missed."""
+    """Yield pieces of [z_min, z_max] that prove that the wall, or a solid body, is missed."""
     S, H = surfaces(pair)
     sections = Sections.of(pair.lengths)
     unit = Fraction(pair.lengths.d) / Fraction(pair.d)
@@ -136,30 +136,31 @@ def _wall_pieces(pair: Pair) -> Iterator[Piece]:
 
 
 def _end(height: float, otherwise: Fraction) -> Fraction:
+    """Return a finite height as a fraction, else `otherwise`."""
     return Fraction(height) if math.isfinite(height) else otherwise
 
 
 def _half_height_squared(pair: Pair) -> Fraction:
-    """The square of the spheroid's half height."""
+    """Return the square of the spheroid's half height."""
     b, d, v = Fraction(pair.b), Fraction(pair.d), [Fraction(part) for part in pair.axis]
     return b * b + (d * d - b * b) * v[2] * v[2] / sum((part * part for part in v), Fraction(0))
 
 
 def _beyond_reach(pair: Pair) -> tuple[Fraction, Fraction]:
-    """Heights below the lowest and above the highest point of the spheroid."""
+    """Return heights below the lowest and above the highest point of the spheroid."""
     half = rounded(root_of(_half_height_squared(pair), 16, upward=True) * Fraction(9, 8), 8)
     return Fraction(pair.z) - half, Fraction(pair.z) + half
 
 
 def _outside(pair: Pair, low: Fraction | None, high: Fraction | None) -> Piece:
-    """The piece above `low`, or below `high`, which the spheroid does not reach: λ is 0."""
+    """Return the piece above `low`, or below `high`, which the spheroid does not reach: λ is 0."""
     z = Fraction(pair.z)
     away = z - high if high is not None else (low or Fraction(0)) - z
     return Piece(low, high, Fraction(0), rounded(2 * away / _half_height_squared(pair), 16))
 
 
 def _tried(S: Matrix, H: Matrix, heights: tuple[Fraction, Fraction], at: Fraction, *, solid: bool) -> Iterator[Piece]:
-    """The proved pieces with this λ, rounded to more and more bits."""
+    """Yield the proved pieces with this λ, rounded to more and more bits."""
     low, high = heights
     for bits in _WALL_BITS:
         multiplier = rounded(at, bits) if at else at
@@ -176,7 +177,7 @@ def _tried(S: Matrix, H: Matrix, heights: tuple[Fraction, Fraction], at: Fractio
 
 
 def _least_at_height(S: Matrix, H: Matrix, at: Fraction) -> tuple[Fraction, Fraction, Fraction] | None:
-    """A, B, C; None if e + λh is not convex in horizontal planes."""
+    """Return A, B, C of the module's docstring; None if e + λh is not convex in horizontal planes."""
     rows = pencil(S, H, at)
     for i in (0, 1):
         if rows[i][i] <= 0:
@@ -217,7 +218,7 @@ _MOST_BITS = 1 << 12
 
 
 def prove_passage(row: Sequence[float]) -> tuple[Passage, Bounds | None, PassageCertificate]:
-    """The passage of the row's sweep, bounds of the first contact (None if there is none), and the proof of both.
+    """Prove the passage of a row's sweep: return it, bounds of the first contact (None without one), and the proof.
 
     Raises ValueError if the only contact is at an irrational time.
     """
@@ -237,7 +238,7 @@ def prove_passage(row: Sequence[float]) -> tuple[Passage, Bounds | None, Passage
 
 
 def _time_of_contact(sweep: StraightSweep, passage: Passage) -> Fraction:
-    """A rational time of contact up to first_upper; if the sweep only touches, the simplest possible number."""
+    """Return a rational time of contact up to first_upper; if the sweep only touches, the simplest possible number."""
     low, high = passage.first or (Fraction(0), Fraction(0))
     upper = Fraction(passage.first_upper)
     for time in (upper, high, low, simplest(low, high)):
@@ -247,7 +248,7 @@ def _time_of_contact(sweep: StraightSweep, passage: Passage) -> Fraction:
 
 
 def simplest(low: Fraction, high: Fraction) -> Fraction:
-    """The fraction with the least denominator from low to high, both ≥ 0, by continued fractions."""
+    """Return the fraction with the least denominator from low to high, both ≥ 0, by continued fractions."""
     whole = math.floor(low)
     if whole == low:
         return low
@@ -257,7 +258,7 @@ def simplest(low: Fraction, high: Fraction) -> Fraction:
 
 
 def _pieces(sweep: StraightSweep, until: Fraction) -> tuple[tuple[Fraction, Fraction], ...]:
-    """Pieces of a sweep that is clear up to a time, that time included."""
+    """Return pieces of a sweep that is clear up to a time, that time included."""
     time = Fraction(0)
     pieces: list[tuple[Fraction, Fraction]] = []
     while time < until:
@@ -271,7 +272,7 @@ def _pieces(sweep: StraightSweep, until: Fraction) -> tuple[tuple[Fraction, Frac
 
 
 def _multiplier(sweep: StraightSweep, time: Fraction) -> tuple[Fraction, Fraction | None]:
-    """The first multiplier that proves a time clear, or the next one if it reaches farther; and the time it reaches."""
+    """Return the first multiplier that proves a time clear, or the next if it reaches farther; and how far it does."""
     best: tuple[Fraction, Fraction | None] | None = None
     for number, multiplier in enumerate(sweep.multipliers(time)):
         if best is not None and number >= _FEW:
@@ -292,7 +293,7 @@ def _multiplier(sweep: StraightSweep, time: Fraction) -> tuple[Fraction, Fractio
 
 
 def _points(row: Sequence[float], sweep: StraightSweep, time: Fraction) -> tuple[Point, ...]:
-    """The centre and a point of the spheroid strictly on the other side, cut to as few bits as possible."""
+    """Return the centre and a point of the spheroid strictly on the other side, cut to as few bits as possible."""
     here = place(row, time)
     points = crossing.points(here, sweep.at(time))
     if len(points) == 1:

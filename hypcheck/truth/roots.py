@@ -122,7 +122,7 @@ _EXPONENT = ("", "", "²", "³")
 
 
 def pattern_of(places: Iterable[tuple[RootPlace, int]]) -> str:
-    """The entry of PATTERNS for the real roots of a cubic, given as places and multiplicities in ascending order."""
+    """Write the entry of PATTERNS for the real roots of a cubic, ascending places and multiplicities."""
     roots = [(place.value, multiplicity) for place, multiplicity in places]
     pair = f" {COMPLEX}" if sum(multiplicity for _, multiplicity in roots) == 1 else ""
     return word_of(roots) + pair
@@ -134,7 +134,7 @@ def word_of(roots: Iterable[tuple[str, int]]) -> str:
 
 
 def of_both_sides(below: Roots, above: Roots) -> list[tuple[RootPlace, int]]:
-    """The roots of an upright pair in ascending order, from the roots below and above 0."""
+    """Return the roots of an upright pair in ascending order, from the roots below and above 0."""
     return [(_BELOW[place], times) for place, times in reversed(below)] + [
         (_ABOVE[place], times) for place, times in above
     ]
@@ -151,7 +151,7 @@ def same_signs(pattern: str, possible: Iterable[Kind]) -> tuple[Kind, ...]:
 
 
 def _signs(pattern: str) -> tuple[str, ...]:
-    """The signs and multiplicities of a pattern, without places: "(0,B) B²" and "(0,B)² >B" both become ("+", "+²")."""
+    """Reduce a pattern to signs and multiplicities: "(0,B) B²" and "(0,B)² >B" both become ("+", "+²")."""
     signs = []
     for word in pattern.split():
         place = word.rstrip("²³")
@@ -201,7 +201,7 @@ class Invariants:
 
     @classmethod
     def of(cls, pair: Pair) -> Invariants:
-        """The invariants of a pair, exactly."""
+        """Return the invariants of a pair, exactly."""
         lengths = pair.lengths
         q, t = lengths.b**2, lengths.d**2
         return cls(
@@ -213,7 +213,7 @@ class Invariants:
 
 
 def classify_by_roots(pair: Pair) -> RootReport:
-    """The position of a pair by the roots, and the kind of an upright one.
+    """Return the position of a pair by the roots, and the kind of an upright one.
 
     Raises AssertionError, naming the pair, if the pattern is not in the table: an error of this program.
     """
@@ -226,7 +226,7 @@ def classify_by_roots(pair: Pair) -> RootReport:
 
 
 def classify_invariants(pair: Invariants) -> RootReport:
-    """As classify_by_roots, for an upright pair given by its invariants, which need not come from float64 numbers."""
+    """Classify an upright pair given by its invariants, which need not come from float64 numbers, by its roots."""
     roots = _upright_roots(pair)
     pattern = pattern_of(of_both_sides(*roots))
     occurs = _occurs(pair)
@@ -246,6 +246,7 @@ def classify_invariants(pair: Invariants) -> RootReport:
 
 
 def _position(roots_below: Roots, roots_above: Roots) -> RootReport:
+    """Return the report of a pair with these roots. Raises AssertionError for an impossible pattern."""
     below, above = word_of(roots_below), word_of(roots_above)
     sides = MEANING.get(below), MEANING.get(above)
     if None in sides or sides.count(Side.NEITHER) == 0:
@@ -257,7 +258,7 @@ def _position(roots_below: Roots, roots_above: Roots) -> RootReport:
 
 
 def _occurs(pair: Invariants) -> dict[str, bool]:
-    """The conditions in Kind.occurs that hold: a < 1 ⟺ A < 1, and c² < a ⟺ B² < A."""
+    """Decide which conditions of Kind.occurs hold: a < 1 ⟺ A < 1, and c² < a ⟺ B² < A."""
     square = pair.B**2
     return {
         "always": True,
@@ -270,7 +271,7 @@ def _occurs(pair: Invariants) -> dict[str, bool]:
 
 
 def coefficients(pair: Invariants) -> Polynomial:
-    """A positive multiple of g in coprime integers, from the definition.
+    """Return a positive multiple of g in coprime integers, from the definition.
 
     g(λ) = (A + λ)(B − λ)(P + Q − 1 − λ) − A P (B − λ) − B Q (A + λ), here with A = p/q, P = R/q, B = s/t, Q = S/t and
     multiplied by q² t².
@@ -286,16 +287,17 @@ def coefficients(pair: Invariants) -> Polynomial:
 
 
 def real_roots(pair: Invariants) -> list[tuple[RootPlace, int]]:
-    """The places and multiplicities of the distinct real roots of the cubic, in ascending order."""
+    """Return the places and multiplicities of the distinct real roots of the cubic, in ascending order."""
     return of_both_sides(*_upright_roots(pair))
 
 
 def _upright_roots(pair: Invariants) -> tuple[Roots, Roots]:
+    """Return the roots of an upright pair's cubic below and above 0, outward."""
     return roots_outward(coefficients(pair), linear_factor(-pair.A), linear_factor(pair.B))
 
 
 def characteristic(lengths: Lengths) -> Polynomial:
-    """A positive multiple of det(S + λH), λ in a positive unit of its own, primitive."""
+    """Return a positive multiple of det(S + λH), λ in a positive unit of its own, primitive."""
     S, H = _matrices(lengths)
     return _pencil(S, H)
 
@@ -339,6 +341,7 @@ def _pencil(S: list[list[int]], H: list[int]) -> Polynomial:
 
 
 def _determinant(matrix: list[list[int]]) -> int:
+    """Return the determinant, by expansion along the first row."""
     if not matrix:
         return 1
     return sum(
@@ -349,7 +352,7 @@ def _determinant(matrix: list[list[int]]) -> int:
 
 
 def roots_outward(f: Polynomial, below: Polynomial, above: Polynomial) -> tuple[Roots, Roots]:
-    """The real roots of f below and above 0, outward, in order with L and R.
+    """Return the real roots of f below and above 0, outward, in order with L and R.
 
     L and R are roots of `below` and of `above`, which are linear, or quadratic with a root on either side of 0.
     """
@@ -358,7 +361,7 @@ def roots_outward(f: Polynomial, below: Polynomial, above: Polynomial) -> tuple[
 
 
 def _side(factors: Sequence[tuple[Polynomial, int]], end: Polynomial, side: int) -> Roots:
-    """The roots on one side of 0, outward, in order with the root of `end` on that side.
+    """Return the roots on one side of 0, outward, in order with the root of `end` on that side.
 
     The changes of sign in a Sturm chain fall by the number of its roots in (low, high], also where high is one.
     """
@@ -379,7 +382,7 @@ def _side(factors: Sequence[tuple[Polynomial, int]], end: Polynomial, side: int)
 
 
 def _sign(f: Polynomial, g: Polynomial, side: int = 1) -> int:
-    """The sign of f at the root of a linear g, or at the quadratic g's root that is on this side of its other root."""
+    """Return the sign of f at the root of a linear g, or at the one root of a quadratic g on this side of the other."""
     linear, constant = (0, 0, *remainder(f, g))[-2:]
     if len(g) == 2:
         return sign_of(constant)
@@ -388,7 +391,7 @@ def _sign(f: Polynomial, g: Polynomial, side: int = 1) -> int:
 
 
 def _factors(f: Polynomial) -> Iterator[tuple[Polynomial, int]]:
-    """Squarefree factors of f and how often it has their roots; the first is of the simple ones, (1,) for none."""
+    """Yield squarefree factors of f and how often f has their roots; the first has the simple ones, (1,) for none."""
     layers = [*_layers(f), (1,)]
     for times, (layer, beyond) in enumerate(pairwise(layers), 1):
         exactly = quotient(layer, beyond)
@@ -397,7 +400,7 @@ def _factors(f: Polynomial) -> Iterator[tuple[Polynomial, int]]:
 
 
 def _layers(f: Polynomial) -> Iterator[Polynomial]:
-    """Squarefree polynomials, the k-th with the roots that f has k times at least: of f, gcd(f, f′), and so on."""
+    """Yield squarefree polynomials, the k-th with the roots that f has k times or more: of f, gcd(f, f′), and so on."""
     while len(f) > 1:
         yield squarefree(f)
         common = sturm_chain(f)[-1]

@@ -60,11 +60,11 @@ Height = int | None
 
 @dataclass(frozen=True, slots=True)
 class Sections:
-    """The sections by horizontal planes: polynomials in the height w √U, each up to a positive factor.
+    """The sections by horizontal planes: polynomials in the variable w √U, w a height, each up to a positive factor.
 
-    `cubic` is c3, c2, c1, c0. `above` is the height over the spheroid's centre. `inside` is k, ≥ 0 where the plane
-    meets the spheroid. `off` is η² + ξ² − r², ≤ 0 where the ellipse's centre lies in the circle. `unit` is U.
-    The λ of S + λH is (ν − `pole`)/`scale`.
+    The letters are those of the module's docstring. `cubic` is c3, c2, c1, c0. `above` is the height over the
+    spheroid's centre. `inside` is k, ≥ 0 where the plane meets the spheroid. `off` is η² + ξ² − r², ≤ 0 where the
+    ellipse's centre lies in the circle. `unit` is U. The λ of S + λH is (ν − `pole`)/`scale`.
     """
 
     cubic: tuple[Polynomial, Polynomial, Polynomial, Polynomial]
@@ -77,7 +77,7 @@ class Sections:
 
     @classmethod
     def of(cls, lengths: Lengths, *, over_content: bool = True) -> Sections:
-        """The sections of a pair; `over_content`: the four coefficients of g over their greatest common divisor.
+        """Make the sections of a pair; with `over_content` the coefficients of g are divided by their common divisor.
 
         Without that, their values at a height are polynomials in the coordinates of the spheroid's centre.
         """
@@ -104,11 +104,11 @@ class Sections:
         return cls(cubic, above, k, _off(A1, eta, xi, m1, m2), U, min(m1, m2), Fraction(q * m1, p))
 
     def sign(self, f: Polynomial, height: int | Fraction) -> int:
-        """The sign of a polynomial at a height."""
+        """Return the sign of a polynomial at a height."""
         return sign_with_root(*self.value(f, height), self.unit)
 
     def value(self, f: Polynomial, height: int | Fraction) -> tuple[int | Fraction, int | Fraction]:
-        """The value u + v √U of a polynomial at a height: u, v."""
+        """Return u and v of the value u + v √U of a polynomial at a height."""
         even: int | Fraction = 0
         odd: int | Fraction = 0
         for place, coefficient in enumerate(reversed(f)):
@@ -117,42 +117,45 @@ class Sections:
         return even, odd
 
     def multiplier(self, height: Fraction) -> Fraction:
-        """Approximately the λ at which S + λH is greatest on the plane at this height; U is 1."""
+        """Return approximately the λ at which φ is greatest for the plane at this height; U is 1.
+
+        It is the λ of S + λH.
+        """
         c3, c2, c1, _ = (_value(c, height) for c in self.cubic)
         inner = c2 * c2 - 3 * c3 * c1
         top = (c2 + root_of(inner, 64)) / (-3 * c3) if inner > 0 else c2 / (-3 * c3)
         return (top - self.pole) / self.scale
 
     def circle_misses(self, height: int | Fraction) -> bool:
-        """Whether the circle at this height and the spheroid have no point in common."""
+        """Decide whether the circle at this height and the spheroid have no point in common."""
         _, c2, c1, c0 = (self.sign(c, height) for c in self.cubic)
         if max(c2, c1) <= 0:
             return False
         return c0 == c1 == 0 or self.sign(discriminant(self.cubic), height) > 0
 
     def disc_misses(self, height: int) -> bool:
-        """Whether the disc within that circle and the spheroid have no point in common."""
+        """Decide whether the disc within the circle at this height and the spheroid have no point in common."""
         return self.circle_misses(height) and (self.sign(self.inside, height) < 0 or self.sign(self.off, height) > 0)
 
     def disc_crosses(self, height: int) -> bool:
-        """Whether points of the disc, not all on its rim, lie inside the spheroid."""
+        """Decide whether points of the disc at this height, not all on its rim, lie inside the spheroid."""
         return self.sign(self.inside, height) > 0 and self.sign(self.off, height) < 0
 
     @property
     def reach(self) -> tuple[int, int]:
-        """Values of the variable, w √U, between which the spheroid lies."""
+        """Two integers between which the variable w √U lies at all heights w of the spheroid."""
         (_, center), (leading, _, last) = self.above, self.inside
         half = math.isqrt((last * -leading + (leading * center) ** 2) // leading**2) + 1
         return -center - half, half - center
 
     @property
     def reach_in_heights(self) -> tuple[int, int]:
-        """Heights between which the spheroid lies."""
+        """Two integers between which all heights of the spheroid lie."""
         first, last = self.reach
         return _floor_of_quotient(first, self.unit), -_floor_of_quotient(-last, self.unit)
 
     def between(self, low: Height, high: Height) -> tuple[int, int]:
-        """Values of the variable, between which all common points of the spheroid and the wall lie."""
+        """Return integers between which the variable w √U lies at all common points of the spheroid and the wall."""
         first, last = self.reach
         if low is not None:
             first = max(first, _floor_of_multiple(low, self.unit))
@@ -161,7 +164,7 @@ class Sections:
         return first, last
 
     def wall_misses(self, low: Height, high: Height) -> bool:
-        """Whether the wall between two heights and the spheroid have no point in common."""
+        """Decide whether the wall between two heights and the spheroid have no point in common."""
         if not all(self.circle_misses(height) for height in (low, high) if height is not None):
             return False
         _, c2, c1, c0 = self.cubic
@@ -180,7 +183,7 @@ class Sections:
         return 2 * roots == sum(self.roots(chain, low, high) for chain in chains)
 
     def wall_crosses(self, low: int, high: int) -> bool:
-        """Whether points of the wall between two heights lie strictly inside the spheroid.
+        """Decide whether points of the wall between two heights lie strictly inside the spheroid.
 
         Between two roots next to each other of the critical polynomial the least e of the circles keeps its sign: one
         height in each gap is asked, and the two ends, for the gaps that they cut.
@@ -207,23 +210,22 @@ class Sections:
         return squarefree(discriminant(self.cubic) if c0 or c1 else c2)
 
     def roots(self, chain: Sequence[Polynomial], low: Height | Fraction, high: Height | Fraction) -> int:
-        """The number of roots of f from `low` to `high`, by the Sturm chain of (f, f′).
+        """Count the roots of a polynomial f from `low`, which is left out, to `high`, by its Sturm chain.
 
-        For the chain of (f, f′ h) it is the sum of the signs of h at these roots.
-
-        `low` itself is left out, f has simple roots. Where `low` or `high` is one of them, h must be > 0 there.
+        f has only simple roots, and `chain` begins with f, f′. If it begins with f, f′ h, the result is the sum of the
+        signs of h at these roots; h must be > 0 at `low` and `high` if these are roots.
         """
         return self._changes(chain, low, -1) - self._changes(chain, high, 1)
 
     def _changes(self, chain: Sequence[Polynomial], height: Height | Fraction, far: int) -> int:
-        """The number of sign changes in the chain at a height, or at −∞ or ∞."""
+        """Return the number of sign changes in the chain at a height, or at −∞ or ∞."""
         if height is None:
             return changes_of_sign(f[0] * (far if len(f) % 2 == 0 else 1) for f in chain)
         return changes_of_sign(self.sign(f, height) for f in chain)
 
 
 def position(pair: Pair) -> Position:
-    """The exact position of a pair: whether some horizontal plane cuts both surfaces where they meet."""
+    """Return the exact position of a pair: whether some horizontal plane cuts both surfaces where they meet."""
     lengths = pair.lengths
     sections, ends = Sections.of(lengths), [end for end in (lengths.low, lengths.high) if end is not None]
     if not sections.wall_misses(lengths.low, lengths.high):
@@ -237,7 +239,7 @@ def position(pair: Pair) -> Position:
 
 
 def discriminant(cubic: tuple[Polynomial, Polynomial, Polynomial, Polynomial]) -> Polynomial:
-    """Δ of the cubic in ν, except for a constant factor > 0."""
+    """Return the discriminant Δ of the cubic in ν, except for a constant factor > 0."""
     c3, c2, c1, c0 = cubic
     outer, inner = polynomial_product(c3, c1), polynomial_product(c2, c2)
     rest = _sum(inner, scaled(-4, outer))
@@ -255,7 +257,7 @@ def discriminant(cubic: tuple[Polynomial, Polynomial, Polynomial, Polynomial]) -
 def _shifted(
     A0: Polynomial, A1: Polynomial, eta: Polynomial, xi: Polynomial, m1: int, m2: int
 ) -> tuple[Polynomial, Polynomial, Polynomial, Polynomial]:
-    """The coefficients of −(A0 + κ A1)(m1 + κ)(m2 + κ) + κ eta (m2 + κ) + κ xi (m1 + κ) in ν = κ + min(m1, m2)."""
+    """Expand −(A0 + κ A1)(m1 + κ)(m2 + κ) + κ eta (m2 + κ) + κ xi (m1 + κ) in ν = κ + min(m1, m2); return c3 to c0."""
     m, gap = min(m1, m2), abs(m2 - m1)
     first, second = (eta, xi) if m1 <= m2 else (xi, eta)
     at_least = _sum(A0, scaled(-m, A1))
@@ -265,21 +267,24 @@ def _shifted(
 
 
 def _off(A1: Polynomial, eta: Polynomial, xi: Polynomial, m1: int, m2: int) -> Polynomial:
+    """Return η² + ξ² − r², up to a positive factor: `off` of Sections."""
     return primitive(_sum(scaled(m2, eta), scaled(m1, xi), scaled(-m1 * m2, A1)))
 
 
 def _over_content(*polynomials: Polynomial) -> tuple[Polynomial, Polynomial, Polynomial, Polynomial]:
-    """Four polynomials over the greatest number that divides all coefficients."""
+    """Divide four polynomials by the greatest number that divides all coefficients."""
     content = math.gcd(*(coefficient for f in polynomials for coefficient in f))
     c3, c2, c1, c0 = (tuple(coefficient // content for coefficient in f) for f in polynomials)
     return c3, c2, c1, c0
 
 
 def _sum(*terms: Polynomial) -> Polynomial:
+    """Add polynomials, without leading zeros."""
     return trimmed(polynomial_sum(*terms))
 
 
 def _value(f: Polynomial, at: Fraction) -> Fraction:
+    """Return f(at)."""
     total = Fraction(0)
     for coefficient in f:
         total = total * at + coefficient
@@ -287,7 +292,7 @@ def _value(f: Polynomial, at: Fraction) -> Fraction:
 
 
 def _floor_of_multiple(number: int, unit: int) -> int:
-    """number √unit, rounded down."""
+    """Return number √unit, rounded down."""
     if unit == 1:
         return number
     root = math.isqrt(number * number * unit)
@@ -295,7 +300,7 @@ def _floor_of_multiple(number: int, unit: int) -> int:
 
 
 def _floor_of_quotient(number: int, unit: int) -> int:
-    """number/√unit, rounded down."""
+    """Return number/√unit, rounded down."""
     root = math.isqrt(number * number // unit)
     return root if number >= 0 else -root - 1
 
@@ -305,7 +310,7 @@ MOST_HALVINGS = 8
 
 
 def has_root(f: Polynomial, low: int, high: int) -> bool | None:
-    """Whether f has a root between two numbers low < high that are no roots; None if Descartes' rule cannot decide."""
+    """Decide whether f has a root between low < high, which are no roots; None if Descartes' rule cannot decide."""
     first = next(separated(_coefficients_between(f, low, high), MOST_HALVINGS), None)
     if first is None:
         return False
@@ -313,7 +318,7 @@ def has_root(f: Polynomial, low: int, high: int) -> bool | None:
 
 
 def _coefficients_between(f: Polynomial, low: int, high: int) -> list[int]:
-    """The coefficients of f(low + (high − low) s), the highest power of s first."""
+    """Return the coefficients of f(low + (high − low) s), the highest power of s first."""
     shifted = list(f)
     for last in range(len(f) - 1, 0, -1):  # Horner's scheme, from powers of x to powers of x − low
         for place in range(1, last + 1):

@@ -110,21 +110,21 @@ class StraightSweep:
         return self.start.is_upright
 
     def at(self, time: Fraction) -> Lengths:
-        """The pair at a rational time."""
+        """Return the pair at a rational time."""
         u, v, w = (part * time.numerator for part in self.step)
         return self.start.finer(time.denominator, (u, v, w))
 
     def until(self, time: Fraction) -> StraightSweep:
-        """The part of the sweep from its start to a rational time."""
+        """Return the part of the sweep from its start to a rational time."""
         u, v, w = (part * time.numerator for part in self.step)
         return StraightSweep(self.start.finer(time.denominator), (u, v, w))
 
     def position(self, time: Fraction) -> Position:
-        """The exact position at a rational time."""
+        """Return the exact position at a rational time."""
         return exact.position(self.at(time))
 
     def tangent(self, time: Fraction) -> bool:
-        """Whether the surfaces are tangent at a rational time."""
+        """Decide whether the surfaces are tangent at a rational time."""
         return exact.decide(self.at(time)).tangent
 
     @cached_property
@@ -136,11 +136,11 @@ class StraightSweep:
         return tuple(map(_polynomial, coefficients(here, *centre)))
 
     def multipliers(self, time: Fraction) -> Iterator[Fraction]:
-        """Better and better λ for a time at which the spheroid is clear; from some λ on all prove it."""
+        """Return better and better λ for a time at which the spheroid is clear; from some λ on all prove it."""
         return _at_local_maximum(self.at(time)) if self.is_upright else _at_maximum(quartic(self.at(time)))
 
     def critical(self) -> Polynomial:
-        """A polynomial in t, not 0, with a root wherever the position beside the whole hyperboloid changes, primitive.
+        """Return a primitive polynomial in t, not 0, with a root wherever the position without ends changes.
 
         It is the discriminant of F. For an upright sweep this is not 0 for every t (docs/motion.md); if it is for a
         tilted sweep, another polynomial replaces it.
@@ -148,12 +148,12 @@ class StraightSweep:
         return self.discriminant() or self._where_always_double()
 
     def discriminant(self) -> Polynomial:
-        """The discriminant of F, primitive: 0 wherever the surfaces, both without ends, are tangent; () if always."""
+        """Return the primitive discriminant of F: 0 wherever the surfaces, without ends, are tangent; () if always."""
         discriminant = exact.cubic_discriminant if self.is_upright else exact.quartic_discriminant
         return primitive(discriminant(*map(InTime, self.pencil)).f)
 
     def root_changes(self) -> Polynomial:
-        """A polynomial in t, not 0, that is 0 wherever F has fewer different roots than at most times, primitive.
+        """Return a primitive polynomial in t, not 0, that is 0 wherever F has fewer different roots than at most times.
 
         It is the discriminant; if F always has a multiple root, it is the next subresultant of F and F′ that is not
         always 0.
@@ -170,7 +170,7 @@ class StraightSweep:
         return primitive(three.f) or primitive((b * b * 3 - a * c * 8).f) or (1,)
 
     def touches(self, critical: Polynomial, time: Interval, side: Position) -> bool:
-        """Whether a root of the critical polynomial is a contact, where both its sides have the same clear position.
+        """Decide whether a root of the critical polynomial is a contact, if both sides have the same clear position.
 
         The ring of an upright spheroid needs the height 0. If the height varies, this is one rational time. If it is
         always 0, the position depends monotonically on the distance from the axis only, so that only the root at the
@@ -190,7 +190,7 @@ class StraightSweep:
         return bool(height or rise)
 
     def _where_always_double(self) -> Polynomial:
-        """The times at which the position changes where F always has a multiple root.
+        """Return the times at which the position changes where F always has a multiple root.
 
         Where some position is clear, that root is ℓ towards interior all along, and the position is interior where
         F″(ℓ) > 0, else a tangency. The polynomial is F″(ℓ) times its conjugate. If no position is clear, all is
@@ -220,7 +220,7 @@ class StraightSweep:
 
 
 def norm_of(f: Sequence[Any]) -> Polynomial:
-    """A primitive polynomial that is 0 wherever one with coefficients in a quadratic field is; () if that is always.
+    """Return a primitive polynomial that is 0 wherever f, with coefficients in a quadratic field, is; () if always.
 
     It is the product with the conjugate, unless all coefficients are rational.
     """
@@ -230,7 +230,7 @@ def norm_of(f: Sequence[Any]) -> Polynomial:
 
 
 def _at_local_maximum(lengths: Lengths) -> Iterator[Fraction]:
-    """The local maximum of g, rounded to ever more bits, where that is admissible."""
+    """Yield the local maximum of g, rounded to ever more bits, where that is admissible."""
     g = cubic(lengths)
     bits = 12
     while g.n2 * g.n2 > 3 * g.n3 * g.n1:
@@ -242,7 +242,7 @@ def _at_local_maximum(lengths: Lengths) -> Iterator[Fraction]:
 
 
 def _at_maximum(F: Quartic) -> Iterator[Fraction]:
-    """Numbers that tend to the maximum of φ, by bisection with exact signs."""
+    """Yield numbers that tend to the maximum of φ, by bisection with exact signs."""
     if F.side == 0:
         return
     slope = slope_of_quotient(F)
@@ -259,7 +259,7 @@ def _at_maximum(F: Quartic) -> Iterator[Fraction]:
 
 
 def _ring_between(at_pole: Quadratic, slope: Quadratic, curvature: Quadratic, low: Fraction, high: Fraction) -> bool:
-    """Whether F(ℓ) = F′(ℓ) = 0 < F″(ℓ) at the one time in an open interval at which F has a multiple root."""
+    """Decide whether F(ℓ) = F′(ℓ) = 0 < F″(ℓ) at the one time in an open interval at which F has a multiple root."""
     a, b, _ = at_pole
     if any(at_pole):  # F(ℓ) is a square of a linear polynomial in t, up to a factor
         if not a:
@@ -277,12 +277,12 @@ Quadratic = Sequence[Field]
 
 
 def value_of(f: Quadratic, at: Field) -> Field:
-    """The value of f at a number."""
+    """Return the value of f at a number."""
     return (f[0] * at + f[1]) * at + f[2]
 
 
 def sign_at_root(f: Quadratic, g: Quadratic, low: Fraction, high: Fraction) -> int:
-    """The sign of g at the one root of f ≠ 0 in an open interval; 0 where there is none."""
+    """Return the sign of g at the one root of f ≠ 0 in an open interval; 0 where there is none."""
     a, b, c = f
     if not a and not b:
         return 0
@@ -296,7 +296,7 @@ def sign_at_root(f: Quadratic, g: Quadratic, low: Fraction, high: Fraction) -> i
 
 
 def _sign_at_simple_root(f: Quadratic, g: Quadratic, low: Fraction, high: Fraction) -> int:
-    """As sign_at_root, if f has degree 2 and two different roots: by the remainder of g, which is linear."""
+    """Return the sign as sign_at_root, if f has degree 2 and two roots: by the remainder of g, which is linear."""
     start = sign_of(value_of(f, low))
     if start * sign_of(value_of(f, high)) >= 0:
         return 0

@@ -80,7 +80,7 @@ class Steps:
 
 
 def steps(sweep: StraightSweep, bits: int | None = WIDTH_BITS) -> Steps | None:
-    """The steps of a sweep that begins clear, or None if they do not decide it.
+    """Return the steps of a sweep that begins clear, or None if they do not decide it.
 
     The first contact is enclosed to 2^−bits of itself; without `bits` any contact ends the search.
     """
@@ -102,17 +102,17 @@ def steps(sweep: StraightSweep, bits: int | None = WIDTH_BITS) -> Steps | None:
 
 
 def _narrow(time: Fraction, contact: Fraction | None, bits: int | None) -> bool:
-    """Whether a time up to which the sweep is clear, and one of contact, are near enough."""
+    """Decide whether a time up to which the sweep is clear, and one of contact, are near enough."""
     return contact is not None and (bits is None or (contact - time) * 2**bits <= time)
 
 
 def _crosses(sweep: StraightSweep, time: Fraction) -> bool:
-    """Whether there is contact at a time that is not a tangency."""
+    """Decide whether there is contact at a time that is not a tangency."""
     return sweep.position(time) is Position.CONTACT and not sweep.tangent(time)
 
 
 def _step(sweep: StraightSweep, pencil: Sequence[Polynomial], time: Fraction) -> tuple[Fraction, Fraction | None]:
-    """A multiplier that proves the clear position at a time, and how far beyond it proves; None if without limit.
+    """Return a multiplier that proves a time clear, and how far beyond it does; None if without limit.
 
     The first multiplier that proves it may not reach far; the next one, with twice as many bits, reaches nearly as far
     as any.
@@ -128,7 +128,7 @@ def _step(sweep: StraightSweep, pencil: Sequence[Polynomial], time: Fraction) ->
 
 
 def reach(proof: Polynomial, time: Fraction) -> Fraction | None:
-    """A lower bound of the distance to the next root of a quadratic that is positive at a time; None if no root."""
+    """Return a lower bound of the distance to the next root of a quadratic positive at a time; None if no root."""
     a, b, c = proof
     n, m = time.numerator, time.denominator
     here, slope, bend = (a * n + b * m) * n + c * m * m, (2 * a * n + b * m) * m, a * m * m
@@ -197,7 +197,7 @@ def passage(
     z_max: float = math.inf,
     solid: float = False,
 ) -> Passage:
-    """The passage of a spheroid between two positions: sizes α, γ, b, d; centres (x, y, z) from the hyperboloid's.
+    """Decide the passage of a spheroid between two positions: sizes α, γ, b, d; centres from the hyperboloid's.
 
     `axis` is any vector along the spheroid's axis of revolution, which keeps its direction on the sweep, and `upward`
     any along the hyperboloid's; they are vertical where they are None. The hyperboloid ends at the heights `z_min` and
@@ -211,19 +211,19 @@ def passage(
 
 @in_default_environment
 def passage_of_row(row: Sequence[Rational]) -> Passage:
-    """The passage of a row's sweep. Raises InputError as `passage` does."""
+    """Return the passage of a row's sweep. Raises InputError as `passage` does."""
     return passage_on(sweep_of_row(row))
 
 
 def passage_on(sweep: StraightSweep) -> Passage:
-    """The first contact of a sweep, if it has contact."""
+    """Return the first contact of a sweep, if it has contact."""
     if sweep.start.has_ends:
         return beside_ends(sweep)
     return by_steps(sweep) or by_roots(sweep)
 
 
 def meets(sweep: StraightSweep) -> bool:
-    """Whether there is contact on a sweep; this is faster than its passage, because no time is enclosed."""
+    """Decide whether there is contact on a sweep; this is faster than its passage, because no time is enclosed."""
     if sweep.start.has_ends:
         return ended_sweeps.meets(EndedSweep(sweep))
     here, there = sweep.position(Fraction(0)), sweep.position(Fraction(1))
@@ -236,14 +236,14 @@ def meets(sweep: StraightSweep) -> bool:
 
 
 def beside_ends(sweep: StraightSweep) -> Passage:
-    """The passage of a sweep beside a hyperboloid that ends."""
+    """Return the passage of a sweep beside a hyperboloid that ends."""
     here, there = sweep.position(Fraction(0)), sweep.position(Fraction(1))
     first = first_contact(EndedSweep(sweep))
     return Passage(here, there, first, first is not None and grazes(sweep))
 
 
 def by_steps(sweep: StraightSweep) -> Passage | None:
-    """The passage of a sweep, by steps; None if they do not decide it, or if it begins with a tangency."""
+    """Return the passage of a sweep, by steps; None if they do not decide it, or if it begins with a tangency."""
     here, there = sweep.position(Fraction(0)), sweep.position(Fraction(1))
     if not sweep.moves:
         return None
@@ -256,7 +256,7 @@ def by_steps(sweep: StraightSweep) -> Passage | None:
 
 
 def by_roots(sweep: StraightSweep) -> Passage:
-    """The passage of a sweep, by the roots of the critical polynomial, which always decide."""
+    """Return the passage of a sweep, by the roots of the critical polynomial, which always decide."""
     here, there = sweep.position(Fraction(0)), sweep.position(Fraction(1))
     if not sweep.moves:
         met = (Fraction(0), Fraction(0)) if here is Position.CONTACT else None
@@ -280,7 +280,7 @@ def by_roots(sweep: StraightSweep) -> Passage:
 
 
 def _between(times: Sequence[Interval]) -> Iterator[Fraction | None]:
-    """A time before the first root, between each root and the next, and after the last; None if there is no such time.
+    """Yield a time before the first root, between each root and the next, and after the last; None if there is none.
 
     None occurs only at an end, if 0 or 1 is a root.
     """
@@ -299,7 +299,7 @@ def sweep_of(
     upward: Sequence[Rational] | None = None,
     heights: Sequence[float] = WITHOUT_ENDS,
 ) -> StraightSweep:
-    """The sweep of these numbers, as an upright one if this is equivalent. Raises InputError as `passage` does."""
+    """Make the sweep of these numbers, as an upright one if that is equivalent. Raises InputError as `passage` does."""
     trouble = trouble_with_heights(heights)
     if trouble is not None:
         raise InputError(trouble)
@@ -310,7 +310,7 @@ def sweep_of(
 
 
 def sweep_of_row(row: Sequence[Rational], scale: Rational = 1) -> StraightSweep:
-    """The sweep of a row: sizes, two centres, perhaps an axis, perhaps heights; b and d are multiplied by `scale`.
+    """Make the sweep of a row: sizes, two centres, maybe axis and heights; b and d are multiplied by `scale`.
 
     Raises InputError as `passage` does.
     """
@@ -345,7 +345,7 @@ def checked_axis(axis: Sequence[Rational]) -> tuple[Fraction, ...]:
 
 
 def checked_sequence(subject: str, names: Sequence[str], values: object) -> tuple[Rational, ...]:
-    """The values, one for each name. Raises InputError where they are more, fewer, or no sequence."""
+    """Return the values, one for each name. Raises InputError where they are more, fewer, or no sequence."""
     wanted = f"there must be {len(names)}: {', '.join(names)}"
     if isinstance(values, str) or not isinstance(values, Iterable):
         raise InputError(f"{subject}: {escaped(reprlib.repr(values), 60)} is not a sequence of numbers; {wanted}")

@@ -48,7 +48,7 @@ def turning(
     direction: Sequence[Rational],
     angle: float,
 ) -> Position | None:
-    """The position of a part during a turn: EXTERIOR or INTERIOR at all times, or CONTACT if there is contact.
+    """Return the position of a part during a turn: EXTERIOR or INTERIOR at all times, or CONTACT if there is contact.
 
     `sizes` are α, γ and the part's b, d; `center` is the mover's, from the hyperboloid's; the arm points into the
     `direction` (x, y) ≠ (0, 0) of any length at first, and turns by `angle` (radians, counterclockwise, finite). None
@@ -66,6 +66,7 @@ def turning(
 
 
 def _checked_turn(arm: Rational, direction: Sequence[Rational], angle: float) -> tuple[Fraction, ...]:
+    """Return the arm, both parts of the direction and the angle as fractions. Raises InputError."""
     ahead, aside = checked_sequence("direction", ("x", "y"), direction)
     for name, number in (("arm", arm), ("direction", ahead), ("direction", aside), ("angle", angle)):
         if isinstance(number, bool) or not isinstance(number, (int, float, Fraction)):
@@ -81,7 +82,7 @@ def _checked_turn(arm: Rational, direction: Sequence[Rational], angle: float) ->
 def squared_distances(
     x: Fraction, y: Fraction, arm: Fraction, direction: tuple[Fraction, Fraction], angle: float, bits: int
 ) -> tuple[Enclosure, Enclosure]:
-    """Enclosures of the least and of the largest R of the turn."""
+    """Return enclosures of the least and of the largest R of the turn."""
     reach = _root(x * x + y * y, bits)
     if abs(angle) >= WHOLE_TURN:
         extremes = [(-reach[1], -reach[0]), reach]
@@ -130,7 +131,7 @@ def _pieces(
 
 
 def _extremes(left: State, right: State, reach: Enclosure) -> tuple[Enclosure, Enclosure]:
-    """Enclosures of the least and the largest e over one piece."""
+    """Return enclosures of the least and the largest e over one piece."""
     (e0, slope0), (e1, slope1) = left, right
     high = _summit(e0, e1, slope0, slope1, reach)
     low = _negative(_summit(_negative(e0), _negative(e1), _negative(slope0), _negative(slope1), reach))
@@ -138,7 +139,7 @@ def _extremes(left: State, right: State, reach: Enclosure) -> tuple[Enclosure, E
 
 
 def _summit(e0: Enclosure, e1: Enclosure, slope0: Enclosure, slope1: Enclosure, reach: Enclosure) -> Enclosure:
-    """The largest of ρ cos over less than half a turn: ρ where the slope changes from plus to minus, else at an end."""
+    """Enclose the largest ρ cos over less than half a turn: ρ if the slope turns from + to −, else at an end."""
     ends = (max(e0[0], e1[0]), max(e0[1], e1[1]))
     if slope0[0] > 0 > slope1[1]:
         return reach
@@ -148,6 +149,8 @@ def _summit(e0: Enclosure, e1: Enclosure, slope0: Enclosure, slope1: Enclosure, 
 
 
 def _all_along(rationals: tuple[Fraction, ...], least: Enclosure, largest: Enclosure, bits: int) -> Position | None:
+    """Return the position on the whole turn, CONTACT if there is contact, None if the enclosures do not tell."""
+
     def at(squared: Fraction, *, up: bool) -> Position:
         return _position(rationals, _root(squared, bits)[up])
 
@@ -160,7 +163,7 @@ def _all_along(rationals: tuple[Fraction, ...], least: Enclosure, largest: Enclo
 
 
 def _position(rationals: tuple[Fraction, ...], radius: Fraction) -> Position:
-    """The exact position at this distance from the axis."""
+    """Return the exact position at this distance from the axis."""
     alpha, gamma, b, d, _, _, z = rationals
     wide, thick, far = to_integers((alpha, b, radius))
     tall, thin, high = to_integers((gamma, d, z))
@@ -168,16 +171,17 @@ def _position(rationals: tuple[Fraction, ...], radius: Fraction) -> Position:
 
 
 def _root(square: Fraction, bits: int) -> Enclosure:
-    """An enclosure of the square root, to about `bits` bits; a negative number counts as 0."""
+    """Return an enclosure of the square root, to about `bits` bits; a negative number counts as 0."""
     square = max(square, Fraction(0))
     return root_of(square, bits), root_of(square, bits, upward=True)
 
 
 def _fractions(context: MPContext, enclosure: ivmpf) -> Enclosure:
-    """The ends of an interval of mpmath, exactly."""
+    """Return the ends of an interval of mpmath, exactly."""
     low, high = (context.mpf(end) for end in (enclosure.a, enclosure.b))
     return fraction(low), fraction(high)
 
 
 def _negative(enclosure: Enclosure) -> Enclosure:
+    """Return the enclosure of the negative number."""
     return -enclosure[1], -enclosure[0]
