@@ -68,6 +68,7 @@ def compiled() -> ModuleType:
 
 
 def _level(module: ModuleType) -> str:
+    """Return the instruction set that the compiled kernel uses. Raises InputError if another one is required."""
     wanted = os.environ.get("HYPCHECK_LEVEL", "")
     if wanted and wanted not in LEVELS:
         raise InputError(f"HYPCHECK_LEVEL is {wanted!r}; it must be one of {', '.join(LEVELS)}, or unset")
@@ -77,7 +78,7 @@ def _level(module: ModuleType) -> str:
 
 
 def most_threads() -> int:
-    """HYPCHECK_THREADS, or the number of processors that this process may run on. Raises InputError for nonsense."""
+    """Return HYPCHECK_THREADS, or the number of processors that this process may run on. Raises InputError."""
     wanted = os.environ.get("HYPCHECK_THREADS", "")
     if not wanted:
         return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
@@ -97,7 +98,7 @@ POSITION_OF = {"exterior": 1, "interior": -1, "contact": 0}
 
 
 def answers_to(question: str, positions: Positions) -> Positions:
-    """Return the answers to a question from positions, int8 (n,); 127, of an invalid row, stays."""
+    """Return the answers to a question from positions, int8 (n,); 127, for an invalid row, stays."""
     if question == "position":
         return positions
     answers: Positions = (positions == POSITION_OF[question]).astype(positions.dtype)
@@ -106,7 +107,7 @@ def answers_to(question: str, positions: Positions) -> Positions:
 
 
 def required(question: str, threads: int | None, on_invalid: str) -> int | None:
-    """Return the number of threads, when all three make sense."""
+    """Check the options of a call, and return the number of threads. Raises InputError."""
     if not isinstance(on_invalid, str) or on_invalid not in ("raise", "flag"):
         raise InputError(f"on_invalid is {on_invalid!r}; it must be 'raise' or 'flag'")
     if question not in QUESTIONS:
@@ -123,11 +124,11 @@ def required(question: str, threads: int | None, on_invalid: str) -> int | None:
 
 
 _PROMISED = 2.0**-29
-"""How far apart the bounds of a distance are at most, in units of the distance and the spheroid's longer semi-axis."""
+"""How far apart the bounds of a distance may be, in units of the distance and the spheroid's longer semi-axis."""
 
 Number = TypeVar("Number")
 
 
 def are_apart(low: Number, high: Number, longer: Number) -> Number:
-    """Whether bounds of distances are farther apart than promised, of numbers or of arrays, or the upper is inf."""
+    """Whether bounds of distances, numbers or arrays, are farther apart than promised, or the upper bound is inf."""
     return high - low > _PROMISED * (low + longer)  # type: ignore[operator, no-any-return]

@@ -37,7 +37,7 @@ from hypcheck.kernel.in_use import kernel, positions_of_rows
 from hypcheck.messages import escaped
 
 ROWS_AT_A_TIME = 1 << 22
-"""Rows that are made at a time of centres with an axis each: some 300 MB, and work for four threads."""
+"""How many rows are made at a time from centres with an axis each: some 300 MB, and work for four threads."""
 
 
 @dataclass(frozen=True)
@@ -310,6 +310,7 @@ def _axes(axis: ArrayLike) -> Floats:
 
 
 def _one_axis(numbers: Floats, on_invalid: str) -> pair.Axis:
+    """Return the numbers of an axis. Raises InputError if it is not valid, unless invalid rows are flagged."""
     vx, vy, vz = numbers.tolist()
     trouble = pair.trouble_with_axis((vx, vy, vz))
     if trouble is not None and on_invalid == "raise":
@@ -318,6 +319,7 @@ def _one_axis(numbers: Floats, on_invalid: str) -> pair.Axis:
 
 
 def _sizes(sizes: pair.Sizes) -> pair.Sizes:
+    """Return four valid sizes. Raises InputError."""
     wanted = f"they must be four numbers: {', '.join(pair.SIZES)}"
     numbers = as_numbers("the sizes are", sizes, wanted)
     if numbers.shape != (len(pair.SIZES),):
@@ -338,6 +340,7 @@ def _not_finite(columns: Columns) -> InputError:
 
 
 def _require_fitting(out: object, count: int) -> None:
+    """Raise InputError unless `out` is None, or an array for the answers to so many rows."""
     if out is None:
         return
     if not isinstance(out, np.ndarray):
@@ -362,6 +365,7 @@ def _lie_apart(out: Positions, columns: Columns) -> bool:
 
 
 def _into(out: Positions | None, result: Positions) -> Positions:
+    """Return the result, written into `out` if there is one."""
     if out is None:
         return result
     out[:] = result
@@ -369,7 +373,7 @@ def _into(out: Positions | None, result: Positions) -> Positions:
 
 
 def _at_once() -> tuple[Callable[..., Answers], Callable[..., Answers]]:
-    """Return classify and classify_scene of the kernel in use: those of C, which know these here, or these."""
+    """Return classify and classify_scene of the kernel in use: those in C, which call these for the rest, or these."""
     if choice().kernel == "numpy":
         return classify, classify_scene
     module = extension()

@@ -263,6 +263,7 @@ def _lowered(length: Floats, shift: Integers, towards: float) -> Floats:
 
 
 def _positions(rows: Rows, threads: int | None) -> Positions:
+    """Return the exact positions of rows."""
     return kernel().answer_rows(np.ascontiguousarray(rows), "position", threads)[0]
 
 

@@ -19,10 +19,10 @@ ROWS_A_THREAD = 1 << 20
 """Fewer rows are not worth a thread: to start one takes as long as some 10⁵ rows."""
 
 BLOCK = 64
-"""Rows that the kernel takes at once: a part has a whole number of them."""
+"""The kernel takes so many rows at once: a part has a whole number of such blocks."""
 
 KEPT = 16
-"""Bytes that keep the answers of a block."""
+"""How many bytes keep the answers of a block."""
 
 _SCALARS = (np.float32, np.int8, np.uint8, np.int16, np.uint16, np.int32, np.uint32, np.int64, np.uint64)
 """numpy's scalar types that C reads directly; np.float64 is a float."""
@@ -51,7 +51,7 @@ def answer_rows(rows: Rows, question: Question, threads: int | None = None) -> t
 
 
 def _by_row(ask: Callable[..., int], rows: Rows, outputs: Sequence[NDArray[Any]], threads: int | None) -> int:
-    """Call `ask` for parts of the rows, which fills arrays with one place for each row; the sum of its results."""
+    """Call `ask` for parts of the rows; it fills arrays with a place for each row. Return the sum of its results."""
     aligned = rows if rows.flags.aligned else rows.copy()
 
     def part(start: int, stop: int) -> int:

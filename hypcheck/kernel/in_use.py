@@ -40,7 +40,7 @@ class Kernel(Protocol):
     ) -> tuple[Positions, int]:
         """Return answers for valid sizes and the centres of three columns.
 
-        None is upright, an invalid axis answers 127.
+        Without an axis the spheroid is upright. For an invalid axis all answers are 127.
         """
 
     def answer_sweeps(self, rows: Rows) -> tuple[Positions, Floats]:
@@ -61,6 +61,7 @@ def kernel() -> Kernel:
 
 @cache
 def _kernel_named(name: str) -> Kernel:
+    """Return the module of the kernel with this name."""
     if name == "compiled":
         return compiled_kernel
     from hypcheck.kernel import numpy_kernel  # noqa: PLC0415 - the compiled kernel does without

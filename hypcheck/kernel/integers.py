@@ -18,10 +18,9 @@ F > 0 between λ₋ = −min(A1, A2) and B. F(0) < 0 < F(±∞), F(B) ≤ 0, F(�
     interior: the same with [λ₋, 0) for (0, B];          contact: everything else.
 
 The discriminant Δ of F distinguishes these, not the roots' places. Δ < 0: two roots are complex, contact. Δ > 0: four
-roots are real, and Descartes' rule is exact: three are positive or three negative. They are those of a clear pair
-where at most one lies beyond the pole, which the same rule says of F's coefficients at the pole; the pole is a root of
-a quadratic, so each sign is that of some U + V √D. Δ = 0: a tangency, unless the pole is a double root with F > 0
-beside it.
+roots are real, and Descartes' rule is exact: three are positive or three negative. The pair is clear if at most one of
+them lies beyond the pole, which the same rule says of F's coefficients at the pole; the pole is a root of a quadratic,
+so each sign is that of some U + V √D. Δ = 0: a tangency, unless the pole is a double root with F > 0 beside it.
 """
 
 from __future__ import annotations
@@ -35,7 +34,7 @@ from hypcheck.geometry.pair import COLUMNS, Lengths, Pair, Position, to_integers
 
 
 def upright_position(lengths: Lengths) -> Position:
-    """Return the exact position; lengths as in pairs.Lengths."""
+    """Return the exact position of an upright pair, whose lengths are as in pair.Lengths."""
     return upright_position_of_squares(
         lengths.alpha**2,
         lengths.b**2,

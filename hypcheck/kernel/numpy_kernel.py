@@ -5,8 +5,8 @@ half planes of the scene     printed/chunks.py plane and parallel_lines, in sing
 discriminant and its bound   printed/chunks.py certified
 integers                     integers.py
 
-Tilted rows of ten have a stage in floats, printed/tilted.py, about a multiplier that proves nothing: any is
-safe, a good one leaves fewer rows to integers.py.
+Tilted rows of ten have a stage in floats, printed/tilted.py. It proves an answer with a multiplier, an argument of the
+dual function. Any multiplier is safe, and a good one leaves fewer rows to integers.py.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ TILTED_CHUNK = 2048
 """How many tilted rows are computed at a time: some ninety buffers of a chunk stay in the cache."""
 
 _TURNS, _SETTLED = 8, 1e-6
-"""Newton's turns at most, and the relative change with which it ends: as in core/parts/platform.h."""
+"""The most steps of Newton's method, and the relative change at which it ends: as in core/parts/platform.h."""
 
 
 Number = TypeVar("Number", np.float32, np.float64)
@@ -80,6 +80,7 @@ def positions(rows: Rows) -> Positions:
 
 
 def _positions_of_ten(rows: Rows) -> Positions:
+    """Return the exact positions of rows of ten, 127 for invalid ones."""
     result = np.empty(len(rows), dtype=np.int8)
     upright = upright_mask(rows)
     tilted_places = np.flatnonzero(~upright)
@@ -182,6 +183,7 @@ def answer_sweeps(rows: Rows) -> tuple[Positions, Floats]:
 
 
 def _answers(known: Positions, question: Question) -> tuple[Positions, int]:
+    """Return the answers to a question from positions, and how many rows are invalid."""
     return answers_to(question, known), int(np.count_nonzero(known == REFUSED))
 
 

@@ -1,6 +1,6 @@
 """Many straight sweeps, of one pair of sizes or of a whole scene: which have contact, when first, and with what.
 
-Hits are decided at once, times at their first use: a hit costs a microsecond, a time a millisecond a sweep.
+Hits are decided at once, times at their first use: for each sweep a hit costs a microsecond, a time a millisecond.
 """
 
 from __future__ import annotations
@@ -47,6 +47,7 @@ class Passages:
 
     @cached_property
     def _firsts(self) -> list[First | None]:
+        """The first contact of each sweep, None for sweeps without."""
         return [self.measure(sweep) if hit else None for sweep, hit in enumerate(np.atleast_1d(self.hit).tolist())]
 
     @property
@@ -76,10 +77,12 @@ class Passages:
         return numbers
 
     def _rounded(self, side: int, towards: float) -> Any:  # noqa: ANN401 - an array, or its number
+        """Return one end of the intervals of first contact, rounded to float64 towards a side."""
         times = [math.nan if first is None else rounded_toward(first[0][side], towards) for first in self._firsts]
         return self._shaped(times, np.float64)
 
     def _shaped(self, values: list[Any], kind: type) -> Any:  # noqa: ANN401 - an array, or its number
+        """Return the values as an array, or for one sweep as a number."""
         return np.array(values, kind) if np.ndim(self.hit) else values[0]
 
 
@@ -116,6 +119,7 @@ def _hits(rows: Rows) -> Mask:
 
 
 def _interval(row: Sequence[float]) -> tuple[Fraction, Fraction]:
+    """Return the exact interval of the first contact of a sweep that has one."""
     first = passage_of_row(row).first
     if first is None:
         raise AssertionError(f"the exact decision about a sweep contradicts its bounds: {row}")

@@ -1,6 +1,6 @@
 """One pair, without numpy: hypcheck.position, the compiled function where there is one and plain Python otherwise.
 
-And bounds of its distance by the compiled kernel, with the accuracy that hypcheck.clearance promises.
+distance_at_once gives bounds of its distance by the compiled kernel, as accurate as hypcheck.clearance promises.
 """
 
 from __future__ import annotations
@@ -84,7 +84,7 @@ def exact_position(
     z_max: float = math.inf,
     solid: bool = False,
 ) -> int:
-    """As PositionFunction, of one pair, in plain Python."""
+    """Return the position as PositionFunction does, in plain Python."""
     if z_min != -math.inf or z_max != math.inf or solid:
         return _ended_position((alpha, gamma, b, d, x, y, z), axis, (z_min, z_max, solid), exact_position)
     if axis is not None:
@@ -168,6 +168,7 @@ def _plain(number: Argument) -> Argument:
 
 
 def _are_numbers(values: Iterable[object]) -> bool:
+    """Whether all values are numbers, texts or None, of Python's own types."""
     return all(isinstance(value, (int, float, str)) or value is None for value in values)
 
 
@@ -212,6 +213,7 @@ _looked_at.__name__ = _looked_at.__qualname__ = "position"
 
 
 def _position() -> PositionFunction:
+    """Return hypcheck.position of the kernel that choice() names."""
     if choice().kernel == "numpy":
         return _looked_at
     module = compiled()

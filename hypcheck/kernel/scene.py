@@ -70,7 +70,7 @@ _ASKED = (*CENTER, "heading")
 
 _RANK = {CONTACT: 3, INTERIOR: 2, EXTERIOR: 1}
 _OF_RANK = (EXTERIOR, EXTERIOR, INTERIOR, CONTACT)
-"""The greater rank prevails where hyperboloids give different answers; 0 means that none is near."""
+"""The positions by rank: the greatest rank prevails if hyperboloids give different answers. At rank 0 none is near."""
 
 
 @dataclass(frozen=True)
@@ -111,6 +111,7 @@ class Scene(PreparedScene):
         return int(answers[0]) if are_one(center, heading, axis) else answers
 
     def _positions(self, center: Sequence[ArrayLike], heading: ArrayLike, axis: ArrayLike | None) -> Positions:
+        """Return the positions of the mover at these centres. Raises InputError."""
         axes = self._axes(axis) if axis is not None or self._is_tilted else ()
         names = (*_ASKED, *AXIS[: len(axes)])
         columns = finite_columns(names, (*center, heading, *axes))
@@ -364,6 +365,7 @@ class Scene(PreparedScene):
         return self._of_parts(index, centre, heading, axis) if reply == CONTACT and mover.parts else reply
 
     def _answer(self, position: int) -> int:
+        """Return the answer to the scene's question from a position."""
         question = self.model.question
         if question == "position":
             return position

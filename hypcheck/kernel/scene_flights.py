@@ -319,6 +319,7 @@ def _pieces(points: Floats, count: int) -> tuple[list[Floats], list[Indices], Fl
 
 
 def _at(points: Floats, flown: Floats, segment: int, length: float) -> Floats:
+    """Return the point of a segment at this length along the flight."""
     step = flown[segment + 1] - flown[segment]
     share = min(max((length - flown[segment]) / step, 0.0), 1.0) if step > 0 else 0.0
     return np.asarray(points[segment] + share * (points[segment + 1] - points[segment]))

@@ -180,6 +180,7 @@ def parallel_multiplier(sizes: Sizes, chord: Line | None, height: float, side: i
 
 
 def _ratios(sizes: Sizes, T: float) -> tuple[float, float, float]:
+    """Return A = (α/b)², B = (γ/d)² and T/d²."""
     alpha, gamma, b, d = sizes
     return (alpha / b) ** 2, (gamma / d) ** 2, T / (d * d)
 
@@ -199,11 +200,13 @@ def _known_point(sizes: Sizes, height: float, side: int) -> KnownPlace | None:
 
 
 def _beyond(sizes: Sizes, lambda_: float) -> Line | None:
+    """Return the line of λ that proves exterior positions, or None if a constant is out of range."""
     K, M, gap = scalars.tangent_beyond(*sizes, lambda_)
     return (K, M) if gap > 0 and K >= LEAST_CONSTANT and 0 <= M <= GREATEST_SLOPE else None
 
 
 def _within(sizes: Sizes, mu: float) -> Line | None:
+    """Return the line of μ that proves interior positions, or None if a constant is out of range, or μ ≤ 1."""
     if mu <= 1:
         return None
     K, M, across = scalars.tangent_within(*sizes, mu)

@@ -143,6 +143,7 @@ class PreparedScene:
         return self._with(model, bodies_without(self._bodies, place), grid)
 
     def _place(self, which: int | str) -> int:
+        """Return the place of the hyperboloid with this name or number. Raises InputError."""
         bodies = self.model.hyperboloids
         if isinstance(which, str):
             places = [place for place, body in enumerate(bodies) if body.name == which]
@@ -155,6 +156,7 @@ class PreparedScene:
         )
 
     def _changed(self, others: tuple[Hyperboloid, ...], place: int, body: Bodies, *, added: bool) -> Self:
+        """Return the scene with these hyperboloids, of which the one at `place` is new, or `added`."""
         grid = self._grid if added else grid_without(self._grid, place, renumbered=False)
         reach = float(reaches(body, self.model.mover, self.model.region.z)[0])
         x, y, _ = body.origins[0].tolist()
@@ -190,9 +192,11 @@ class PreparedScene:
 
     @cached_property
     def _of_margins(self) -> dict[float, Self | None]:
+        """The scenes with a larger mover, by margin; None where it overflows."""
         return {}
 
     def _near(self, x: float, y: float, z: float) -> Sequence[int]:
+        """Return the hyperboloids that a mover with its centre here can touch, and perhaps others."""
         height = self.model.region.z
         if height is not None and not height.low <= z <= height.high:  # of which the grid promises nothing
             near: list[int] = in_reach(self._bodies, self.model.mover, (x, y, z)).tolist()
@@ -223,27 +227,33 @@ class PreparedScene:
 
     @cached_property
     def _is_tilted(self) -> bool:
+        """Whether the mover or a hyperboloid is tilted."""
         return is_tilted(self.model.mover.axis) or bool(self._bodies.tilted.any())
 
     @cached_property
     def _numbers_kept(self) -> dict[int, Numbers]:
+        """The numbers of hyperboloids that were used before, by place."""
         return {}
 
     @cached_property
     def _grid(self) -> PlaneGrid:
+        """The grid of the hyperboloids."""
         origins = self._bodies.origins
         return grid_of(origins[:, 0], origins[:, 1], self._reaches)
 
     @cached_property
     def _reaches(self) -> Floats:
+        """The reach of each hyperboloid in the region."""
         return reaches(self._bodies, self.model.mover, self.model.region.z)
 
     @cached_property
     def _limits(self) -> Floats:
+        """The limits of the mover's height beside each hyperboloid (limits_of)."""
         return limits_of(self._bodies, self.model.mover)
 
     @cached_property
     def _bodies(self) -> Bodies:
+        """The columns of the hyperboloids. Raises InputError if a number is not valid."""
         try:
             bodies = bodies_of(self.model.hyperboloids)
         except (AttributeError, TypeError, ValueError):  # something in the place of a number, a Span or a hyperboloid
