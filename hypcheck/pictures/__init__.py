@@ -52,13 +52,13 @@ class ShownContact:
 class ShownFlight:
     """A flight in a scene.
 
-    `points` (T, 3) are the corners, and `axes` (T - 1, 3) the mover's axis on each segment. `hits` (T - 1,) says which
-    segments have contact; `contacts` are the first of some of them. `places` (T - 1, parts, 3) are those of the
-    mover's parts, from its centre.
+    T is the number of corners. `points` (T, 3) are the corners, and `axes` (T - 1, 3) is the mover's axis on each
+    segment. `hits` (T - 1,) says which segments have contact. `contacts` are the first contacts on some of these
+    segments. `places` (T - 1, parts, 3) are the centres of the mover's parts on each segment, from the mover's centre.
 
-    The flight is cut into k pieces of one length. `lower`, `upper` (k,) are proved bounds of the least distance on
-    each, `near` (k,) the index of the hyperboloid that it is from, and `touched` (k,) says where it is 0. `least` is
-    the length flown until the least distance of all, and its lower and upper bound.
+    The flight is cut into k pieces of equal length. `lower` and `upper` (k,) are proved bounds of the least distance
+    on each piece. `near` (k,) is the index of the hyperboloid at this distance, and `touched` (k,) says where the
+    distance is 0. `least` is the length flown until the least distance of all, with its lower and its upper bound.
     """
 
     points: Numbers

@@ -16,7 +16,10 @@ from hypcheck.geometry.rows import PAIRS, SWEEPS, Layout
 from hypcheck.messages import shortened
 
 FARTHEST = 9999
-"""The floor of log2 of a float64, of a ratio of two, or of a product of a few, is nearer to 0."""
+"""The greatest distance of a bin's number from 0.
+
+The number is the floor of log2 of a float64, of a ratio of two, or of a product of a few, which is always nearer to 0.
+"""
 
 _OCTAVE = re.compile(r"-?\d{1,4}|-?inf", re.ASCII)
 _HEX = r"-?0x[01](\.[0-9a-f]+)?p[+-][0-9]+"
@@ -31,7 +34,7 @@ class Unsigned(Extended):
 
 
 class Histogram:
-    """A `table` (n, 4), ascending: the two numbers of a bin, its cases, and how many of these are not right.
+    """Counts by bin: `table` (n, 4) is ascending; a row has the bin's two numbers, its cases, and those not right.
 
     JSON holds a list of its rows. It is no dataclass, since msgspec takes those for JSON objects.
     """
@@ -45,13 +48,13 @@ class Histogram:
     __hash__ = None  # type: ignore[assignment]  # arrays can change
 
     def as_lists(self) -> list[list[int]]:
-        """Rows [first, second, cases, amiss], as the record has them."""
+        """Return the rows [first, second, cases, not right] as the record has them."""
         lists: list[list[int]] = self.table.tolist()
         return lists
 
     @classmethod
     def of_lists(cls, lists: list[list[int]]) -> Histogram:
-        """The bins of such rows."""
+        """Make a histogram of such rows."""
         return cls(np.array(lists, dtype=np.int64).reshape(-1, 4))
 
 
@@ -75,7 +78,7 @@ def as_json(value: LinePart) -> Any:  # noqa: ANN401 - whatever JSON holds
 
 
 def plain(value: Any) -> Any:  # noqa: ANN401  any value that a line holds
-    """The value for JSON: infinities as the strings "inf" and "-inf", also inside mappings and sequences."""
+    """Convert a value for JSON: infinities become the strings "inf" and "-inf", also inside mappings and sequences."""
     if value is None or isinstance(value, (int, str)):  # most values: an abstract class is slow to ask
         return value
     if isinstance(value, float):
@@ -86,7 +89,7 @@ def plain(value: Any) -> Any:  # noqa: ANN401  any value that a line holds
 
 
 def _custom(kind: type, value: object) -> object:
-    """A value of a type that JSON does not have. Raises ValueError, to which msgspec adds the path."""
+    """Decode a value of a type that JSON does not have. Raises ValueError, to which msgspec adds the path."""
     if kind is Histogram:
         try:
             bins = convert(value, list[SmallBin])
@@ -106,6 +109,7 @@ def _custom(kind: type, value: object) -> object:
 
 
 def _builtin(value: object) -> object:
+    """Encode a value of a type that JSON does not have."""
     if isinstance(value, Histogram):
         return value.as_lists()
     if not isinstance(value, float):
@@ -114,7 +118,7 @@ def _builtin(value: object) -> object:
 
 
 def one_of(*names: str) -> Meta:
-    """A constraint: the text is one of these names."""
+    """Make the constraint that a text is one of these names."""
     return Meta(pattern=f"^({'|'.join(names)})$", extra_json_schema={"enum": list(names)})
 
 
@@ -175,7 +179,7 @@ class LinePart(Struct, frozen=True, kw_only=True):
 
 
 def _type_of(name: str) -> str:
-    """The type of a line, from the name of its struct: speed for SpeedLine."""
+    """Return the type of a line, from the name of its struct: speed for SpeedLine."""
     return name.removesuffix("Line").lower()
 
 
@@ -191,29 +195,29 @@ class _CasePart(Protocol):
 
 
 def numbers_of(case: _CasePart) -> tuple[str, ...]:
-    """All numbers of a case's row: of a position, the end of a way, the axis of a tilted spheroid, the heights."""
+    """Return all numbers of a case's row: of the position, the end of a sweep, the axis if tilted, and the heights."""
     return (*case.row, *(case.end or ()), *(case.axis or ()), *(case.heights or ()))
 
 
 def row_of(case: _CasePart) -> tuple[float, ...]:
-    """All numbers of a case's row as floats."""
+    """Return all numbers of a case's row as floats."""
     return tuple(map(float.fromhex, numbers_of(case)))
 
 
 def row_fields(row: Sequence[float], layout: Layout = PAIRS) -> dict[str, Any]:
-    """The fields row, end, axis and heights of a row of this layout."""
+    """Return the fields row, end, axis and heights of a row of this layout."""
     others, axis, heights = layout.split(tuple(value.hex() for value in row))
     parts = {"end": others[len(COLUMNS) :], "axis": axis, "heights": heights}
     return {"row": others[: len(COLUMNS)]} | {name: part or UNSET for name, part in parts.items()}
 
 
 def row_parts(case: _CasePart) -> dict[str, Any]:
-    """The fields row, end, axis and heights of a case, for another struct about it."""
+    """Return the fields row, end, axis and heights of a case, for another struct about it."""
     return {"row": case.row, "end": case.end, "axis": case.axis, "heights": case.heights}
 
 
 def layout_of(case: _CasePart) -> Layout:
-    """The layout of a case's row: of a sweep if it has an end."""
+    """Return the layout of a case's row: that of a sweep if it has an end."""
     return SWEEPS if case.end else PAIRS
 
 
@@ -234,7 +238,7 @@ def require_possible(name: str, bins: Sequence[Bin]) -> None:
 
 
 def require_places(places: Sequence[int], where: str) -> None:
-    """Raise ValueError if one of these is farther than FARTHEST from 0."""
+    """Raise ValueError if one of these numbers is farther than FARTHEST from 0; `where` names what has them."""
     for place in places:
         if abs(place) > FARTHEST:
             shown = shortened(str(place), 20)
@@ -242,7 +246,7 @@ def require_places(places: Sequence[int], where: str) -> None:
 
 
 def require_counts(cases: int, wrong: int, where: str) -> None:
-    """Raise ValueError if there are more wrong answers than answers."""
+    """Raise ValueError if there are more wrong answers than cases; `where` names what has them."""
     if not 0 <= wrong <= cases:
         few, many = shortened(str(wrong), 20), shortened(str(cases), 20)
         raise ValueError(f"{where} has {few} wrong answers of {many}")

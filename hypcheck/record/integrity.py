@@ -35,9 +35,10 @@ _LENGTH = len(f', "{FIELD}": "01234567"}}')
 
 
 def sealed(line: Raw, before: int) -> tuple[bytes, int]:
-    """The bytes of a line with its end, and their checksum; `before` is that of the previous line, 0 for the first.
+    """Return the bytes of a line with its line end, and their checksum.
 
-    The checksum, eight hexadecimal digits, is the last field, and covers everything before its comma.
+    `before` is the checksum of the previous line, 0 for the first. The checksum, eight hexadecimal digits, is the last
+    field, and covers everything before its comma.
     """
     text = json.dumps(line, ensure_ascii=False, allow_nan=False)
     # A lone surrogate becomes its escape, which means the same within a text of JSON.
@@ -47,18 +48,18 @@ def sealed(line: Raw, before: int) -> tuple[bytes, int]:
 
 
 def seal_of(line: bytes) -> int | None:
-    """The checksum at the end of a line (given without its line end); None if there is none."""
+    """Return the checksum at the end of a line (given without its line end); None if there is none."""
     seal = _SEAL.search(line, max(0, len(line) - _LENGTH))
     return int(seal[1], 16) if seal else None
 
 
 def body_of(line: bytes) -> bytes:
-    """The JSON text of a line without its checksum."""
+    """Return the JSON text of a line without its checksum."""
     return line[:-_LENGTH] + b"}"
 
 
 def checksum(line: bytes, before: int) -> int:
-    """The checksum that the line must have."""
+    """Compute the checksum that the line must have; `before` is the checksum of the previous line."""
     return zlib.crc32(memoryview(line)[:-_LENGTH], before)
 
 
@@ -69,7 +70,7 @@ SEALED_SINCE = 2
 """The minor version since which every line has a checksum."""
 
 LONGEST = 1 << 24
-"""Bytes of a line, at most; the longest ever written had 62,000. A longer line is refused before it is loaded."""
+"""The most bytes of a line; the longest ever written had 62,000. A longer line is refused before it is loaded."""
 
 _VERSION = re.compile(r"([0-9]{1,6})\.([0-9]{1,6})\.[0-9]{1,6}", re.ASCII)
 _BEGINNING = b'{"type": "header"'
@@ -77,10 +78,12 @@ _MAY_BE_HUGE = re.compile(rb"[0-9]{20}|[eE][+]?[0-9]{3}")
 
 
 def _no_constant(text: str) -> NoReturn:
+    """Refuse NaN and the infinities, which JSON does not have."""
     raise ValueError(f"{text} is not a number of JSON")
 
 
 def _finite(text: str) -> float:
+    """Read a number. Raises ValueError if it is too large for float64."""
     number = float(text)
     if math.isinf(number):
         raise ValueError(f"{shown(text, quoted=False)} is too large for float64")
@@ -88,6 +91,7 @@ def _finite(text: str) -> float:
 
 
 def _integer(text: str) -> int:
+    """Read a whole number. Raises ValueError if it is too large for float64."""
     _finite(text)
     return int(text)
 
@@ -98,7 +102,7 @@ _FINITE_DECODER = json.JSONDecoder(parse_constant=_no_constant, parse_float=_fin
 
 
 def _version_of(header: Raw) -> tuple[str | None, int]:
-    """The major and the minor version of the schema of a header; None and 0 if it names none."""
+    """Return the major and the minor version of a header's schema; None and 0 if it names none."""
     version = header.get("schema")
     match = _VERSION.fullmatch(version) if isinstance(version, str) else None
     return (match[1], int(match[2])) if match else (None, 0)
@@ -129,7 +133,7 @@ class RecordScan:
         self.lines = 0
         """Whole lines so far."""
         self.end = 0
-        """The byte after the last of them."""
+        """The byte after the last whole line."""
         self.written = b""
         """The bytes that were read last: a whole line, or those where reading ended."""
 
@@ -148,10 +152,12 @@ class RecordScan:
             raise InputError(f"{self._reader.name} is empty; a record begins with a header")
 
     def _next(self) -> bytes:
+        """Read the next line; b"" at the end of the file."""
         self.written = self._reader.line(self._longest + 1)
         return self.written
 
     def _check_cut(self, written: bytes) -> None:
+        """Refuse bytes without a line end, unless they can be the beginning of a line that was cut off."""
         if len(written) > self._longest:
             self._refuse(f"it is longer than {self._longest} bytes, which no line of a record is")
         if self.footer is not None:
@@ -162,7 +168,7 @@ class RecordScan:
             self._no_record("it has no whole line")
 
     def _first(self, text: bytes) -> Raw:
-        """The header. If it has a checksum, all lines must have one, whatever its schema says."""
+        """Read the header. If it has a checksum, all lines must have one, whatever its schema says."""
         self.sealed = seal_of(text) is not None
         line = self._parsed(body_of(text) if self.sealed else text)
         major, minor = _version_of(line)
@@ -179,12 +185,14 @@ class RecordScan:
         return line
 
     def _line(self, text: bytes) -> Raw:
+        """Read a line after the header, and check its checksum."""
         if self.sealed:
             self._check_seal(text)
             text = body_of(text)
         return self._parsed(text)
 
     def _parsed(self, text: bytes) -> Raw:
+        """Decode a line without its checksum; refuse it if it is not an object with a type."""
         try:
             line = (_FINITE_DECODER if _MAY_BE_HUGE.search(text) else _DECODER).decode(text.decode())
         except UnicodeDecodeError as error:
@@ -200,6 +208,7 @@ class RecordScan:
         return line
 
     def _check_seal(self, text: bytes) -> None:
+        """Refuse a line whose checksum is missing or wrong; else remember the checksum for the next line."""
         seal = seal_of(text)
         if seal is None:
             self._refuse("it does not end in a checksum: its end is lost, or was changed")
@@ -212,6 +221,7 @@ class RecordScan:
         self._check = seal
 
     def _check_place(self, line: Raw) -> None:
+        """Refuse a line after the footer, a second header, or a footer that counts other lines; keep the footer."""
         if self.footer is not None:
             self._refuse("it comes after the footer, which ends a record")
         if line["type"] == "header" and self.lines:
@@ -223,6 +233,7 @@ class RecordScan:
             self.footer = line
 
     def _refuse(self, what: str) -> NoReturn:
+        """Raise DamagedError for the line that was read; InputError if it is a first line that is not a header."""
         if self.lines == 0 and not self.sealed:
             self._no_record(f"its first line is not a header ({what})")
         raise DamagedError(
@@ -230,6 +241,7 @@ class RecordScan:
         )
 
     def _no_record(self, why: str) -> NoReturn:
+        """Raise InputError: the file is not a record."""
         raise InputError(f"{self._reader.name} is not a record: {why}; a record begins with a header")
 
 
@@ -261,7 +273,7 @@ class FileCondition:
 
 
 def check(path: Path) -> FileCondition:
-    """The condition of a file that is complete or cut off. Raises DamagedError and InputError as RecordScan does."""
+    """Return the condition of a file, complete or cut off. Raises DamagedError and InputError as RecordScan does."""
     with open_input(str(path)) as reader:
         scan = RecordScan(reader)
         for _ in scan:
@@ -270,7 +282,7 @@ def check(path: Path) -> FileCondition:
 
 
 def repair(path: Path, target: Path) -> FileCondition:
-    """Write everything up to the last good line to `target`; the condition says what was lost.
+    """Write everything up to the last good line to `target`; return the condition, which says what was lost.
 
     Raises InputError if not even the header is good, or if both paths are one file.
     """
@@ -289,7 +301,7 @@ def repair(path: Path, target: Path) -> FileCondition:
 
 
 def _condition(scan: RecordScan, reader: Reader, why: str) -> FileCondition:
-    """The condition of the file after the scan; the bytes that the scan did not read are counted."""
+    """Return the condition of the file after the scan; the bytes that the scan did not read are counted."""
     last = scan.written
     size, ends = len(last), last.count(b"\n")
     while block := reader.read(_BLOCK):

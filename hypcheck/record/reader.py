@@ -37,7 +37,7 @@ LINES: Mapping[str, type[RecordLine]] = {
     for kind in vars(module).values()
     if isinstance(kind, type) and issubclass(kind, RecordLine) and kind not in (RecordLine, NotStartedLine)
 }
-"""The struct of each type of line; of an implementation that was not started it is NotStartedLine."""
+"""The struct of each type of line; for an implementation that was not started, line_of takes NotStartedLine."""
 
 Kind = TypeVar("Kind", bound=RecordLine)
 
@@ -65,21 +65,22 @@ class Record:
 
 
 def file_of(path: Path) -> Path:
-    """The file of a record; `path` is that file, or the folder of its run."""
+    """Return the file of a record; `path` is that file, or the folder of its run."""
     return path / FILE if os.path.isdir(path) else path  # Path.is_dir() raises if a name is too long
 
 
 def interrupted_in(path: Path) -> Path:
-    """The record to resume; in a folder, that of a killed run takes precedence. Raises InputError for a stream."""
+    """Return the record to resume; in a folder, that of a killed run comes first. Raises InputError for a stream."""
     if str(path) == STREAM:
         raise InputError(f"--resume {STREAM} is standard input; name the file of a record, or the folder of a run")
     return path / GROWING if (path / GROWING).is_file() else file_of(path)
 
 
 def file_and_newer(path: Path) -> tuple[Path, str]:
-    """As file_of, and a sentence about a newer run in its folder that has not finished; empty if there is none.
+    """Return the file of a record, as file_of, and a sentence about a newer run in its folder.
 
-    Raises InputError if the unfinished run is the only one.
+    The sentence is about a newer run that has not finished; it is "" if there is none. Raises InputError if the
+    unfinished run is the only one.
     """
     file = file_of(path)
     growing = file.with_name(GROWING)
@@ -93,10 +94,10 @@ def file_and_newer(path: Path) -> tuple[Path, str]:
 
 
 def read(path: Path) -> Record:
-    """The record in a file, or in the folder of a run; without a footer if it was cut off after its first line.
+    """Read the record in a file, or in the folder of a run; it has no footer if it was cut off after its first line.
 
-    Raises DamagedError, an InputError that names the byte and what is wrong there, if it is not as it was written, and
-    InputError if it is not a record that this program reads, or a line has an invalid value.
+    Raises DamagedError, an InputError that names the byte and what is wrong there, if it is not as it was written.
+    Raises InputError if it is not a record that this program reads, or if a line has an invalid value.
     """
     path = file_of(path)
     with open_input(str(path)) as reader:
@@ -109,7 +110,7 @@ def read(path: Path) -> Record:
 
 
 def notes(record: Record) -> list[str]:
-    """Sentences about missing parts of a report of this record: its end, or lines of a later version."""
+    """Return sentences about missing parts of a report of this record: its end, or lines of a later version."""
     sentences = []
     if record.footer is None:
         sentences.append("the record has no end: the run was interrupted, and its reports show the finished part")
@@ -122,7 +123,7 @@ def notes(record: Record) -> list[str]:
 
 
 def line_of(raw: Raw) -> RecordLine | None:
-    """The struct of a raw line, None for a type that this version does not know. Raises ValidationError."""
+    """Return the struct of a raw line; None for a type that this version does not know. Raises ValidationError."""
     kind = LINES.get(raw["type"])
     if kind is lines.ImplementationLine and raw.get("started") is False:
         kind = NotStartedLine
@@ -130,6 +131,7 @@ def line_of(raw: Raw) -> RecordLine | None:
 
 
 def _decoded(raws: Sequence[Raw], path: Path) -> Iterator[RecordLine]:
+    """Yield the struct of each line whose type is known. Raises InputError if a line has an invalid value."""
     for number, raw in enumerate(raws, start=1):
         try:
             line = line_of(raw)
@@ -140,7 +142,7 @@ def _decoded(raws: Sequence[Raw], path: Path) -> Iterator[RecordLine]:
 
 
 def _explained(error: msgspec.ValidationError, raw: Raw) -> str:
-    """The error of a line as a sentence: its place, the value, and the allowed values."""
+    """Return the error of a line as a sentence: its place, the value, and the allowed values."""
     what, _, path = str(error).partition(" - at `$")
     path = path.removesuffix("`").removeprefix(".")
     missing = re.fullmatch(r"Object missing required field `(\w+)`", what)
@@ -156,11 +158,12 @@ def _explained(error: msgspec.ValidationError, raw: Raw) -> str:
 
 
 def _named(types: str) -> str:
+    """Return the types of an error of msgspec in words: "a text or a number"."""
     return " or ".join(_TYPES.get(name, name) for name in types.split(" | "))
 
 
 def _at(raw: Any, path: str) -> object:  # noqa: ANN401 - whatever JSON holds
-    """The value at a path such as worst[0].row."""
+    """Return the value at a path such as worst[0].row."""
     for name, index in re.findall(r"(\w+)|\[(\d+)\]", path):
         raw = raw[name] if name else raw[int(index)]
     return raw
@@ -176,6 +179,6 @@ class RecordedCase:
 
 
 def recorded_cases(record: Record) -> list[RecordedCase]:
-    """Every worst case and every fault in the order of the record; in a group first the worst, then the faults."""
+    """Return every worst case and every fault in the order of the record; in a group the worst cases come first."""
     kept = [(group, case) for group in record.of(GroupLine) for case in (*group.worst, *(group.faults or ()))]
     return [RecordedCase(number, group, case) for number, (group, case) in enumerate(kept, start=1)]

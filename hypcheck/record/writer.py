@@ -69,7 +69,7 @@ def folder_locked(folder: Path) -> Iterator[None]:
 
 
 def _locked(place: int) -> bool:
-    """Take the lock of an open folder; returns whether it was free, or the system has none."""
+    """Take the lock of an open folder; return whether it was free, or the system has none."""
     try:
         fcntl.flock(place, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
@@ -105,7 +105,7 @@ class GrowingFile:
 
     @contextmanager
     def _errors_name_it(self) -> Iterator[None]:
-        """Within the block an error of the system names this file, not the one beside it, or none."""
+        """Make an error of the system within the block name this file, not the one beside it, or none."""
         try:
             yield
         except OSError as error:
@@ -156,7 +156,7 @@ class GrowingFile:
 
 
 def _new_file(path: Path) -> BinaryIO:
-    """A new file to append to; the file of a killed run in its place is removed.
+    """Open a new file to append to; the file of a killed run in its place is removed.
 
     A link in its place is not followed. Raises OSError, also if a link is made there at this moment.
     """
@@ -192,11 +192,11 @@ _WITHOUT_RESULT = (
     UnavailableLine,
     WorkloadLine,
 )
-"""Lines about what a run will ask, has not, or could not: they say nothing about an answer."""
+"""Types of lines without an answer: they say what a run will test, what is missing, or what could not be started."""
 
 
 def is_result(line: RecordLine) -> bool:
-    """Whether the line has a result of the run."""
+    """Decide whether the line has a result of the run."""
     if isinstance(line, GroupLine):
         return line.asked > 0
     if isinstance(line, ProgressLine):
@@ -272,7 +272,7 @@ class Recorder:
             self._begin()
 
     def close(self, exit_code: int) -> Record:
-        """Write the footer, if the file has begun; returns the record as it would be read back."""
+        """Write the footer, if the file has begun; return the record as it would be read back."""
         seconds = time.monotonic() - self._began
         footer = FooterLine(lines=len(self._lines) + 2, exit_code=exit_code, seconds=seconds)
         self._ending = (footer,)
@@ -292,6 +292,7 @@ class Recorder:
         self._file.move(path)
 
     def _begin(self) -> None:
+        """Write the file for the first time, and call `begins`."""
         with interrupts_deferred():
             self._renew()
             self.begun = True
@@ -299,11 +300,12 @@ class Recorder:
                 self._begins()
 
     def _kept(self) -> Iterable[RecordLine]:
-        """The lines between header and footer in their order."""
+        """Return the lines between header and footer in their order."""
         progress = [] if self._progress is None else [self._progress]
         return (*self._lines[: self._place], *progress, *self._lines[self._place :])
 
     def _write(self, line: RecordLine) -> None:
+        """Add a line to the file."""
         with interrupts_deferred():
             data, self._check = sealed(as_json(line), self._check)
             self._file.write(data)
@@ -324,7 +326,7 @@ LIBRARIES = ("numpy", "sympy", "mpmath", "python-fcl", "coal", "click", "matplot
 
 
 def header(options: Mapping[str, Any], started: datetime, provenance: Provenance | None = None) -> HeaderLine:
-    """The first line: versions, machine, options and provenance of the run."""
+    """Make the first line: versions, machine, options and provenance of the run."""
     known = {} if provenance is None else vars(provenance)
     return HeaderLine(
         schema=SCHEMA,
@@ -345,7 +347,7 @@ def header(options: Mapping[str, Any], started: datetime, provenance: Provenance
 
 @cache
 def library_version(name: str) -> str | None:
-    """The version of a library from its metadata, so that it is not loaded; None if it is not installed."""
+    """Return the version of a library from its metadata, so that it is not loaded; None if it is not installed."""
     try:
         return version(name)
     except PackageNotFoundError:
@@ -353,7 +355,10 @@ def library_version(name: str) -> str | None:
 
 
 def processor_name(listed: Path = Path("/proc/cpuinfo")) -> str:
-    """The name of the first processor that the system lists, or, where it lists none, as Python has it."""
+    """Return the name of the first processor that the system lists; if it lists none, the name that Python has.
+
+    Returns "unknown" if there is neither.
+    """
     try:
         with listed.open(encoding="utf-8") as stream:
             for line in stream:

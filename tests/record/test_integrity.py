@@ -111,7 +111,7 @@ def test_checksum_of_a_record_line_covers_all_earlier_bytes_except_checksums_and
 
 
 @pytest.mark.parametrize("line", [b"[1]", b'"header"', b"3", b'{"type": 3}', b'{"types": "header"}'])
-def test_a_first_line_that_is_no_object_with_a_type_is_refused(line):
+def test_a_first_line_that_is_not_an_object_with_a_type_is_refused(line):
     with pytest.raises(InputError, match="it is not an object with a type"):
         list(RecordScan(Reader(io.BytesIO(line + b"\n"), "it")))
 
@@ -121,7 +121,7 @@ def test_a_later_line_without_a_type_is_refused():
         list(RecordScan(Reader(io.BytesIO(resealed([LINES[0], {"types": "drift"}, *LINES[2:]])), "it")))
 
 
-def test_a_line_is_written_in_utf_8_and_a_number_that_json_has_not_is_refused():
+def test_a_line_is_written_in_utf_8_and_a_number_that_json_cannot_hold_is_refused():
     assert "α".encode() in sealed(LINES[1], 0)[0]
     for number in (float("nan"), float("inf")):
         with pytest.raises(ValueError, match="not JSON compliant"):

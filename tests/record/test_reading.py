@@ -68,7 +68,7 @@ def written(path, close=True):
     return record
 
 
-def test_a_line_whose_field_has_half_of_a_character_in_its_name_is_refused():
+def test_a_line_with_a_lone_surrogate_in_the_name_of_a_field_is_refused():
     with pytest.raises(ValidationError, match="a lone surrogate"):
         decoded({**SAMPLE, "\ud800": 1}, ImplementationLine)
 
@@ -229,7 +229,7 @@ def test_a_record_of_a_newer_minor_version_is_read_without_its_additions(path):
         ((OLDER % "1.0.0").replace("group", "header"), "in line 2, at byte 38: it is a second header"),
     ],
 )
-def test_a_file_that_is_no_record_is_refused_naming_the_byte(path, text, message):
+def test_a_file_that_is_not_a_record_is_refused_naming_the_byte(path, text, message):
     path.write_text(text, encoding="utf-8")
     with pytest.raises(InputError, match=message):
         read(path)
@@ -286,7 +286,7 @@ def test_histograms_are_equal_if_their_tables_are_equal():
     assert first != first.as_lists()
 
 
-def test_the_record_of_a_killed_run_in_a_folder_is_resumed_and_named_beside_an_older_one(tmp_path):
+def test_the_record_of_a_killed_run_is_resumed_and_is_mentioned_if_an_older_record_is_read(tmp_path):
     growing = tmp_path / GROWING
     growing.touch()
     assert interrupted_in(tmp_path) == growing
@@ -312,7 +312,7 @@ def test_the_error_about_a_line_that_lacks_a_field_names_the_field(path):
 
 
 @pytest.mark.parametrize("error", [True, "large", None])
-def test_a_line_of_a_benchmark_with_a_distance_that_is_no_number_is_refused(error):
+def test_a_line_of_a_benchmark_with_a_distance_that_is_not_a_number_is_refused(error):
     counts = dict.fromkeys(("asked", "wrong", "false_clear", "false_contact", "wrong_side", "abstained"), 0)
     line = {"type": "accuracy", **counts, "method": "m", "workload": "near", "octaves": [], "worst": []}
     decoded({**line, "reliable_above": "inf"}, AccuracyLine)

@@ -63,7 +63,7 @@ def test_a_record_that_is_removed_during_its_run_is_written_again(tmp_path, gone
 
 
 @pytest.mark.parametrize("keeps", [True, False])
-def test_a_run_whose_folder_is_replaced_by_a_file_ends_with_a_sentence_about_it(tmp_path, keeps):
+def test_a_run_whose_folder_was_replaced_by_a_file_ends_with_an_error_that_names_it(tmp_path, keeps):
     out = tmp_path / "out"
 
     def run():
@@ -101,7 +101,9 @@ def test_progress_begins_a_record_only_if_something_was_tested(tmp_path):
 
 
 @pytest.mark.parametrize("how", ["keep", "add"])
-def test_a_run_on_a_full_disk_ends_with_a_sentence_about_its_record_and_keeps_what_it_has(tmp_path, small_files, how):
+def test_a_run_on_a_full_disk_ends_with_an_error_about_its_record_and_keeps_the_lines_so_far(
+    tmp_path, small_files, how
+):
     def run():
         with recording(tmp_path, {}) as running:
             assert not running.recorder.goes_on

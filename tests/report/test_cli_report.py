@@ -107,13 +107,13 @@ def test_report_of_a_truncated_record_begins_with_truncated(run, capsys):
     assert "hypcheck: note: the record has no end" in err
 
 
-def test_report_of_a_file_that_is_no_record_is_refused_in_one_sentence(run, capsys):
+def test_report_of_a_file_that_is_not_a_record_is_refused_in_one_sentence(run, capsys):
     (run / "record.jsonl").write_bytes(b"\xff\xfe\x00")
     assert main(["report", str(run)]) == 2
     assert "is not a record" in capsys.readouterr().err
 
 
-def test_report_refers_to_the_pictures_of_the_run_only_beside_them(run, tmp_path):
+def test_report_refers_to_pictures_only_if_it_is_written_to_their_folder(run, tmp_path):
     (run / "map.svg").write_text("<svg/>", encoding="utf-8")
     (tmp_path / "map.svg").write_text("of another run", encoding="utf-8")
     for folder, refers in ((run, True), (tmp_path, False)):

@@ -94,7 +94,7 @@ def ended_rows():
     return upright
 
 
-def test_answers_of_the_explorer_beside_ends_are_exact_wherever_it_answers(tmp_path_factory):
+def test_explorer_of_a_hyperboloid_with_ends_gives_the_exact_position_unless_it_gives_no_answer(tmp_path_factory):
     answered = asked_of_node(ended_rows(), tmp_path_factory)
     seen = set()
     for row, each in answered:

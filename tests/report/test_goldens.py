@@ -32,7 +32,7 @@ def require_goldens(run, now, kept):
 @pytest.mark.parametrize(
     "run", [pytest.param(run, marks=pytest.mark.thorough if run in LARGE else ()) for run in goldens.RUNS]
 )
-def test_reports_of_a_recorded_run_are_the_goldens_beside_its_record_and_its_page_is_sound(run):
+def test_reports_of_a_recorded_run_equal_its_goldens_and_its_page_is_valid(run):
     """In one test for all formats, since to draw the plots takes most of the time."""
     now, page = goldens.made(run)
     require_goldens(run, now, goldens.kept(run))
@@ -40,7 +40,7 @@ def test_reports_of_a_recorded_run_are_the_goldens_beside_its_record_and_its_pag
 
 
 @pytest.mark.parametrize("run", LARGE)
-def test_reports_of_a_large_run_that_have_no_plots_are_the_goldens_beside_its_record(run):
+def test_reports_without_plots_of_a_large_run_equal_its_goldens(run):
     now, kept = goldens.undrawn(run), goldens.kept(run)
     assert len(now) >= 6
     require_goldens(run, now, {name: text for name, text in kept.items() if name in now})

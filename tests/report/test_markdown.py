@@ -25,7 +25,7 @@ def headings(text):
     return re.findall(r"^##+ (.*)$", text, re.MULTILINE)
 
 
-def test_markdown_of_a_record_without_lines_has_the_section_about_the_run_alone():
+def test_markdown_of_a_record_without_lines_has_only_the_section_about_the_run():
     assert headings(report([])) == ["The run"]
 
 

@@ -80,7 +80,7 @@ def test_record_line_with_impossible_counts_is_refused_naming_the_field(tmp_path
 
 
 @pytest.mark.parametrize("constant", ["NaN", "Infinity"])
-def test_record_with_a_constant_that_is_no_json_is_refused(tmp_path, constant):
+def test_record_with_a_constant_that_json_does_not_have_is_refused(tmp_path, constant):
     path = tmp_path / "record.jsonl"
     path.write_text(f'{{"type": "header", "schema": "1.1.0"}}\n{{"type": "proof", "seconds": {constant}}}\n')
     with pytest.raises(InputError, match=f"in line 2, at byte 38: {constant} is not a number of JSON"):

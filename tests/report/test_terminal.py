@@ -116,7 +116,7 @@ def test_a_bounding_volume_has_a_share_of_false_contacts_only_if_a_clear_row_was
     assert not any(line.startswith(said) for line in shown(none))
 
 
-def test_a_benchmark_says_of_a_method_of_the_user_its_errors_its_time_and_the_fastest_that_is_as_reliable():
+def test_summary_of_a_benchmark_has_errors_time_and_best_rival_of_the_users_method():
     golden = Path(__file__).parent / "goldens" / "bench" / "record.jsonl"
     lines = summary_lines(read(golden), ())
     own = [line for line in lines if line.startswith("mine.py:position")]
@@ -136,7 +136,7 @@ def test_a_benchmark_of_a_users_method_leaves_the_papers_claims_of_cost_to_the_o
     assert claims == [[], ["claim holds, the tower: " + bench_lines.line("cost")["claim"]]]
 
 
-def test_a_passing_run_without_chosen_families_says_which_families_were_not_tested():
+def test_summary_of_a_passing_run_lists_untested_families_unless_the_verdict_names_them():
     golden = read(Path(__file__).parent / "goldens" / "held" / "record.jsonl")
     options = {name: value for name, value in golden.header.options.items() if name != "families"}
     lines = [

@@ -123,7 +123,7 @@ def test_a_benchmark_that_is_slower_or_too_noisy_has_not_passed(body, code, sent
     assert found.sentence.startswith(sentence)
 
 
-def test_a_benchmark_says_once_that_its_only_exact_method_was_right():
+def test_verdict_on_a_benchmark_mentions_once_that_the_only_exact_method_was_right():
     golden = read(Path(__file__).parent / "goldens" / "bench-ways" / "record.jsonl")
     alone = [
         structs.replace(line, exact=line.method == "passage-certified") if isinstance(line, MethodLine) else line

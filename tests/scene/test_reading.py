@@ -99,7 +99,7 @@ def test_axes_of_a_scene_are_read_without_normalisation():
     assert parse_scene(TILTED.replace("[0.5, 0, 2]", '"free"')).mover.axis == FREE
 
 
-def test_a_vertical_axis_is_upright_whatever_its_length_and_sense():
+def test_a_vertical_axis_of_any_length_pointing_up_or_down_makes_no_tilted_scene():
     text = TILTED.replace("[0, -1, 3]", "[0, 0, -3]").replace("[0.5, 0, 2]", "[0, 0, 1e300]")
     assert not parse_scene(text).tilted
     parted = WHOLE.replace("d = 0.15", "d = 0.15\naxis = [0, 0, -2]")

@@ -173,7 +173,7 @@ def test_an_output_on_a_full_disk_is_named_with_the_reason_and_nothing_is_left(t
     assert sorted(os.listdir(tmp_path)) == ["in.csv"]
 
 
-def test_classify_leaves_files_alone_that_it_may_not_write(tmp_path, source, capsys, monkeypatch):
+def test_classify_does_not_change_a_file_that_it_may_not_write(tmp_path, source, capsys, monkeypatch):
     """The rights are taken away by a stand-in for the system, since a superuser may do everything."""
     target = tmp_path / "out.csv"
     target.write_text("old")

@@ -69,7 +69,7 @@ def test_number_with_more_digits_than_float64_holds_is_rounded_to_nearest():
 
 
 @pytest.mark.parametrize("value", [True, False, None, "1", [1], {"x": 1}])
-def test_json_value_that_is_no_number_is_refused_and_quoted_as_json(value):
+def test_json_value_that_is_not_a_number_is_refused_and_quoted_as_json(value):
     with pytest.raises(ValueError, match="it must be a number") as caught:
         number_of_json("x", value)
     assert str(caught.value).startswith(f"x is {json.dumps(value)};")
