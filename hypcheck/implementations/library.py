@@ -321,6 +321,7 @@ def _has(library: ctypes.CDLL, name: str) -> bool:
 
 
 def _description(library: ctypes.CDLL, path: str) -> str:
+    """Return the library's description of itself, a JSON text; empty if it has none. Raises LoadError."""
     if not _has(library, "hypcheck_describe"):
         return ""
     library.hypcheck_describe.argtypes, library.hypcheck_describe.restype = (), ctypes.c_char_p

@@ -110,6 +110,7 @@ class _ProcessMemory(NamedTuple):
 
     @property
     def identity(self) -> tuple[int, int]:
+        """What tells this process from a later one with the same number."""
         return self.number, self.started
 
 

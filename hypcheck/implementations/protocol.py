@@ -116,10 +116,12 @@ class _Answers(Reply):
         raise NotImplementedError
 
     def share(self, incoming: bytearray) -> float:
+        """Return the part of the answers that has arrived, from 0 to 1."""
         end = incoming.find(b"\n") + 1
         return self._so_far(incoming, end) / self._n if end and self._n else 0.0
 
     def progress(self, incoming: bytearray) -> str:
+        """Return how many answers have arrived, in words."""
         end = incoming.find(b"\n") + 1
         return f"{self._so_far(incoming, end)} of {self._n} answers" if end else super().progress(incoming)
 
@@ -129,6 +131,7 @@ class BinaryReply(_Answers):
 
     @property
     def _size(self) -> int:
+        """How many bytes follow the first line."""
         return self._n * (1 + 8 * self._times)
 
     def _after(self, incoming: bytearray, end: int) -> int:
@@ -237,6 +240,7 @@ class CommandSession(ProcessSession):
         self.max_batch = LARGEST if self.description.binary else LARGEST_TEXT
 
     def _meet(self) -> Description:
+        """Return the description in the program's first line. Raises StartError."""
         try:
             line = self._first_line()
         except FaultError as fault:
@@ -367,10 +371,12 @@ class CommandSession(ProcessSession):
 
     @property
     def _how(self) -> str:
+        """The word of a question that says how its rows are written, such as tilted-binary."""
         return self._form + ("binary" if self.description.binary else "text")
 
     @property
     def _form(self) -> str:
+        """What comes before "text" or "binary" in that word."""
         return self.description.asked.forms[self.description.tilt]
 
     @property

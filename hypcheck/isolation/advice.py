@@ -42,6 +42,7 @@ def isolation_advice(text: str, words: Sequence[str], isolation: Isolation) -> s
 
 @lru_cache(maxsize=256)  # thousands of rows may fail alike
 def _advice(text: str, words: tuple[str, ...], isolation: Isolation, folder: str) -> str:
+    """Return the advice of the first cause that has one; empty without."""
     view = _View(words, isolation, folder)
     word = isolation.means.word
     return next((f"; it runs {word}, {sentence}" for cause in _CAUSES if (sentence := cause(text, view))), "")
@@ -57,14 +58,17 @@ class _View:
 
     @cached_property
     def _needed(self) -> tuple[str, ...]:
+        """The paths that the program needs."""
         return needed_paths(self.words, os.environ, self.isolation.seen)
 
     @cached_property
     def _closed(self) -> tuple[str, ...]:
+        """The paths that appear empty to it."""
         return hidden_paths(self.isolation.hidden, self._needed, self.isolation.seen)
 
     @cached_property
     def _private(self) -> tuple[str, ...]:
+        """The folders of which it sees only needed parts."""
         return (*private_folders(self._needed), SHARED_MEMORY)
 
     def hides(self, path: str) -> bool:

@@ -218,6 +218,7 @@ class _Body(_Statements):
         return self._say("return_if", condition=condition, value=answer(position, self._question))
 
     def _note(self, text: str) -> str:
+        """Return a comment."""
         return self._say("note", text=text)
 
 

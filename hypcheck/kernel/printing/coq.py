@@ -114,6 +114,7 @@ def _real(value: Fraction) -> str:
 
 
 _WORDS = {"add": "Add", "sub": "Sub", "mul": "Mul", "div": "Div", "neg": "Neg"}
+"""The constructors of `expr`, by operation."""
 
 STAGE_TWO = "hypcheck/proofs/StageTwo.v"
 """The file that holds the coefficients and the discriminant as the kernel's floats compute them."""
@@ -203,6 +204,7 @@ _PRINTED = {
     "one_plane": lines.ONE_PLANE,
     "two_planes": lines.TWO_PLANES,
 }
+"""The programs that the header is printed from, by their names in PROGRAMS."""
 
 _PROGRAMS_HEAD = """(** The programs from which the C is printed, as listings that Steps.v reads. Printed itself, by
 

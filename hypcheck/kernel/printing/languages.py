@@ -154,6 +154,7 @@ _C_LIKE = {**INFIX, **BITWISE, "not": "!{0}", "select": "{0} ? {1} : {2}"}
 
 
 def _c(number: str) -> Spelling:
+    """Return the spelling of C."""
     suffix = C_SUFFIXES[number]
     return Spelling(
         operations={**_C_LIKE, "abs": f"fabs{suffix}({{0}})", "sqrt": f"sqrt{suffix}({{0}})"},
@@ -175,6 +176,7 @@ throw true try typedef typeid typename union unsigned using virtual void volatil
 
 
 def _cpp(number: str) -> Spelling:
+    """Return the spelling of C++."""
     return Spelling(
         operations={**_C_LIKE, "abs": "std::abs({0})", "sqrt": "std::sqrt({0})"},
         number=number,
@@ -193,6 +195,7 @@ typeof unsafe unsized use virtual where while yield
 
 
 def _rust(number: str) -> Spelling:
+    """Return the spelling of Rust."""
     operations = {
         "neg": "-({0})",
         "abs": f"{number}::abs({{0}})",
@@ -220,6 +223,7 @@ static super switch this throw true try typeof undefined var void while with yie
 
 
 def _javascript(number: str) -> Spelling:
+    """Return the spelling of JavaScript."""
     operations = {
         **_C_LIKE,
         "eq": "{0} === {1}",
@@ -244,6 +248,7 @@ def _javascript(number: str) -> Spelling:
 
 
 def _python(number: str) -> Spelling:
+    """Return the spelling of Python."""
     operations = {
         "and": "{0} and {1}",
         "or": "{0} or {1}",

@@ -96,6 +96,7 @@ USABLE = """
     sizes_usable = positive_radial and ratios_usable
     usable = sizes_usable and not_too_far
 """
+"""The steps to `usable`: all numbers are in the range for which the bounds hold."""
 
 _COEFFICIENT_BOUNDS = """
     A_plus_B = A + B
@@ -113,6 +114,7 @@ _COEFFICIENT_BOUNDS = """
     size_c2 = abs c2
     m2 = size_c2 + e2
 """
+"""The steps to the error bounds e0, e1, e2 of the coefficients, and to bounds m0, m1, m2 of their sizes."""
 
 # E1 = m2 (2 e2 + 4u m2) + 3 (e1 + 4u m1), E2 = m2 (e1 + 4u m1) + m1 e2 + 9 (e0 + 4u m0),
 # E3 = m1 (2 e1 + 4u m1) + 3 (m2 (e0 + 4u m0) + m0 e2), E = 4 (a1 (E3 + 4u a3) + a3 E1) + a2 (2 E2 + 4u a2).
@@ -160,6 +162,7 @@ _DISCRIMINANT_BOUND = """
     E = slack * E_sum
     minus_E = - E
 """
+"""The steps to E, the error bound of 3Δ."""
 
 
 def _slope(pole: str, sign: str, tag: str) -> str:
@@ -265,6 +268,7 @@ SINGLE = program_of(
     BB = B * B
 """,
 )
+"""The program for one pair, from a row to the names of SINGLE_RESULTS."""
 
 SINGLE_RESULTS = ("A", "B", "BB", "P_plus_Q", "c1", "e1", "c2", "e2", "delta_3", "E")
 """The results of SINGLE: delta_3, c1, c2 with their error bounds E, e1, e2, and the numbers whose range is tested."""

@@ -79,6 +79,7 @@ _START = """
     start_inside = v_larger > v_least
     v_0 = start_inside ? v_larger : v_least
 """
+"""The steps to the first v of DUAL."""
 
 _LOCAL_MAXIMUM = """
     c2_squared = c2 * c2
@@ -99,6 +100,7 @@ _LOCAL_MAXIMUM = """
     v_m_inside = v_m > v_least
     v_0 = v_m_inside ? v_m : v_least
 """
+"""The steps to the first v of LOCAL_MAXIMUM, from the local maximum of g."""
 
 
 def _newton(step: int) -> str:

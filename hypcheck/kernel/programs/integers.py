@@ -96,6 +96,7 @@ INTEGERS = program_of(
     ring_excess = q_ss - p_tt
 """,
 )
+"""The program from an upright row to the coefficients of g times N, delta, and slopes and offsets at the poles."""
 
 QUARTIC = program_of(
     "tilted-quartic",
@@ -170,6 +171,7 @@ QUARTIC = program_of(
     f4 = q * k2
 """,
 )
+"""The program from a tilted row to the coefficients of F."""
 
 COEFFICIENTS = ("minus_f0", "f1", "f2", "f3", "f4")
 
@@ -212,6 +214,7 @@ DISCRIMINANT = program_of(
     delta = fourfold_I - J_J
 """,
 )
+"""The program from I and J to delta, 27 times the discriminant of F."""
 
 FLOAT64_BITS = 2098
 """The bits of the largest float64 as a multiple of the smallest: 2¹⁰²⁴ / 2⁻¹⁰⁷⁴ = 2²⁰⁹⁸."""
@@ -294,6 +297,7 @@ TANGENCY = Program(
     room_without = s_D - M_t
 """),
 )
+"""The program that checks M and e for a row: it touches if r1 = r2 = r3 = 0 and no room is negative."""
 
 WAIST = program_of(
     "waist",
@@ -321,6 +325,7 @@ WAIST = program_of(
     room = q_2_s - W_t
 """,
 )
+"""The program of the rule for rows with z = 0."""
 
 _SQUARES = ("p", "q", "s", "t", "xx", "yy", "R", "S", "p_2", "q_2")
 _SUMS = ("p_plus_q", "p_q_R", "s_plus_S", "t_minus_s", "t_s_S", "R_minus_q", "R_less_q", "W", "opposite", "W_p_2")

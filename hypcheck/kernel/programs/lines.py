@@ -156,7 +156,10 @@ def _line(side: str, place: int, holds: str) -> str:
 
 
 _HOLDS = {"beyond": "exterior", "within": "interior", "under": "is_under", "above": "is_above"}
+"""The name of the truth value that the comparison with each kind of line gives."""
+
 _JOINED = {"beyond": "or", "within": "or", "under": "and", "above": "and"}
+"""How the truth values of two lines are joined: one line is enough to be clear, a chord needs both."""
 
 
 def _one_and_two(
@@ -320,6 +323,7 @@ _COMPONENTS = """
     Q = c3 * c3
     in_reach = Q <= reach
 """
+"""The steps from a centre to the squares P1, P2, Q of its components, and to whether Q is in reach."""
 
 
 def _plane(side: str, place: int, holds: str) -> str:
@@ -392,6 +396,7 @@ LEAST_REACH, GREATEST_REACH = 2.0**-60, 2.0**60
 FLOAT32_GREATEST_SLOPE = 2.0**40
 
 PLANE = program_of("plane", ("x", "y", "z"), _PLANE)
+"""The program from a centre to R and T."""
 
 PARALLEL_LINES = program_of(
     "parallel-lines",

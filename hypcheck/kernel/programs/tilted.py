@@ -101,6 +101,7 @@ FORM = f"""
     k0 = p * s
     {K1}
 """
+"""The steps from a row to the numbers of F that do not depend on l."""
 
 AT_MULTIPLIER = """
     p_l = p + l
@@ -131,6 +132,7 @@ AT_MULTIPLIER = """
     loss = l_N * d_slope
     psi = gain - loss
 """
+"""The steps from these numbers and l to F, d, k, p + l and psi."""
 
 VALUES = program_of("tilted-values", (*ROW, "l"), FORM, AT_MULTIPLIER)
 """The program from a row and l to F, d, k, p + l and psi."""
@@ -218,6 +220,7 @@ SIDES = """
     phi_negative = minus_F_least > 0
     d_least = d_l - e_d
 """
+"""The steps from `phi_positive` and `inside` to the side of a clear spheroid, and to whether φ < 0 is proved."""
 
 _DECISION = f"""
     {in_range(("w",), "not_too_far = distance < farthest_square", "", "w_usable", "not_too_far")}

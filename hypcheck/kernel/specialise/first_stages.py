@@ -89,6 +89,7 @@ CENTRE = program_of(
     outside = R > surface
     """,
 )
+"""The program that computes `outside`: whether R is greater than that of the hyperboloid at this height."""
 
 
 def centre_constants(scaled: ScaledSetting, form: FloatFormat) -> dict[str, float]:

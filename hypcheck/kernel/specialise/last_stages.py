@@ -82,6 +82,7 @@ COEFFICIENTS = """
     K_up = KZ * zz
     c2 = K_minus - K_up
 """
+"""The steps to the coefficients c1/s² and c2/s, from R and zz."""
 
 SLACK = 1 + Fraction(1, 2**20)
 """Covers that M is computed from rounded constants, each up to a relative u from its exact value."""
@@ -182,6 +183,7 @@ START = program_of(
     cz = CZ * height
     """,
 )
+"""The program from R, zz and |z| to P, Q, a r and c z."""
 
 HALF = program_of("half", ("pole",), "half = pole / 2")
 
@@ -203,7 +205,10 @@ FALLS = program_of(
 GEOMETRIC = program_of(
     "geometric", ("low", "high"), "root_low = sqrt low\n root_high = sqrt high\n middle = root_low * root_high"
 )
+"""The program to the geometric mean, which halves the exponent."""
+
 ARITHMETIC = program_of("arithmetic", ("low", "high"), "sum_of_both = low + high\n middle = sum_of_both / 2")
+"""The program to the arithmetic mean, which halves the distance."""
 
 PLACE = program_of(
     "place",
@@ -320,6 +325,8 @@ _LEAST, _GREATEST = Fraction(1, 2**40), Fraction(2**40)
 _LEAST_T, _GREATEST_T = Fraction(1, 2**24), Fraction(2**24)
 _LEAST_B, _GREATEST_B = Fraction(1, 2**60), Fraction(2**60)
 _FARTHEST = Fraction(2**40)
+"""The greatest distance of a centre, in units of b."""
+
 _NOTHING = Fraction(1, 2**620)
 """Less than this counts as 0: times 2⁴⁰ b, the farthest centre, it is less than tilted.LOST."""
 
@@ -424,3 +431,4 @@ _PRECISE = Arithmetic(
         "select": lambda condition, yes, no: yes if condition else no,
     },
 )
+"""The arithmetic in which the frame of a fixed axis is computed: fractions, rounded to about _BITS bits."""

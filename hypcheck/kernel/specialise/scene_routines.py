@@ -39,7 +39,10 @@ LOOSE = 2.0**-45
 """The share of the sizes of its terms by which a level may be off (above)."""
 
 _COLUMNS = ("alpha", "gamma", *sweeps.WALL, *sweeps.WALL_AXIS, "z_min", "z_max", "solid")
+"""The columns of the table of hyperboloids."""
+
 _POSITION_OF = {"exterior": 1, "interior": -1, "contact": 0}
+"""By question: the position that answers it with yes."""
 
 
 def scene_columns(scene: SceneModel, *, sweep: bool) -> tuple[str, ...]:
@@ -79,6 +82,7 @@ sum_wall = sum_wall_xy + size_wall_z
     + sweeps.dot("upward_squares", "upward", "upward")
     + "\nupward_length = sqrt upward_squares"
 )
+"""The steps to the axis of a hyperboloid, about 1 long, and to the sum of the sizes of its centre's coordinates."""
 
 _ENDS = """
 no_lower = z_min < least_end
@@ -113,6 +117,7 @@ places_sum = sum_place + sum_place
 lowest = level_place + 0
 highest = level_place + 0
 """
+"""The steps to the least and greatest level of a mover at one place."""
 
 _OF_SWEEP = """
 places_sum = sum_start + sum_end
@@ -120,6 +125,7 @@ rises = level_start < level_end
 lowest = rises ? level_start : level_end
 highest = rises ? level_end : level_start
 """
+"""The steps to the least and greatest level of the centre on a sweep."""
 
 
 def _window(name: str, lower: str, upper: str, sign: tuple[str, str]) -> str:
@@ -164,6 +170,7 @@ inner_counts = inner_known and inner_open
 never_there = not outer_open
 """
 )
+"""The steps to the times of a sweep between which it is near the heights, and between which it is between the ends."""
 
 _ONE_POSITION = f"""
 is_exterior_raw = found > 0

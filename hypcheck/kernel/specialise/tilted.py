@@ -170,6 +170,7 @@ COMPONENTS = program_of(
     c3 = xy3 + z3
     """,
 )
+"""The program from the centre and the rows of a frame to the components c1, c2, c3 of the centre."""
 
 PHI = program_of(
     "phi",
@@ -191,9 +192,11 @@ PHI = program_of(
     phi = terms - one_lambda
     """,
 )
+"""The program from the components, the poles and λ to φ and to the distances from the poles."""
 
 
 _SIDES = ((1, "a1", "A1"), (2, "a2", "A2"), (3, "b", "B"))
+"""Of each term of φ: its number, the end of the name of the distance to its pole, and the name of the pole."""
 
 FALLS = program_of(
     "falls",

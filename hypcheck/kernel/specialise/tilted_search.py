@@ -198,6 +198,7 @@ SEARCH = Routine(
 """The search for one fixed axis, whose frame is a record of constants."""
 
 _ANY = replace(SEARCH, inputs=(*CENTRE, *SEARCH.record), record=())
+"""The search for any axis, whose frame is given as inputs."""
 
 POWER_FOR = Routine(
     "power_for",
