@@ -109,7 +109,7 @@ class CommandGroup(click.Group):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """As click does, but an unknown command gets a suggestion. Raises click.UsageError.
+        """Find the command as click does, but suggest a name for an unknown one. Raises click.UsageError.
 
         While a shell completes a line, an unknown command has no completions and is no error.
         """

@@ -211,7 +211,7 @@ class _Worker:
 
 
 def _serve(line: Connection) -> None:
-    """The program of a process of the pool: enter a context, then answer calls until the parent is done or gone."""
+    """Run a process of the pool: enter a context, then perform calls until the parent is done or gone."""
     end_with_parent()
     try:
         with line.recv()():
@@ -274,7 +274,7 @@ _OPENED: ContextVar[tuple[Implementation, JudgingRules]] = ContextVar("opened")
 def _opened(
     opener: schedule.ImplementationOpener, rules: JudgingRules, fingerprint: str, frozen: dict[str, FrozenVectors]
 ) -> Iterator[None]:
-    """The context of a process of a pool: open the implementation, and close it at the end of the process."""
+    """Open the implementation in a process of a pool, and close it at the end of the process."""
     keep_freed_memory()
     keep_loaded(frozen)
     if code_fingerprint() != fingerprint:

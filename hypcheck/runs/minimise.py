@@ -70,7 +70,7 @@ def simpler_than(rows: Iterable[Row], limit: Complexity, layout: Layout = PAIRS)
 
 
 def rounded(value: float) -> Iterator[float]:
-    """`value` to 1, 2, 3 … significant digits: the nearest number, and its neighbours on both sides."""
+    """Round `value` to 1, 2, 3 … significant digits; yield the nearest number each time, and its two neighbours."""
     for digits in DIGITS:
         text = f"{value:.{digits - 1}e}"
         unit = float(f"1{text[text.index('e') :]}") / 10 ** (digits - 1)

@@ -199,7 +199,7 @@ def _require_sum(samples: Samples, checksum: int) -> None:
 
 @contextmanager
 def _refused(samples: Samples) -> Iterator[None]:
-    """If the block raises TimingRefusedError, store the reason in the samples."""
+    """Enter a block; if it raises TimingRefusedError, store the reason in the samples."""
     try:
         yield
     except TimingRefusedError as refused:

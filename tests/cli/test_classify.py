@@ -188,7 +188,7 @@ def test_classify_ends_with_6_if_the_least_value_or_the_position_with_a_margin_d
 
 
 @pytest.mark.parametrize(("margin", "says"), [("0.25", "exterior: {} is proved"), ("1", "contact: {} is not proved")])
-def test_the_text_about_a_margin_says_what_is_proved(margin, says, capsys):
+def test_text_about_a_margin_says_whether_a_distance_of_the_margin_is_proved(margin, says, capsys):
     assert main([*options(1, 2, 1, 1, 2.5, 0, 0), "--margin", margin]) == 0
     line = says.format(f"a distance of at least {margin}")
     assert f"margin     {line}" in capsys.readouterr().out.splitlines()

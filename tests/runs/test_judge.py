@@ -112,7 +112,7 @@ def test_judge_refuses_an_invalid_criterion(bad):
 
 @pytest.mark.thorough
 @given(st.lists(ordinary_pairs, min_size=1, max_size=10), st.integers(0, 2**32))
-def test_exponent_of_a_wrong_case_contains_its_measured_error(some, seed):
+def test_measured_error_of_a_wrong_case_lies_in_the_octave_of_its_exponent(some, seed):
     rows = np.array([pair.row for pair in some])
     answers = np.random.default_rng(seed).integers(-1, 2, len(rows)).astype(np.int8)
     for case in wrong_cases(rows, inside.positions(rows), answers, Criterion()):

@@ -162,7 +162,7 @@ def test_answer_cannot_say_about_a_sweep_is_not_wrong(rows):
         ((2.0, -1e308, 0.0), (2.0, 1e308, 0.0), 0.25, Mistake.EARLY, math.inf),
     ],
 )
-def test_the_exponent_of_a_wrong_time_is_that_of_its_radii(start, end, time, mistake, exponent):
+def test_exponent_of_a_wrong_time_is_that_of_its_error_in_spheroid_radii(start, end, time, mistake, exponent):
     row, exactly = np.array([[*BODY, *start, *end]]), Criterion("passage", tolerance=Fraction(0))
     (case,) = judge.judged(row, np.array([1], np.int8), np.array([0]), exactly, np.array([time]))
     assert (case.mistake, case.exponent, case.time) == (mistake, exponent, time)

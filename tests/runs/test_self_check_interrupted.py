@@ -26,7 +26,7 @@ process()
 
 
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
-def test_an_interrupted_self_check_writes_what_was_finished(tmp_path, number, code):
+def test_interrupted_self_check_records_the_finished_part(tmp_path, number, code):
     words = ["verify", "--self", "--out", str(tmp_path), "--count", "400"]
     command = [sys.executable, "-c", PROVED, *words, "--workers", "2"]
     process = subprocess.Popen(command, stderr=subprocess.PIPE, start_new_session=True)

@@ -185,7 +185,7 @@ def test_answers_about_upright_rows_of_ten_numbers_keep_their_exact_backward_err
         assert judge.measured(one, "position") == judge.measured(other, "position")
 
 
-def test_a_wrong_answer_about_a_tilted_spheroid_is_wrong_by_at_least_what_is_recorded():
+def test_recorded_error_of_a_wrong_answer_about_a_tilted_spheroid_is_a_lower_bound():
     (case,) = wrong_cases(np.array([BESIDE]), np.zeros(1, dtype=np.int8), np.array([1], dtype=np.int8), Criterion())
     low, high = ends_of(case.row, case.answer)
     assert exact_position(BESIDE) == 0

@@ -136,7 +136,7 @@ def test_neighbours_of_a_row_with_ends_are_valid_and_have_other_ends(row, layout
         ((3, 4, 1, 1, 3, 0, 5, 0, 0, 1, -9, 9, 0), ENDED),
     ],
 )
-def test_place_of_a_row_with_ends_says_what_they_change(row, kind):
+def test_place_of_a_row_with_ends_names_the_change_of_position_that_the_ends_cause(row, kind):
     place = place_of(Pair.from_row(row))
     assert place.kind == kind
     assert place.words.startswith(ENDED)

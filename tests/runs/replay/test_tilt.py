@@ -25,7 +25,7 @@ def spec_of(built_in):
 
 
 @pytest.mark.slow
-def test_a_tilted_row_is_replayed_with_its_axis_a_proof_and_two_ends_for_each_other_position(capsys):
+def test_tilted_row_is_replayed_with_its_axis_a_proof_and_two_bounds_of_each_flip_distance(capsys):
     code, said = replayed(capsys, BESIDE, f"{SPEC}exact")
     assert code == 0
     assert "axis_x      1                       0x1p+0" in said.out
