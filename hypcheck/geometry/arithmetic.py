@@ -238,6 +238,7 @@ class QuadraticSurd:
         return difference.sign if isinstance(difference, QuadraticSurd) else sign_of(difference)
 
     def _parts(self, other: object) -> tuple[Any, Any] | None:
+        """Return p and q of a number of this field, or None for another type. Raises ValueError for another field."""
         if isinstance(other, QuadraticSurd):
             if other.h != self.h:
                 raise ValueError(f"√{self.h} and √{other.h} do not lie in one quadratic field")

@@ -176,6 +176,7 @@ def mean_no_ends(heights: Sequence[Argument]) -> bool:
 
 
 def _add(columns: dict[str, Argument], others: Mapping[str, Argument]) -> None:
+    """Add columns to `columns`. Raises InputError if one is there already."""
     for name, value in others.items():
         if name in columns:
             raise InputError(f"{name} is given twice; it must be given once")

@@ -121,6 +121,7 @@ class Layout:
 
 
 def _width_of(rows: Rows | Sequence[object]) -> int:
+    """Return the number of columns of rows, or of one row."""
     return rows.shape[-1] if isinstance(rows, np.ndarray) else len(rows)
 
 

@@ -91,7 +91,7 @@ class ScenePage:
         Path(path).write_text(self.html, encoding="utf-8")
 
     def _repr_html_(self) -> str:
-        """The HTML for a notebook: a frame with the page."""
+        """Return the HTML for a notebook: a frame with the page."""
         return f'<iframe srcdoc="{html.escape(self.html)}" width="100%" height="640" style="border:0"></iframe>'
 
 
@@ -212,6 +212,7 @@ def _filled(name: str, summary: str, data: dict[str, Any], *, with_flight: bool)
 
 
 def _text(name: str) -> str:
+    """Return the text of a template."""
     return _FILES.joinpath("templates", name).read_text(encoding="utf-8")
 
 

@@ -210,6 +210,7 @@ def shared_files(
 
 
 def _text(path: Path) -> str | None:
+    """Return the text of a file; None if there is none."""
     return toml.text_of(str(path)) if path.exists() else None
 
 

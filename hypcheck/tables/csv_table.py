@@ -86,6 +86,7 @@ class _Records:
         return None
 
     def _parsed(self) -> list[str] | None:
+        """Parse the next record; None at the end. Raises InputError on broken quoting."""
         try:
             return next(self._parser, None)
         except csv.Error as error:
@@ -136,11 +137,13 @@ def write_csv(writer: Writer, table: Table) -> Iterator[Sink]:
 
 
 def _render(end: str, chunk: TableChunk, answers: Answers) -> bytes:
+    """Write the rows of a chunk with their answers as CSV."""
     texts = chunk.texts if chunk.texts is not None else [",".join(map(repr, row)) for row in chunk.rows.tolist()]
     return with_answers(texts, answers, _cell_text, [","] * len(answers.names), end)
 
 
 def _cell_text(cell: Cell) -> str:
+    """Write an added cell as CSV; None is empty."""
     return "" if cell is None else str(cell).lower()
 
 
@@ -281,6 +284,7 @@ def _flight_columns(header: list[str], name: str) -> list[str]:
 
 
 def _numbers(cells: list[str], header: list[str], columns: list[str], where: str) -> list[float]:
+    """Read the numbers of a flight's row. Raises InputError."""
     if len(cells) != len(header):
         raise InputError(f"{where}: there are {len(cells)} cells; there must be {len(header)}, as in the first line")
     try:

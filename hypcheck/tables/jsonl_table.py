@@ -58,12 +58,14 @@ def write_jsonl(writer: Writer, _table: Table) -> Iterator[Sink]:
 
 
 def _render(chunk: TableChunk, answers: Answers) -> bytes:
+    """Write the objects of a chunk with their answers as JSON lines."""
     texts = chunk.texts if chunk.texts is not None else [_object(row, chunk.layout) for row in chunk.rows.tolist()]
     marks = [f', "{name}": ' for name in answers.names]
     return with_answers([text[:-1] for text in texts], answers, _cell_text, marks, "}\n")
 
 
 def _cell_text(cell: Cell) -> str:
+    """Write an added cell as JSON."""
     return json.dumps(str(cell) if cell == inf else cell)  # JSON has no number for infinity
 
 
@@ -119,10 +121,12 @@ def _layout_of(text: str) -> Layout:
 
 
 def _chunk_of_block(block: TextBlock, places: RowPlaces, layout: Layout, *, mark: bool) -> TableChunk:
+    """Make the chunk of a plain block."""
     return _chunk([line.rstrip(_BLANKS) for line in block.plain_lines()], places, layout, mark=mark)
 
 
 def _chunk(texts: list[str], places: RowPlaces, layout: Layout, *, mark: bool) -> TableChunk:
+    """Make a chunk of lines; read them one by one if they are not all valid."""
     rows = _rows_if_valid(texts, layout)
     if rows is not None:
         return TableChunk(rows, np.zeros(len(rows), dtype=np.bool_), texts, layout)

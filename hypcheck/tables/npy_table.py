@@ -66,6 +66,7 @@ def write_npy(writer: Writer, _table: Table) -> Iterator[Sink]:
 
 
 def _render(_chunk: TableChunk, answers: Answers) -> bytes:
+    """Return the integers of the answers as bytes."""
     return answers.integers.tobytes()
 
 
@@ -144,6 +145,7 @@ def _cut_off(name: str, count: int, have: int) -> InputError:
 
 
 def _chunks(reader: Reader, layout: _NpyLayout, *, mark: bool) -> Iterator[UnreadChunk]:
+    """Yield the chunks of an array. Raises InputError if the data are cut off, or go on after it."""
     for start in range(0, layout.count, CHUNK):
         rows = _rows(reader, layout, start, min(CHUNK, layout.count - start))
         yield partial(_chunk, rows, reader.name, start + 1, mark=mark)
@@ -152,6 +154,7 @@ def _chunks(reader: Reader, layout: _NpyLayout, *, mark: bool) -> Iterator[Unrea
 
 
 def _chunk(rows: Rows, name: str, first: int, *, mark: bool) -> TableChunk:
+    """Make a chunk of rows. Raises InputError about an invalid one, unless `mark` is set."""
     refused = invalid(rows)
     if not mark and refused.any():
         raise InputError(f"{name}, {first_trouble(rows, first)}")

@@ -141,6 +141,7 @@ def equals_text(value: Fraction) -> str:
 
 
 def _integer_text(number: int) -> str:
+    """Write an integer of any length."""
     if number < 0:
         return "-" + _integer_text(-number)
     if number.bit_length() < _DIRECT_BITS:
@@ -198,6 +199,7 @@ def rational_of(text: str) -> Fraction:
 
 
 def _integer_of(digits: str) -> int:
+    """Read an integer of any length."""
     if len(digits) <= _PIECE_DIGITS:
         return int(digits)
     return _integer_of(digits[:-_PIECE_DIGITS]) * _PIECE + int(digits[-_PIECE_DIGITS:])

@@ -417,6 +417,7 @@ class TextLines:
         return block
 
     def _opened(self) -> Iterator[list[str]]:
+        """Yield the lines of each block that is not handed out as a whole."""
         while (block := self._ahead or next(self._blocks, None)) is not None:
             self._ahead = None
             self._given += block.count

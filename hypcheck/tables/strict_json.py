@@ -141,6 +141,7 @@ class _JsonScanner:
         self._decoder = strict_decoder(_finite)
 
     def document(self) -> JsonDocument:
+        """Read the whole document. Raises InputError."""
         members: dict[str, Any] = {}
         lines: dict[Path, int] = {}
         cases: tuple[tuple[JsonPlace, Any], ...] = ()

@@ -197,7 +197,7 @@ def estimate(pair: Pair, truth: Decision, answer: Position) -> float:
 
 
 def exponent(pair: Pair, truth: Decision, answer: Position) -> float:
-    """log2 of the estimated backward error; for an upright pair floor(log2) of the exact one, which is cheaper.
+    """Return log2 of the estimated backward error; for an upright pair floor(log2) of the exact one, which is fast.
 
     −inf for 0, inf for inf.
     """
@@ -309,7 +309,7 @@ TOWARD_INTERIOR = np.array([1.0, -1.0, -1.0, -1.0, -1.0, -1.0, 1.0])
 
 
 def flip_exponents(rows: Rows) -> Floats:
-    """floor(log2) of each row's distance to the nearest other position, (n,); −inf for a tangency.
+    """Return floor(log2) of each row's flip distance to the nearest other position, (n,); −inf for a tangency.
 
     For a pair that is not upright it is from an estimate, because a proof takes too long.
     """
@@ -327,7 +327,7 @@ def flip_exponents(rows: Rows) -> Floats:
 
 
 def distance_exponents(rows: Rows, positions: Positions) -> Floats:
-    """flip_exponents of upright rows (n, 7) with these exact positions; NaN where floats cannot decide."""
+    """Return flip_exponents of upright rows (n, 7) with these exact positions; NaN where floats cannot decide."""
     lengths = np.abs(rows)
     within = ((lengths >= SMALLEST) & (lengths <= LARGEST) | (lengths == 0)).all(axis=1)
     octaves = np.full(len(rows), np.nan)

@@ -70,7 +70,7 @@ class Form:
         return self.D[0] * X[0] ** 2 + self.D[1] * X[1] ** 2 + self.D[2] * X[2] ** 2 - 1
 
     def gradient(self, X: Vector) -> Vector:
-        """Half the gradient of the quadratic form h at X, which is D X."""
+        """Return half the gradient of the quadratic form h at X, which is D X."""
         return [a * b for a, b in zip(self.D, X, strict=True)]
 
     def sigma(self, v: Vector) -> list[Vector]:

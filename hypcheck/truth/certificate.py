@@ -182,7 +182,7 @@ def is_positive(S: Matrix, H: Matrix, piece: Piece) -> bool:
 
 
 def surfaces(pair: Query) -> tuple[Matrix, Matrix]:
-    """S and H of a spheroid and a hyperboloid, from their definitions.
+    """Make S and H of a spheroid and a hyperboloid, from their definitions.
 
     Lengths are counted in units of 1/`unit` and the axis v in one of its own, so that all are integers and each entry
     is one quotient: with q = b², t = d² and V = v·v, M is t V I + (q − t) v vᵀ over q t V.
@@ -227,7 +227,7 @@ def _touches(both: Matrix, H: Matrix, side: int) -> bool:
 
 
 def pencil(S: Matrix, H: Matrix, at: Fraction) -> Matrix:
-    """S + λH."""
+    """Return S + λH; `at` is λ."""
     return [[a + at * b for a, b in zip(*rows, strict=True)] for rows in zip(S, H, strict=True)]
 
 
@@ -251,7 +251,7 @@ def pivots(matrix: Matrix) -> list[Fraction]:
 
 
 def _derivatives(both: Matrix, H: Matrix) -> list[int]:
-    """f and its first four derivatives over 0!, 1! … 4! by Leibniz's formula, times one positive integer.
+    """Return f and its first four derivatives over 0!, 1! … 4!, times one positive integer, by Leibniz's formula.
 
     `both` is S + λH. Both are made whole first, because products of fractions take most of the time of a check.
     """

@@ -111,6 +111,7 @@ class Flip:
         return min(estimate, Fraction(1, 2)) if estimate else Fraction(1, 1 << 10_000)
 
     def _margin(self, sizes: Row, rest: Row) -> Margin:
+        """Return the margin on the goal's side for these sizes, centre and axis."""
         from hypcheck.truth.box_certificate import margin_at  # noqa: PLC0415 - loads mpmath
 
         return margin_at(sizes, rest, self.goal)
@@ -126,10 +127,11 @@ class Flip:
         return any(self._is_attained_at(lengths) for lengths in corners)
 
     def _is_attained_at(self, lengths: Lengths) -> bool:
+        """Decide exactly whether a pair attains the goal."""
         return (exact.position(lengths) is self.goal.side) is not self.goal.leave
 
     def _signs(self, change: Fraction) -> Iterator[Signs]:
-        """Signs of changes of centre and axis: first the signs of derivatives, then all others."""
+        """Yield signs of changes of centre and axis: first the signs of derivatives, then all others."""
         tried = set()
         for pattern in itertools.chain(self._pointed(change), _PATTERNS):
             signs = tuple(sign if number else 0 for sign, number in zip(pattern, self.row[len(SIZES) :], strict=True))
@@ -174,4 +176,5 @@ _PATTERNS = tuple(itertools.product((1, -1), repeat=6))
 
 
 def _moved(numbers: Row, signs: Signs, change: Fraction) -> Row:
+    """Change each number by the relative sign · change."""
     return tuple(number * (1 + sign * change) for number, sign in zip(numbers, signs, strict=True))

@@ -178,16 +178,16 @@ class Forms:
         return bool(dot(offset, times(self.M, offset)) <= w * w * self.under_M)
 
     def hyperboloid(self, point: Homogeneous) -> int:
-        """Xᵀ D X − 1, times w² p s."""
+        """Return Xᵀ D X − 1, times w² p s."""
         X, w = point
         return int(dot(X, self.gradient(X)) - w * w * self.under_D)
 
     def gradient(self, vector: Vector) -> Vector:
-        """D times a vector, times p s."""
+        """Return D times a vector, times p s."""
         return [a * b for a, b in zip(self.D, vector, strict=True)]
 
     def pencil(self, at: Fraction) -> tuple[Matrix, int]:
-        """M + λD times a positive integer, and that integer."""
+        """Return M + λD times a positive integer, and that integer."""
         n, k = at.numerator, at.denominator
         whole, part = self.under_D * k, n * self.under_M
         matrix = [[self.M[i][j] * whole + (i == j) * part * self.D[i] for j in range(3)] for i in range(3)]

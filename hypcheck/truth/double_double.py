@@ -123,12 +123,12 @@ def rounds_to_high(value: DoubleDouble, error: Floats) -> Mask:
 
 
 def where(condition: Mask, first: DoubleDouble, second: DoubleDouble) -> DoubleDouble:
-    """Elementwise choice."""
+    """Return `first` where the condition is true, else `second`."""
     return np.where(condition, first[0], second[0]), np.where(condition, first[1], second[1])
 
 
 def _split(value: Floats) -> DoubleDouble:
-    """Two halves of at most 26 bits with value = high + low, for |value| < 2⁹⁹⁶."""
+    """Split a value into halves of at most 26 bits, value = high + low, for |value| < 2⁹⁹⁶."""
     scaled = _SPLITTER * value
     high = scaled - (scaled - value)
     return high, value - high

@@ -103,7 +103,7 @@ def _envelope(lines: tuple[Line, ...], heights: Floats, nearest: Callable[..., F
 
 @lru_cache(maxsize=64)
 def lines_for_sizes(alpha: float, gamma: float, b: float, d: float, reach: int) -> SizeLines:
-    """Lines for these sizes, good for centres as high as γ 2^reach."""
+    """Compute lines for these sizes, good for centres up to the height γ 2^reach."""
     A, B = (Fraction(alpha) / Fraction(b)) ** 2, (Fraction(gamma) / Fraction(d)) ** 2
     across, slope = Fraction(b) ** 2, Fraction(b) ** 2 / Fraction(d) ** 2
     exterior, interior = [], []

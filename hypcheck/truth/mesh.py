@@ -27,7 +27,7 @@ def fcl_module() -> Any:  # noqa: ANN401 - the wheel has no types
 
 
 def availability() -> str | None:
-    """None if FCL can be imported, else the sentence that gives the reason."""
+    """Say why FCL cannot be imported; None if it can."""
     try:
         fcl_module()
     except ImportError as error:
@@ -43,7 +43,7 @@ def require_fcl() -> None:
 
 
 def mesh_object(vertices: Vertices, triangles: Triangles) -> object | None:
-    """FCL's object of a mesh, or None where FCL refuses to build it; its status is the only sign of that.
+    """Build FCL's object of a mesh; None if FCL refuses it, of which its status is the only sign.
 
     FCL checks nothing: an empty mesh or an index out of range ends the interpreter, and vertices that are not finite
     make every answer about it meaningless. The caller must prevent these.
@@ -59,7 +59,7 @@ def mesh_object(vertices: Vertices, triangles: Triangles) -> object | None:
 
 
 def distance_to_mesh(vertices: Vertices, triangles: Triangles) -> float:
-    """FCL's distance from the origin to a mesh: inf where it has no triangles, nan where FCL refuses it."""
+    """Ask FCL for the distance from the origin to a mesh: inf if it has no triangles, nan if FCL refuses it."""
     if not len(triangles):
         return float("inf")
     fcl = fcl_module()

@@ -213,6 +213,7 @@ def _nearest_on(p: Point, q: Point) -> Point:
 
 
 def _length(v: Point) -> float:
+    """Return the length of a vector."""
     return sqrt(v[0] * v[0] + v[1] * v[1])
 
 
@@ -284,7 +285,7 @@ _HALVES_OF_A_SQUARE = np.array([[0, 1, 2], [0, 2, 3]])
 
 
 def ribbon(segments: Sequence[Segment]) -> Mesh:
-    """Segments of the meridian plane (y = 0) drawn out across it: vertices (4n, 3) and triangles (2n, 3).
+    """Draw segments of the meridian plane (y = 0) out across it: vertices (4n, 3) and triangles (2n, 3).
 
     Each becomes a square of two triangles with the segment in its middle, so the point of it nearest to C, which is
     in that plane, is the segment's. Segments without length are left out, as FCL's distance to a triangle without area

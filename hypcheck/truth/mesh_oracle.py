@@ -110,7 +110,7 @@ class MeshScene:
         self.low, self.high = max(z - reach, ends[0]), min(z + reach, ends[1])
 
     def whole(self) -> Floats:
-        """Cells (n, 5) that cover all parts within reach: part, least and greatest s or r, least and greatest θ."""
+        """Make cells (n, 5) that cover all parts within reach: part, first and last s or r, first and last θ."""
         parts = list(self._parts())
         turns = np.linspace(0, 2 * math.pi, _START + 1)
         rows = [(*part, *turn) for part in parts for turn in pairwise(turns.tolist())]
@@ -128,7 +128,7 @@ class MeshScene:
                     yield side, 0.0, self.alpha * math.hypot(1, end / self.gamma)
 
     def corners(self, cells: Floats) -> tuple[Floats, Floats]:
-        """Corners (n, 9, 3) of cells (n, 5), and bounds of their rounding errors, (n,)."""
+        """Compute corners (n, 9, 3) of cells (n, 5), and bounds of their rounding errors, (n,)."""
         part, low, high, start, end = cells.T
         middle, half = (low + high) / 2, (high - low) / 2
         wall = part == WALL
@@ -147,7 +147,7 @@ class MeshScene:
         return (points - self.centre) @ self.root, slack if self.upright else _TILTED * slack
 
     def cut(self, cells: Floats, corners: Floats) -> Floats:
-        """Each cell in halves, across its longer direction."""
+        """Cut each cell in halves, across its longer direction."""
         along = np.maximum(_lengths(corners[:, 0] - corners[:, 6]), _lengths(corners[:, 2] - corners[:, 8]))
         round_axis = np.maximum(_lengths(corners[:, 0] - corners[:, 2]), _lengths(corners[:, 6] - corners[:, 8]))
         first = np.where(along >= round_axis, 1, 3)
@@ -245,7 +245,7 @@ def _scaled(numbers: Sequence[float]) -> list[float]:
 
 
 def _mesh_of(corners: Floats, faces: Faces) -> Mesh:
-    """These faces of cells with corners (n, 9, 3); triangles without area are left out."""
+    """Make the mesh of these faces of cells with corners (n, 9, 3); triangles without area are left out."""
     vertices = np.ascontiguousarray(corners.reshape(-1, 3))
     first = _CORNERS * np.arange(len(corners))[:, None, None]
     triangles = (first + np.array(faces)).reshape(-1, 3)

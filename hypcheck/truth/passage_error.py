@@ -59,13 +59,13 @@ def passage_of(row: Row) -> Passage:
 
 
 def first_contact(row: Row) -> tuple[float, float]:
-    """float64 bounds of the time of the first contact; NaN if there is none."""
+    """Return float64 bounds of the time of the first contact; NaN twice if there is none."""
     result = passage_of(row)
     return result.first_lower, result.first_upper
 
 
 def hits(rows: Rows) -> Positions:
-    """HIT for contact on the sweep, else CLEAR: int8 (n,)."""
+    """Return HIT for contact on the sweep, else CLEAR: int8 (n,)."""
     return np.array([passage_of(tuple(row)).hit for row in rows.tolist()], dtype=np.int8)
 
 

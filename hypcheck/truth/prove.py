@@ -189,7 +189,7 @@ def _least_at_height(S: Matrix, H: Matrix, at: Fraction) -> tuple[Fraction, Frac
 
 
 def _crossings(pair: Pair) -> Iterator[tuple[Point, Point]]:
-    """Pairs of points that may prove a contact."""
+    """Yield pairs of points that may prove a contact."""
     from hypcheck.truth import least  # noqa: PLC0415 - it loads numpy, which other proofs do without
 
     center = (Fraction(pair.x), Fraction(pair.y), Fraction(pair.z))

@@ -129,7 +129,7 @@ def pattern_of(places: Iterable[tuple[RootPlace, int]]) -> str:
 
 
 def word_of(roots: Iterable[tuple[str, int]]) -> str:
-    """Places of roots, each with its multiplicity as an exponent."""
+    """Write places of roots, each with its multiplicity as an exponent."""
     return " ".join(place + _EXPONENT[multiplicity] for place, multiplicity in roots)
 
 
@@ -145,7 +145,7 @@ _ABOVE = {INNER: RootPlace.OUTER, END: RootPlace.AT_B, BEYOND: RootPlace.ABOVE}
 
 
 def same_signs(pattern: str, possible: Iterable[Kind]) -> tuple[Kind, ...]:
-    """Those of the possible kinds that have a pattern of the same signs and multiplicities."""
+    """Return those of the possible kinds that have a pattern of the same signs and multiplicities."""
     signs = _signs(pattern)
     return tuple(kind for kind in possible if signs in _SIGNS[kind])
 
@@ -303,7 +303,7 @@ def characteristic(lengths: Lengths) -> Polynomial:
 
 
 def poles(lengths: Lengths) -> tuple[Polynomial, Polynomial]:
-    """Multiples of factors of det(M + λD), in the same unit, of which L and R are roots.
+    """Return multiples of factors of det(M + λD), in the unit of `characteristic`, of which L and R are roots.
 
     −α²/b² is a root, its vectors are perpendicular to both axes. The quotient has a root on either side of 0, and L is
     the one nearer to 0 of those below.
@@ -316,7 +316,7 @@ def poles(lengths: Lengths) -> tuple[Polynomial, Polynomial]:
 
 
 def _matrices(lengths: Lengths) -> tuple[list[list[int]], list[int]]:
-    """S times b² d² v·v, and the diagonal of H times α² γ²: the quotient of both factors is the unit of λ."""
+    """Return S times b² d² v·v, and the diagonal of H times α² γ²; the quotient of both factors is the unit of λ."""
     p, s, q, t = lengths.alpha**2, lengths.gamma**2, lengths.b**2, lengths.d**2
     v, C = lengths.axis, (lengths.x, lengths.y, lengths.z)
     V = sum(part * part for part in v)
@@ -327,7 +327,7 @@ def _matrices(lengths: Lengths) -> tuple[list[list[int]], list[int]]:
 
 
 def _pencil(S: list[list[int]], H: list[int]) -> Polynomial:
-    """det(S + λ diag(H)): its coefficients are sums of principal minors of S times products of entries of H."""
+    """Expand det(S + λ diag(H)): coefficients are sums of principal minors of S times products of entries of H."""
     size = len(H)
     coefficients = [0] * (size + 1)
     for number in range(size + 1):

@@ -48,7 +48,7 @@ from hypcheck.truth.polynomials import (
 
 
 def piece(pencil: Sequence[Polynomial], multiplier: Fraction) -> Polynomial:
-    """det(S + λH), up to a positive factor, as a polynomial of degree 2 in t: three integers."""
+    """Return det(S + λH), up to a positive factor, as a polynomial of degree 2 in t: three integers."""
     u, v = multiplier.numerator, multiplier.denominator
     total, scale = [0, 0, 0], v ** (len(pencil) - 1)
     for coefficient in reversed(pencil):
@@ -89,6 +89,7 @@ class InTime:
 
 
 def _polynomial(number: InTime | int) -> Polynomial:
+    """Return a number, or a polynomial in t, as a polynomial."""
     return tuple(number.f) if isinstance(number, InTime) else (number,)
 
 
@@ -200,7 +201,7 @@ class StraightSweep:
         return norm_of(curvature) if any(curvature) else (1,)
 
     def _at_pole(self, side: int) -> tuple[Quadratic, Quadratic, Quadratic]:
-        """F, F′ and F″/2 at ℓ, for μ = side · λ, as polynomials in t over Q(√w), the highest power first."""
+        """Return F, F′ and F″/2 at ℓ, for μ = side · λ, as polynomials in t over Q(√w), the highest power first."""
         here = self.start
         pole: Field
         if side < 0 and here.b > here.d:

@@ -322,12 +322,12 @@ def sweep_of_row(row: Sequence[Rational], scale: Rational = 1) -> StraightSweep:
 
 
 def checked(sizes: Sequence[Rational], center: Sequence[Rational]) -> tuple[Fraction, ...]:
-    """α, γ, b, d, x, y, z as fractions. Raises InputError naming the first that cannot be."""
+    """Return α, γ, b, d, x, y, z as fractions. Raises InputError naming the first that cannot be one."""
     return tuple(Fraction(number) for number in _required(sizes, center))
 
 
 def _required(sizes: Sequence[Rational], center: Sequence[Rational]) -> tuple[Rational, ...]:
-    """α, γ, b, d, x, y, z, each of which has an exact value. Raises InputError naming the first that has none."""
+    """Return α, γ, b, d, x, y, z if each has an exact value. Raises InputError naming the first that has none."""
     numbers = (*checked_sequence("the sizes", SIZES, sizes), *checked_sequence("a centre", CENTER, center))
     for name, number in zip(COLUMNS, numbers, strict=True):
         _require(name, number)
@@ -335,7 +335,7 @@ def _required(sizes: Sequence[Rational], center: Sequence[Rational]) -> tuple[Ra
 
 
 def checked_axis(axis: Sequence[Rational]) -> tuple[Fraction, ...]:
-    """axis_x, axis_y, axis_z as fractions. Raises InputError where they cannot be, or are all 0."""
+    """Return axis_x, axis_y, axis_z as fractions. Raises InputError if they cannot be, or are all 0."""
     numbers = checked_sequence("the axis", AXIS, axis)
     for name, number in zip(AXIS, numbers, strict=True):
         _require(name, number)
@@ -358,6 +358,7 @@ def checked_sequence(subject: str, names: Sequence[str], values: object) -> tupl
 
 
 def _require(name: str, number: Rational) -> None:
+    """Raise InputError unless the number is valid in this column."""
     if isinstance(number, Fraction):
         if name in SIZES and number <= 0:
             raise InputError(f"{name} is {number}; a semi-axis must be greater than 0")

@@ -104,7 +104,7 @@ State = tuple[Enclosure, Enclosure]
 def _pieces(
     x: Fraction, y: Fraction, direction: tuple[Fraction, Fraction], angle: float, bits: int
 ) -> Iterator[tuple[State, State]]:
-    """e and e′ at both ends of each piece of the turn."""
+    """Yield e and e′ at both ends of each piece of the turn."""
     context, plain = MPIntervalContext(), MPContext()
     context.prec = plain.prec = bits
 

@@ -203,12 +203,14 @@ def _case(name: str, table: StrictTable, content: Content, flags: Mapping[str, F
 
 
 def _position(value: object) -> int:
+    """Read a position. Raises ValueError."""
     if not is_integer(value) or value not in (-1, 0, 1):
         raise ValueError("1, 0 or -1")
     return Position(value).value
 
 
 def _kind(value: object) -> Kind:
+    """Read the name of a kind. Raises ValueError."""
     kind = _KINDS.get(value) if isinstance(value, str) else None
     if kind is None:
         raise ValueError(f"one of {', '.join(_KINDS)}")
@@ -302,6 +304,7 @@ def _certificate(table: StrictTable, *, ended: bool) -> StoredCertificate:
 
 
 def _piece(value: object) -> Piece:
+    """Read a piece of the wall. Raises ValueError."""
     return Piece(*strict.parts(strict.list_with("a list of 4", 4, 4)(value), _PIECE))
 
 
@@ -321,6 +324,7 @@ _PIECE = (_bound("-inf"), _bound("inf"), a_rational, a_rational)
 
 
 def _offset(value: object) -> Offset:
+    """Read the three parts of an offset. Raises ValueError."""
     s, t, w = strict.list_of(a_rational, "a list of 3", 3, 3)(value)
     return s, t, w
 
@@ -337,11 +341,13 @@ def _passage(table: StrictTable) -> StoredCertificate:
 
 
 def _step(value: object) -> tuple[Fraction, Fraction]:
+    """Read a piece of a sweep: its multiplier and its end. Raises ValueError."""
     multiplier, end = strict.list_of(a_rational, "a list of 2", 2, 2)(value)
     return multiplier, end
 
 
 def _rational_or_null(value: object) -> Fraction | None:
+    """Read a rational, or null as None. Raises ValueError."""
     return None if value is None else a_rational(value)
 
 
@@ -358,6 +364,7 @@ def case_text(case: Vector | InvalidRow, content: Content) -> str:
 
 
 def _flips_text(case: Vector, content: Content) -> str:
+    """Write the flip distances of a case as JSON."""
     return object_text(
         {
             other.label: numbers_text((flip.lower, flip.upper)) if content.tilted else decimal_of(flip.upper)
@@ -367,6 +374,7 @@ def _flips_text(case: Vector, content: Content) -> str:
 
 
 def _certificate_text(case: Vector, content: Content) -> str:
+    """Write the certificate of a case as JSON."""
     witness = case.witness
     points = [list(map(exact_text, point)) for point in witness.offsets]
     if content.about_sweeps:
@@ -388,6 +396,7 @@ def _certificate_text(case: Vector, content: Content) -> str:
 
 
 def _piece_members(piece: Piece) -> list[str]:
+    """Return the texts of a piece: low, high, multiplier, plane."""
     low = "-inf" if piece.low is None else exact_text(piece.low)
     high = "inf" if piece.high is None else exact_text(piece.high)
     return [low, high, exact_text(piece.multiplier), exact_text(piece.plane)]

@@ -218,6 +218,7 @@ def _ended_sweep_sentences(case: Vector) -> Iterator[str]:
 
 
 def _bounds_text(first: tuple[float, float] | None) -> str:
+    """Write the bounds of a first contact for a message."""
     return "null" if first is None else " … ".join(map(decimal_of, first))
 
 

@@ -38,7 +38,7 @@ class _Key(ISeedSequence):
         self._words = np.frombuffer(hashlib.sha256(name.encode()).digest()[:16], dtype="<u8").astype(np.uint64)
 
     def generate_state(self, n_words: int, dtype: object = np.uint64) -> NDArray[np.uint64]:  # noqa: ARG002
-        """The key: two words of 64 bits, the only words that Philox requests."""
+        """Return the key: two words of 64 bits, the only words that Philox requests."""
         return self._words
 
 
@@ -57,7 +57,7 @@ class Draw:
 
     @classmethod
     def of_blocks(cls, names: Sequence[Sequence[object]]) -> Draw:
-        """The draw that joins a stream for each name; every requested n must be a multiple of the number of names."""
+        """Join a stream for each name to one draw; every requested n must be a multiple of the number of names."""
         draw = cls.__new__(cls)
         draw._streams = [_stream(name) for name in names]
         return draw
@@ -232,11 +232,11 @@ class Family:
         return layout_with(self.groups)
 
     def block(self, seed: int, number: int) -> Rows:
-        """Rows number·BLOCK to (number + 1)·BLOCK − 1 of the seed: float64 (BLOCK, len(columns)), all valid."""
+        """Make rows number·BLOCK to (number + 1)·BLOCK − 1 of the seed: float64 (BLOCK, len(columns)), all valid."""
         return self._blocks(seed, number, number + 1)
 
     def columns_between(self, seed: int, start: int, stop: int) -> NDArray[np.float64]:
-        """Rows start to stop − 1 of the seed by columns, (len(columns), stop − start); earlier rows are not made."""
+        """Make rows start to stop − 1 of the seed by columns, (len(columns), stop − start), without earlier blocks."""
         columns = np.empty((len(self.columns), stop - start))
         together = TOGETHER if self.by_place else 1
         for first in range(start // BLOCK, -(-stop // BLOCK), together):
@@ -247,7 +247,7 @@ class Family:
         return columns
 
     def row(self, seed: int, index: int) -> Row:
-        """Row `index` of the seed."""
+        """Make row `index` of the seed."""
         number, place = divmod(index, BLOCK)
         return tuple(self.block(seed, number)[place].tolist())
 
@@ -256,7 +256,7 @@ class Family:
         return self.make(Draw.of_blocks(names), (last - first) * BLOCK)
 
     def rows(self, seed: int, count: int) -> Rows:
-        """The first `count` rows of the seed: float64 (count, len(columns)), all valid.
+        """Make the first `count` rows of the seed: float64 (count, len(columns)), all valid.
 
         A call for fewer rows returns the first rows of a call for more. Raises InputError for a negative seed or count.
         """

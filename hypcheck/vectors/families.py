@@ -270,6 +270,7 @@ def _why_none(pattern: str, taken: Groups) -> str:
 
 
 def _named(pattern: str, known: Mapping[str, Family]) -> set[str]:
+    """Return the names of the known families that a pattern matches; none if it is too long."""
     if len(pattern) > _LONGEST_PATTERN:
         return set()
     return {name for name, family in known.items() if _asks_for(pattern, family)}
@@ -314,8 +315,10 @@ def parse_case_id(text: str) -> CaseId:
 
 
 def _asks_for(pattern: str, family: Family) -> bool:
+    """Decide whether a pattern matches a family."""
     return family.extreme if pattern == EXTREME else fnmatchcase(family.name, pattern)
 
 
 def _advice(name: str) -> str:
+    """Suggest names that are similar to an unknown one."""
     return suggestion(name, [*ALL, EXTREME])

@@ -43,6 +43,7 @@ def families_for(settings: tuple[FixedSizes, ...]) -> tuple[Family, ...]:
 
 
 def _traps(setting: FixedSizes) -> dict[str, Trap]:
+    """Return the traps for a setting: of upright or of tilted spheroids."""
     return TRAPS if setting.axis is None else TILTED_TRAPS
 
 
@@ -89,6 +90,7 @@ def _sizes_text(setting: FixedSizes) -> str:
 
 
 def _words(axis: tuple[float, float, float] | Literal["free"]) -> Iterable[str]:
+    """Return the words of an axis in a family's name."""
     return (axis,) if isinstance(axis, str) else map(repr, axis)
 
 

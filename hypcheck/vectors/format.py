@@ -199,7 +199,7 @@ class CaseFile:
         return np.asarray([case.answer for case in self.cases], dtype=np.int8)
 
     def numbered_cases(self) -> Iterable[tuple[int, Any]]:
-        """Pairs of a line number and its case."""
+        """Return pairs of a line number and its case."""
         return zip(self.lines or (0,) * len(self.cases), self.cases, strict=True)
 
 
@@ -223,6 +223,7 @@ def content_of(document: JsonDocument) -> Content:
 
 
 def _schema(value: object) -> str:
+    """Return a schema version that this program reads. Raises ValueError."""
     if not isinstance(value, str) or all(content.schema != value for content in CONTENTS.values()):
         raise ValueError(f"one that this program reads: {_SCHEMAS}")
     return value
@@ -240,6 +241,8 @@ def read_metadata(document: JsonDocument) -> tuple[Metadata, Mapping[str, FlagFa
 
 
 def _count(cases: int) -> Check[int]:
+    """Return the check that a count is the number of cases."""
+
     def check(value: object) -> int:
         if not is_integer(value) or value != cases:
             raise ValueError(f"{cases}, the number of cases")
@@ -249,12 +252,14 @@ def _count(cases: int) -> Check[int]:
 
 
 def _name(value: object) -> str:
+    """Return the name of a family. Raises ValueError."""
     if not _NAME.fullmatch(a_text(value)):
         raise ValueError("lower case, with hyphens, as in ring")
     return a_text(value)
 
 
 def _version(value: object) -> int:
+    """Return the version of a generator. Raises ValueError."""
     if not isinstance(value, int) or isinstance(value, bool) or value < 1:
         raise ValueError("a whole number from 1")
     return value
@@ -265,6 +270,7 @@ _HEAD_CHECKS: Mapping[str, Check[Any]] = {"name": _name, "version": _version, "e
 
 
 def _flags(table: StrictTable) -> Mapping[str, FlagFacts]:
+    """Read the meanings of the flags that a file describes. Raises InputError."""
     facts = {name: table.required_table(name, ("meaning", "bug_type")) for name in table}
     return {
         name: FlagFacts(about.required("meaning", a_text), about.required("bug_type", a_text))
@@ -352,6 +358,7 @@ _number_or_infinity = strict.or_word("inf", strict.or_word("-inf", a_number))
 
 
 def _height(value: object) -> float:
+    """Return a height, which may be infinite. Raises ValueError."""
     return float(_number_or_infinity(value))
 
 

@@ -76,6 +76,7 @@ def _text(name: str, before: CaseFile | None) -> str:
 
 
 def _content_of(name: str) -> Content:
+    """Return the content of the frozen file of that name."""
     if name in INVALID_CONTENTS:
         return INVALID_CONTENTS[name]
     family = ALL.get(name)
@@ -107,6 +108,7 @@ def assembled(head: Metadata, content: Content, cases: Sequence[Vector]) -> Case
 
 
 def _named(cases: Iterable[Vector]) -> list[tuple[str, Row]]:
+    """Return the id and the row of each case."""
     return [(case.id, case.row) for case in cases]
 
 
@@ -163,6 +165,7 @@ def frozen_invalid_rows(name: str, before: CaseFile | None = None) -> InvalidRow
 
 
 def _bits(row: Row) -> bytes:
+    """Return the bytes of a row, which distinguish 0.0 and −0.0."""
     return struct.pack(f"<{len(row)}d", *row)
 
 

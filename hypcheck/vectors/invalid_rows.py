@@ -219,14 +219,17 @@ def _bad_words(name: str, value: float) -> Iterator[int]:
 
 
 def _bits(row: Row) -> tuple[int, ...]:
+    """Return the 64-bit words of a row's numbers."""
     return tuple(np.asarray(row, dtype=np.float64).view(np.uint64).tolist())
 
 
 def _word(value: float) -> int:
+    """Return the 64-bit word of a number."""
     return int(np.float64(value).view(np.uint64))
 
 
 def _replaced(row: tuple[int, ...], words: dict[int, int]) -> tuple[int, ...]:
+    """Return the words of a row with some of them replaced, by column."""
     return tuple(words.get(place, word) for place, word in enumerate(row))
 
 
@@ -250,6 +253,7 @@ def invalid_rows_of(document: JsonDocument) -> InvalidRowFile:
 
 
 def _invalid_row(name: str, table: StrictTable, content: Content, _flags: Mapping[str, FlagFacts]) -> InvalidRow:
+    """Read a case of an invalid row. Raises InputError."""
     names = content.columns
     table.required("expected", strict.one_of(EXPECTED))
     columns = table.required("columns", strict.list_with("a list"))
@@ -262,6 +266,7 @@ def _invalid_row(name: str, table: StrictTable, content: Content, _flags: Mappin
 
 
 def _checked_bits(table: StrictTable, name: str, value: object, word: object) -> int:
+    """Read the bits of a number, which must agree with its value. Raises InputError."""
     number = _WORDS[value] if isinstance(value, str) and value in _WORDS else table.check(name, value, a_number)
     if not isinstance(word, str) or not _BITS.fullmatch(word):
         table.refuse(f"the bits of {name} are {shown_json(word)}; they must be 16 hexadecimal digits")

@@ -56,6 +56,7 @@ def labelled(content: Content, cases: Iterable[tuple[str, Row]]) -> list[Vector]
 
 
 def _positions(content: Content, cases: Sequence[tuple[str, Row]]) -> list[Vector]:
+    """Make the cases of pairs."""
     fields = case_fields(content)
     pairs = [Pair.from_row(row) for _, row in cases]
     decisions = [exact.decide(pair.lengths) for pair in pairs]
@@ -77,6 +78,7 @@ def _positions(content: Content, cases: Sequence[tuple[str, Row]]) -> list[Vecto
 
 
 def _sweeps(content: Content, cases: Sequence[tuple[str, Row]]) -> list[Vector]:
+    """Make the cases of sweeps."""
     return [(_without_proof if content.ended else _with_proof)(*case) for case in cases]
 
 
@@ -281,6 +283,7 @@ def flags_of(content: Content, rows: Sequence[Row], decisions: Sequence[Decision
 
 
 def _upright_flags(rows: Sequence[Row], decisions: Sequence[Decision]) -> list[tuple[str, ...]]:
+    """Return the flags of each row with an upright spheroid."""
     array = rows_of(list(rows))
     masks = _of_numbers(array) | _of_table_2(array) | _of_formulas(array, decisions)
     exactly = [_of_pair(Pair.from_row(row), decision) for row, decision in zip(rows, decisions, strict=True)]

@@ -84,6 +84,7 @@ def case_lines(case: Vector | InvalidRow, content: Content) -> Iterator[str]:
 
 
 def _position_lines(case: Vector) -> Iterator[str]:
+    """Yield the labels of a case about a position."""
     yield from _titled("position", f"{case.position.label}, tangent" if case.tangent else case.position.label)
     if case.kind is not None:
         yield from _titled("kind", kind_as_text(case.kind))
@@ -94,6 +95,7 @@ def _position_lines(case: Vector) -> Iterator[str]:
 
 
 def _sweep_lines(case: Vector) -> Iterator[str]:
+    """Yield the labels of a case about a sweep."""
     yield from _titled("answer", "contact on the sweep" if case.hit else "clear all along")
     if case.first is not None:
         yield from _titled("first", f"contact at t from {case.first[0]!r} to {case.first[1]!r}")
@@ -107,6 +109,7 @@ def _proof(case: Vector, content: Content) -> Iterable[str]:
 
 
 def _distance(distance: Bracket) -> str:
+    """Write a flip distance, as one number if both ends are equal."""
     return repr(distance.upper) if distance.lower == distance.upper else f"{distance.lower!r} … {distance.upper!r}"
 
 
@@ -139,6 +142,7 @@ def show(name: str, *, as_json: bool) -> Iterator[str]:
 
 
 def _metadata_lines(head: Metadata) -> Iterator[str]:
+    """Yield the metadata of a file as text."""
     yield f"{head.name}, version {head.version}: {head.title}"
     for label, text in (
         ("source", head.source),
@@ -152,10 +156,12 @@ def _metadata_lines(head: Metadata) -> Iterator[str]:
 
 
 def _counted(names: Iterable[str]) -> str:
+    """Write how often each name occurs, the most frequent first."""
     return ", ".join(f"{count} {name}" for name, count in Counter(names).most_common())
 
 
 def _titled(label: str, text: str) -> list[str]:
+    """Wrap a text behind a label in the first column."""
     return textwrap.wrap(
         text,
         WIDTH,
@@ -184,6 +190,7 @@ def generate(name: str, seed: int, count: int, form: str, target: str) -> None:
 
 
 def _family_to_generate(name: str) -> Family:
+    """Return the family of that name. Raises InputError, for a pattern too."""
     if name == EXTREME or any(mark in name for mark in "*?["):
         raise InputError(f"{name!r} is a pattern; name one family, such as {select([name])[0].name}")
     return family_of(name)

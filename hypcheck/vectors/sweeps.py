@@ -113,6 +113,7 @@ def ring(draw: Draw, n: int) -> Rows:
 
 
 def _clear_ring_attempt(draw: Draw, n: int) -> tuple[Rows, Mask]:
+    """Make sweeps across rings as ring_attempt does; the mask excludes those that may touch."""
     sweeps, usable = ring_attempt(draw, n)
     return sweeps, usable & more_than_a_radius_away(sweeps)
 
@@ -180,10 +181,12 @@ def tilted_ring(draw: Draw, n: int) -> Rows:
 
 
 def _directions(draw: Draw, n: int) -> Rows:
+    """Draw directions whose coordinates are −1, 0 or 1."""
     return np.stack([draw.integers(n, -1, 1) for _ in range(3)], axis=1).astype(np.float64)
 
 
 def _beside(draw: Draw, size: Sizes) -> Rows:
+    """Make rows all around the surface."""
     return random_pairs.beside(draw, size, heights(draw, size.c), offsets(draw, len(size.b)))
 
 
