@@ -167,7 +167,7 @@ SmallBin = Annotated[list[Annotated[int, Meta(ge=-(1 << 60), le=1 << 60)]], Meta
 Truth = Annotated[int, Meta(ge=-1, le=1)]
 TruthKey = Annotated[str, one_of("-1", "0", "1")]
 AnswerKey = Annotated[str, one_of("-1", "0", "1", "2", "none")]
-"""What is true of a row, and what was answered: the numbers of the protocol; "none" where no valid answer came."""
+"""The truth about a row, and the given answer, as numbers of the protocol; "none" if no valid answer was given."""
 
 Question = Annotated[str, one_of("position", "exterior", "interior", "contact", "passage")]
 Precision = Annotated[str, one_of("float16", "bfloat16", "float32", "float64", "x87", "binary128", "exact")]

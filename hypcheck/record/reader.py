@@ -29,7 +29,7 @@ FILE = "record.jsonl"
 """The record's name in the folder of a run."""
 
 GROWING = "record.jsonl.part"
-"""Its name while the run lasts, and after a run that was killed."""
+"""The record's name while the run lasts, and after a run that was killed."""
 
 LINES: Mapping[str, type[RecordLine]] = {
     str(kind.__struct_config__.tag): kind
@@ -60,7 +60,7 @@ class Record:
     footer: FooterLine | None
 
     def of(self, kind: type[Kind]) -> list[Kind]:
-        """The lines of one kind, in order."""
+        """Return the lines of one kind, in order."""
         return [line for line in self.lines if isinstance(line, kind)]
 
 

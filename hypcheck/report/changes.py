@@ -186,7 +186,7 @@ def _shared(before: Mapping[Key, Value], after: Mapping[Key, Value]) -> list[tup
 
 
 MOST_CONDITIONS = 3
-"""Differences in the conditions of two runs that are listed in sentences."""
+"""The most differences between the conditions of two runs that are listed in sentences."""
 
 
 def change_facts(record: Record, against: Record) -> Iterator[str]:

@@ -224,7 +224,7 @@ def table(name: str, heads: str | Iterable[Column], rows: Iterable[Row]) -> Tabl
 
 
 Cells = Mapping[str, Callable[[Value], TableCell | Text]]
-"""The titles of a table's columns, as of table(), each with what the cell under it says of a row's value."""
+"""The title of each column, as in table(), with the function that makes its cell from the value of a row."""
 
 
 def table_of(name: str, values: Iterable[Value], cells: Cells[Value]) -> TableBlock:

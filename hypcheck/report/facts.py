@@ -96,32 +96,32 @@ class LineFacts(Generic[Line]):
         return ""
 
     def measurements(self) -> Iterator[Measurement]:
-        """The numbers of the line."""
+        """Yield the numbers of the line."""
         yield from ()
 
     def failures(self) -> Iterator[Failure]:
-        """The failures of the line, worst first."""
+        """Yield the failures of the line, worst first."""
         yield from ()
 
     def headline(self) -> str:
-        """One sentence for all failures of the line together; "" if their messages are enough."""
+        """Return one sentence for all failures of the line together; "" if their messages are enough."""
         return ""
 
     @classmethod
     def clause(cls, together: Sequence[Line]) -> str:  # noqa: ARG003 - a type that has a clause reads them
-        """The clause about all lines of this type in the verdict of a passing run; "" if there is none."""
+        """Return the clause about all lines of this type in the verdict of a passing run; "" if there is none."""
         return ""
 
     def not_judged(self) -> NotJudged | None:
-        """Why the line has no result; None if it has one."""
+        """Return why the line has no result; None if it has one."""
         return None
 
     def sentences(self) -> Iterator[str]:
-        """The content of the line, in sentences without a full stop."""
+        """Yield the content of the line, in sentences without a full stop."""
         yield from ()
 
     def seconds(self) -> float | None:
-        """The time that was spent on the line's subject; None if it was not measured."""
+        """Return the time that was spent on the line's subject; None if it was not measured."""
         return None
 
     def fields(

@@ -53,7 +53,7 @@ class JunitSuite:
     cases: tuple[JunitCase, ...]
 
     def count(self, tag: str) -> int:
-        """The number of its cases that have a trouble with this tag."""
+        """Count its cases that have a trouble with this tag."""
         return sum(case.trouble is not None and case.trouble.tag == tag for case in self.cases)
 
     @property

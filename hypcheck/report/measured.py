@@ -76,12 +76,15 @@ class MeasuredMethod:
         return max((line.reliable_above for line in self.accuracy.values()), default=math.inf)
 
     def ratio(self, workload: str, mode: str = BATCH) -> float | None:
-        """The method's time divided by the reference method's; None if it was not timed or not compared."""
+        """Return the method's time divided by the reference method's; None if it was not timed or not compared."""
         line = self.speed.get((workload, mode))
         return None if line is None or line.ratio is None or lost(line) else line.ratio
 
     def ratio_interval(self, workload: str, mode: str = BATCH) -> tuple[float, float]:
-        """The interval of that ratio, or the ratio twice if it has no interval. The method must have been timed."""
+        """Return the interval of that ratio, or the ratio twice if it has no interval.
+
+        The method must have been timed.
+        """
         line = self.speed[workload, mode]
         ratio = line.ratio or 0.0
         return line.ratio_ci95 or (ratio, ratio)
@@ -130,7 +133,7 @@ class SweepTotal:
     ratio_ci95: tuple[float, float] | None
 
     def share(self, part: int) -> float:
-        """The share of `part` in all tested sweeps."""
+        """Return the share of `part` in all tested sweeps."""
         return part / self.asked
 
 
@@ -213,7 +216,7 @@ REFERENCES = {
     "eigh": "numpy's eigenvalues (eigh)",
     "passage-exact": "exact arithmetic (passage-exact)",
 }
-"""Reference methods in words that need no list of methods."""
+"""Reference methods in words that a reader understands without the list of methods."""
 
 
 def reference_in_words(name: str) -> str:

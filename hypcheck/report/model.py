@@ -31,16 +31,19 @@ EXACT_ORACLE = "exact"
 """The oracle that the others are compared with; it can fail only by a certificate that the check refuses."""
 
 REFUSED = "certificate refused"
-"""The stage of an answer whose certificate is refused: undecided and disagreeing in the record, a disagreement here."""
+"""The stage of an answer whose certificate is refused. The record counts it as undecided and as disagreeing.
+
+The totals here count it as a disagreement alone.
+"""
 
 SubjectKey = tuple[str, "str | None"]
 """A name and a SPEC: two implementations may have the same name."""
 
 PASSAGE = "passage"
-"""The question about the sweep between two positions."""
+"""The question whether there is contact on a sweep."""
 
 REFERENCE = "plain numpy formula"
-"""The contender whose time every other is divided by."""
+"""The contender that is the reference: the time of every other one is divided by its time."""
 
 
 @dataclass(frozen=True, slots=True)

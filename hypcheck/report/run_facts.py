@@ -56,7 +56,7 @@ def paper_facts(record: Record, *, held: bool = False) -> Iterator[str]:
 
 
 def method_facts(record: Record) -> Iterator[str]:
-    """A sentence for each precision: the number of methods that err beyond the tolerance, the greatest error."""
+    """Yield a sentence for each precision: how many methods err beyond the tolerance, and the greatest error."""
     tolerance = tolerance_of(record.header.options)
     beyond = "the tolerance" if tolerance is None else f"the tolerance of {figure(tolerance)} u"
     totals = [total for total in model.implementations(record) if total.asked and not total.gated]

@@ -17,7 +17,7 @@ from hypcheck.report import document
 WIDTH = 100
 
 _INDENT, _LEAST_TITLE, _LONGEST_TITLE = 4, 9, 40
-"""Columns of an indent; of the titles of a list, at least; characters of a column's title, at most."""
+"""The width of an indent; the least width of a list's titles; the most characters of a column's title."""
 
 
 def lines(sections: Iterable[document.Section]) -> Iterator[str]:

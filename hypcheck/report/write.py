@@ -158,7 +158,7 @@ PICTURES = {
     "forest": ("forest-walk", "forest-space"),
     "tower": ("tower-flights", "tower-table-5", "tower-pitch"),
 }
-"""The names of all pictures that a simulation may have, by its name."""
+"""The names of all pictures that a simulation may have, by the name of the simulation."""
 
 
 @contextmanager

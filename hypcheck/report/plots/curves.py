@@ -194,7 +194,7 @@ def _legend(drawn: Figure, curves: Sequence[Curve], columns: int) -> None:
 
 
 NOT_WRONG = ("right", "skipped", "abstained", "refused")
-"""Statuses of cases that were answered rightly, or not answered."""
+"""Statuses of cases with a right answer, or without an answer."""
 
 
 def octave_plots(record: Record) -> Iterator[Plot]:
@@ -220,7 +220,7 @@ def _octave_curve(implementation: ImplementationTotal) -> Curve:
 
 
 FORMULAS = ("paper", "algebraic", "certified")
-"""Kinds that are compared within a tier and a length of float; other kinds are each a group."""
+"""Kinds of methods in one group if tier and length of float are equal; each other kind is a group of its own."""
 
 SHORT = ("float16", "bfloat16", "float32")
 _SHORT, _LONG = "float32 and shorter", "float64 and longer"

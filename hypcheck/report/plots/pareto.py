@@ -123,7 +123,7 @@ def _within(box: Any, outer: Any) -> bool:  # noqa: ANN401 - matplotlib's boxes
 
 
 ENOUGH = 3000
-"""The number of right answers that shows, at 95 %, that at most 1 in 1000 is wrong."""
+"""The number n of right answers without a wrong one that shows, at 95 %, that at most 1 in 1000 is wrong: 3/n."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -341,13 +341,10 @@ def _steps(
 
 HEIGHT = 345
 _ABOVE = 1.12
-"""The end of the axis of shares, relative to the largest share; as far as it is beyond that, the axis begins below 0.
-
-This leaves room for whole marks at both ends.
-"""
+"""The axis of shares ends at 1.12 times the largest share and begins at −0.12 times it, so that marks are whole."""
 
 _LEAST = 0.01
-"""The axis of shares goes at least to 1 %."""
+"""The largest share that the axis shows is at least 1 %."""
 
 
 def _sweep_plots(record: Record) -> Iterator[style.Plot]:

@@ -113,7 +113,7 @@ def _tip(width: float, place: tuple[int, int], counts: tuple[int, int]) -> str:
 
 
 OCTAVES = 3
-"""Octaves of the record that make one cell."""
+"""The number of the record's octaves, in each direction, that make one cell."""
 
 
 def size_plots(record: Record) -> Iterator[style.Plot]:
@@ -181,7 +181,7 @@ def draw_surface(axes: Axes, sizes: Sequence[float], r: Interval, z: Interval, l
 
 
 CELLS, PER_UNIT = 64, 8
-"""Cells of the record in each direction, and in one semi-axis; the last of each stands for all that lies beyond."""
+"""The number of the record's cells in each direction, and in one semi-axis; the last cell includes all beyond it."""
 
 
 def field_plots(record: Record) -> Iterator[style.Plot]:

@@ -149,7 +149,7 @@ def draw_marks(axes: Axes, gid: str, marks: Sequence[Mark], **look: Any) -> dict
 
 @contextmanager
 def styled() -> Iterator[None]:
-    """Within the block, matplotlib draws in the house style."""
+    """Make matplotlib draw in the house style within the block."""
     with matplotlib.style.context(["default", SETTINGS]):
         yield
 
@@ -239,7 +239,10 @@ _NUMBER = re.compile(r"-?\d+\.\d{3,}")
 _AROUND_LETTERS = re.compile(r" ?([A-Za-z]) ?")
 _REFERENCE = re.compile(r"#([\w.-]+)")
 _SHARP_LETTERS = "@media screen{text{text-rendering:geometricPrecision}}"
-"""What `_describe` says by an attribute, for browsers alone: cairosvg draws such letters in slices."""
+"""The rule of a style sheet for what `_describe` sets as an attribute; only browsers follow it.
+
+cairosvg, which obeys the attribute, draws such letters in slices.
+"""
 
 _COLUMNS, _APART = 2, 24.0
 """Plots side by side in one file, and the points between two of them."""

@@ -162,7 +162,7 @@ BOUNDING_QUANTITIES = (
     ("share", "share of false contacts"),
     ("excess", "median excess clearance (radii)"),
 )
-"""Of a row [d/b, asked, false contacts, excess]: what is drawn, and the name of its axis."""
+"""The quantities that are drawn of a row [d/b, asked, false contacts, excess], and the names of their axes."""
 
 
 def bounding_plots(record: Record) -> Iterator[Plot]:

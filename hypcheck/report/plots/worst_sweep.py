@@ -33,7 +33,7 @@ from hypcheck.truth.passage_error import SWEEP_ANSWERS, passage_of
 BROAD, HEIGHT = 1.6 * WIDTH, 330
 
 AROUND = 2.6
-"""The right panel shows so many semi-axes of the spheroid on each side of its centre."""
+"""The number of the spheroid's semi-axes that the right panel shows on each side of its centre."""
 
 _POINTS, _ZOOMS = 400, 5
 _LONGEST_NAME = 40
