@@ -171,6 +171,7 @@ def _rotors() -> Iterator[PrintedClaim]:
 
 
 def _definitions(number: str, names: tuple[str, ...], means: dict[str, sympy.Expr]) -> Iterator[PrintedClaim]:
+    """Yield the claims that the definitions of C, B1 and B2 agree with the derivation, as printed under a number."""
     printed = {
         "C": "C(g_i) = l·√2·(T1(g_i)·x0 + T2(g_i)·y0)/b_s²",
         "B1": "B1 = 1 − (γ/d_s)² − (z0/d_s)²",
@@ -181,6 +182,7 @@ def _definitions(number: str, names: tuple[str, ...], means: dict[str, sympy.Exp
 
 
 def _coefficients(number: str, means: dict[str, sympy.Expr]) -> Iterator[PrintedClaim]:
+    """Yield the claims about c1(g_i) and c2(g_i), as printed under a number."""
     yield equality(number, "c1(g_i) = (α/b_s)²·B1 + (γ/d_s)²·(B2 − 1 + C(g_i))", **means)
     yield equality(number, "c2(g_i) = (α/b_s)² + B1 − B2 − C(g_i)", **means)
 
@@ -204,6 +206,7 @@ def _appendix() -> Iterator[PrintedClaim]:
 
 
 def _printed_row(text: str) -> sympy.Matrix:
+    """Return the row vector of a printed text in brackets, whose entries commas separate."""
     return sympy.Matrix([[read(entry) for entry in text.strip("()").split(",")]])
 
 

@@ -74,25 +74,30 @@ _COEFFICIENTS = ("c0", "c1", "c2")
 
 
 def _coefficients() -> Iterable[Obligation]:
+    """Yield what the steps c0, c1 and c2 must be."""
     derived = pencil.cubic_in_seven()
     yield from (Obligation(name, getattr(derived, name)) for name in _COEFFICIENTS)
 
 
 def _scaled_sizes() -> Iterable[Obligation]:
+    """Yield what the steps A, B and Q must be."""
     return (Obligation(name, pencil.IN_SEVEN[of]) for name, of in (("A", A), ("B", B), ("Q", Q)))
 
 
 def _discriminant() -> Iterable[Obligation]:
+    """Yield what the step delta must be."""
     yield Obligation("delta", pencil.discriminant_of_cubic(), _COEFFICIENTS)
 
 
 def _hessian() -> Iterable[Obligation]:
+    """Yield what the coefficients of the Hessian, and three times Δ, must be."""
     for name, expected in zip(("h1", "h2", "h3"), links.hessian_coefficients(), strict=True):
         yield Obligation(name, expected, _COEFFICIENTS)
     yield Obligation("delta_3", 3 * pencil.discriminant_of_cubic(), _COEFFICIENTS)
 
 
 def _slopes() -> Iterable[Obligation]:
+    """Yield what g' at B and at −A must be."""
     slope = sympy.diff(pencil.GENERIC_CUBIC, LAMBDA)
     letters = ("c1", "c2", "A", "B")
     yield Obligation("slope_at_B", slope.subs(LAMBDA, B), letters)
@@ -100,15 +105,18 @@ def _slopes() -> Iterable[Obligation]:
 
 
 def _shared() -> Iterable[Obligation]:
+    """Yield what the step E, the difference P − A − 1, must be."""
     yield Obligation("E", (P - A - 1).subs(pencil.IN_SEVEN))
 
 
 def _in_the_plane() -> Iterable[Obligation]:
+    """Yield what the steps of the repaired Procedure 1 for Q = 0 must be: E² and 4A."""
     yield Obligation("EE", symbol("E") ** 2, ("E",))
     yield Obligation("four_A", 4 * A, ("A",))
 
 
 def _local_maximum() -> Iterable[Obligation]:
+    """Yield what the local maximum λm of g, by either of its two formulas, and g(λm) must be."""
     h1 = links.hessian_coefficients()[0]
     yield Obligation("h1", h1, ("c1", "c2"))
     yield Obligation("from_c1", links.local_maximum(), ("c1", "c2"))
@@ -117,11 +125,13 @@ def _local_maximum() -> Iterable[Obligation]:
 
 
 def _dual() -> Iterable[Obligation]:
+    """Yield what A, B, P, Q and φ(λ) must be."""
     yield from (Obligation(name, pencil.IN_SEVEN[of]) for name, of in (("A", A), ("B", B), ("P", P), ("Q", Q)))
     yield Obligation("phi", links.PHI, ("A", "B", "P", "Q", "lambda_"))
 
 
 def _rotor_numbers() -> Iterable[Obligation]:
+    """Yield what the coefficients and the discriminants of the four rotors must be."""
     derived = pencil.rotor_cubic()
     yield Obligation("c0_s", derived.c0)
     c1, c2 = derived.c1, derived.c2
@@ -170,18 +180,22 @@ class DecisionRule:
 
 
 def _proposition_3(delta: int, c1: int, c2: int) -> int:
+    """Decide exterior by the printed Proposition 3: 1 for yes, 0 for no."""
     return int(delta > 0 and c2 < 0 and c1 > 0)
 
 
 def _inside(c1: int, c2: int) -> bool:
+    """Decide whether c1 and c2 fulfil the printed condition of Proposition 5."""
     return (c2 > 0 and c1 != 0) or (c2 < 0 and c1 < 0)
 
 
 def _one_spheroid(delta: int, c1: int, c2: int) -> int:
+    """Decide interior by the printed Proposition 5 for one spheroid: 1 for yes, 0 for no."""
     return int(not delta <= 0 and _inside(c1, c2))
 
 
 def _four_rotors(*signs: int, inside: Callable[[int, int], bool] = _inside) -> int:
+    """Decide by Procedure 2.a from Δ, c1 and c2 of each rotor: 1 for valid, 0 for not."""
     rotors = tuple(zip(signs[0::3], signs[1::3], signs[2::3], strict=True))
     if any(delta <= 0 for delta, _, _ in rotors):
         return 0
@@ -189,26 +203,32 @@ def _four_rotors(*signs: int, inside: Callable[[int, int], bool] = _inside) -> i
 
 
 def _hull_then_rotors(delta: int, c1: int, c2: int, *rotors: int) -> int:
+    """Decide by the printed Procedure 2.b: the bounding spheroid, or the rotors if its Δ ≤ 0."""
     return _four_rotors(*rotors) if delta <= 0 else int(_inside(c1, c2))
 
 
 def _some_negative(c1: int, c2: int) -> bool:
+    """Decide whether c1 and c2 fulfil the repaired condition of Proposition 5."""
     return not (c2 < 0 and c1 > 0)
 
 
 def _four_rotors_repaired(*signs: int) -> int:
+    """Decide by the repaired Procedure 2.a."""
     return _four_rotors(*signs, inside=_some_negative)
 
 
 def _hull_then_rotors_repaired(delta: int, c1: int, c2: int, *rotors: int) -> int:
+    """Decide by the repaired Procedure 2.b: the bounding spheroid is interior, or all rotors are."""
     return int((delta > 0 and _some_negative(c1, c2)) or _four_rotors_repaired(*rotors))
 
 
 def _procedure_1_repaired(delta: int, c1: int, c2: int, Q: int, E: int, EE: int, four_A: int) -> int:
+    """Decide exterior by the repaired Procedure 1."""
     return int(E > 0 and EE > four_A) if Q == 0 else _proposition_3(delta, c1, c2)
 
 
 def _all_regimes(delta: int, c1: int, c2: int, A: int, B: int, Q: int, slope_at_B: int, slope_at_minus_A: int) -> int:
+    """Decide the position by the coefficient rule for all sizes: 1, −1 or 0."""
     all_positive = c2 < 0 and c1 > 0
     ring = Q == 0 and slope_at_B == 0 and A < B**2
     if ring or (delta > 0 and all_positive and not (c2 < -3 * B and slope_at_B > 0)):
@@ -278,6 +298,7 @@ _SIZES_TRIED = ((1, 1), (1, 2), (2, 1))  # A = B², A < B² and A > B²
 
 
 def _all_regimes_decision(discriminant: str) -> DecisionRule:
+    """Return the rule for all sizes; `discriminant` is the name of the step that has the sign of Δ."""
     # c2 below, at and above −3B, 0 and 3A, for A and B up to 2.
     cases = tuple(
         (delta, c1, c2, *sizes, Q, at_B, at_minus_A)

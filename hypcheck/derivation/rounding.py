@@ -128,6 +128,7 @@ def _term_of(step: Step, terms: dict[str, _Term], written: list[Step]) -> _Term:
 
 
 def _argument(argument: Argument, terms: dict[str, _Term]) -> _Term:
+    """Return the facts about an argument: of a name those found before, of a constant its own."""
     if isinstance(argument, str):
         return terms[argument]
     return _Term(0, abs(argument), one_signed=True, sign=-1 if argument < 0 else 1)
@@ -147,6 +148,7 @@ def _sum(step: Step, terms: list[_Term]) -> _Rule:
 
 
 def _product(step: Step, terms: list[_Term]) -> _Rule:
+    """Apply the rule for a product."""
     left, right = terms
     exact = any(_is_power_of_two(argument) for argument in step.arguments)
     one_signed = left.one_signed and right.one_signed
@@ -156,6 +158,7 @@ def _product(step: Step, terms: list[_Term]) -> _Rule:
 
 
 def _quotient(_step: Step, terms: list[_Term]) -> _Rule:
+    """Apply the rule for a quotient. Raises ValueError if the terms of the divisor may have different signs."""
     left, right = terms
     if not right.one_signed:
         raise ValueError("the divisor may be a sum of terms of different signs")
@@ -164,6 +167,7 @@ def _quotient(_step: Step, terms: list[_Term]) -> _Rule:
 
 
 def _root(_step: Step, terms: list[_Term]) -> _Rule:
+    """Apply the rule for a root. Raises ValueError if the terms of the argument may have different signs."""
     (term,) = terms
     if not term.one_signed or term.sign != 1:
         raise ValueError("the root's argument may be a sum of terms of different signs, or negative")
@@ -171,11 +175,13 @@ def _root(_step: Step, terms: list[_Term]) -> _Rule:
 
 
 def _negated(_step: Step, terms: list[_Term]) -> _Rule:
+    """Apply the rule for a change of sign."""
     (term,) = terms
     return term.count, term.one_signed, _flipped(term.sign)
 
 
 def _absolute(_step: Step, terms: list[_Term]) -> _Rule:
+    """Apply the rule for the absolute value. Raises ValueError if the terms may have different signs."""
     (term,) = terms
     if not term.one_signed:
         raise ValueError("the absolute value's argument may be a sum of terms of different signs")
@@ -194,12 +200,15 @@ RULES = {
 
 
 def _flipped(sign: int | None) -> int | None:
+    """Return the opposite sign, None if it is not known."""
     return None if sign is None else -sign
 
 
 def _times(left: int | None, right: int | None) -> int | None:
+    """Return the sign of a product of two signs, None if one is not known."""
     return None if left is None or right is None else left * right
 
 
 def _is_power_of_two(argument: Argument) -> bool:
+    """Decide whether an argument is a constant ±2^n, with which a product is exact."""
     return isinstance(argument, int) and argument != 0 and abs(argument) & (abs(argument) - 1) == 0

@@ -72,6 +72,7 @@ def walk() -> Iterator[Chain]:
 
 
 def _surfaces() -> Chain:
+    """Return the section about the equations and matrices of the two surfaces."""
     return chain(
         "The two surfaces",
         "A circular hyperboloid of one sheet H̄, centred at the origin, and a spheroid E of semi-axes b, b, d about "
@@ -90,6 +91,7 @@ def _surfaces() -> Chain:
 
 
 def _theorem_1() -> Chain:
+    """Return the section about Theorem 1, the scaling."""
     return chain(
         "Theorem 1: scaling",
         "Divide x and y by b, and z by d. The spheroid becomes the unit sphere S, the hyperboloid H has the semi-axes "
@@ -104,6 +106,7 @@ def _theorem_1() -> Chain:
 
 
 def _matrices() -> Chain:
+    """Return the section about the two matrices of the scaled surfaces."""
     hyperboloid, sphere = pencil.scaled_matrices()
     return chain(
         "The two matrices",
@@ -123,6 +126,7 @@ def _matrices() -> Chain:
 
 
 def _pencil() -> Chain:
+    """Return the section about f = det(λH + S) and the cubic g."""
     derived = pencil.scaled_cubic()
     factor, whole = read("a² + λ"), sympy.cancel(derived.f * read("a⁴·c²"))
     remainder = sympy.rem(sympy.Poly(whole, LAMBDA), sympy.Poly(factor, LAMBDA)).as_expr()
@@ -147,6 +151,7 @@ def _pencil() -> Chain:
 
 
 def _coefficients() -> Chain:
+    """Return the section about the coefficients of g."""
     derived = pencil.cubic()
     return chain(
         "The coefficients",
@@ -162,6 +167,7 @@ def _coefficients() -> Chain:
 
 
 def _between_poles() -> Chain:
+    """Return the section about the signs of g at −A, 0 and B and between them."""
     return chain(
         "g at and between its poles",
         "Where λ·H + S degenerates, at −A and B, and at 0, the sign of g is known. Between them g has the sign of φ, "
@@ -178,6 +184,7 @@ def _between_poles() -> Chain:
 
 
 def _discriminant() -> Chain:
+    """Return the section about the discriminant Δ."""
     h1, h2, h3 = hessian_coefficients()
     return chain(
         "The discriminant",

@@ -263,6 +263,7 @@ def _foot(asker: Asker, way: Floats) -> Floats:
 
 
 def _words(kind: str, reply: Said, error: float, scale: float) -> tuple[str, str]:
+    """Return an answer in words, and what is proved of it in words; lengths times `scale` are millimetres."""
     if kind == "missed contact":
         return (
             "contact" if reply.contact else "clear",
@@ -278,6 +279,7 @@ def _words(kind: str, reply: Said, error: float, scale: float) -> tuple[str, str
 
 
 def _length(millimetres: float) -> str:
+    """Return a signed distance in words."""
     if not abs(millimetres) < NO_DISTANCE:
         return "no distance"
     return f"{millimetres:.3g} mm apart" if millimetres > 0 else f"{-millimetres:.3g} mm deep"

@@ -122,6 +122,7 @@ def write_findings(folder: Path, findings: Sequence[Finding]) -> list[Finding]:
 
 
 def _head(records: Sequence[EngineRecord]) -> str:
+    """Return the head of the page, with the version of hypcheck, the machine, and the engines that are missing."""
     missing = [name for name in ENGINES if name not in {record.name for record in records}]
     lines = [
         "# What collision engines get wrong",
@@ -135,6 +136,7 @@ def _head(records: Sequence[EngineRecord]) -> str:
 
 
 def _found(findings: Sequence[Finding]) -> str:
+    """Return the part of the page about the findings."""
     rows = [
         [
             f"{finding.engine} {finding.version}",
@@ -185,6 +187,7 @@ def _settings(findings: Sequence[Finding]) -> list[list[str]]:
 
 
 def _of_tolerance(finding: Finding) -> str:
+    """Return a finding's error in units of the tolerance that the engine states, as text."""
     tolerance = ENGINES[finding.engine].judged.tolerance
     return f"{finding.error_mm / (tolerance * finding.millimetres):.1e}" if tolerance else "–"
 
@@ -206,11 +209,13 @@ def _tables_of_own(records: Sequence[EngineRecord]) -> Iterable[str]:
 
 
 def _link(record: EngineRecord) -> str:
+    """Return a link to the part of the page about an engine."""
     anchor = f"{record.name}-{record.version}".replace(".", "")
     return f"[{record.name}](#{anchor})"
 
 
 def _own_cell(record: EngineRecord, family: str) -> str:
+    """Return the cell of a table with an engine's worst own error in a family, and the number of lost answers."""
     measured = [measurement for measurement in record.best if measurement.family == family]
     faults = sum(sum(measurement.faults.values()) for measurement in measured)
     if not measured:
@@ -279,6 +284,7 @@ def _finest(record: EngineRecord) -> list[Measured]:
 
 
 def _of_engine(record: EngineRecord) -> str:
+    """Return the part of the page about one engine."""
     engine = ENGINES[record.name]
     ball = "its own ball, in float32" if engine.single else "its own ball"
     settings = (
@@ -333,6 +339,7 @@ def measured_csv(records: Iterable[EngineRecord]) -> str:
 
 
 def _measured_row(measured: Measured) -> list[object]:
+    """Return the cells of one measurement in measured.csv."""
     own = (measured.own, measured.own_rows, measured.own_worst_mm)
     faults = " ".join(f"{count} {name}" for name, count in measured.faults.items()) or "0"
     clear, contact = sum(one.clear for one in measured.decades), sum(one.contacts for one in measured.decades)
@@ -348,18 +355,22 @@ def _reported(reported: Reported) -> tuple[float | None, float | None]:
 
 
 def _worst(record: EngineRecord) -> float:
+    """Return an engine's worst own error over all families in metres, in millimetres."""
     return max(measured.own_worst_mm for measured in record.best if FAMILIES[measured.family].unit == 1)
 
 
 def _message(record: EngineRecord) -> str:
+    """Return the words of an engine's badge."""
     faults = sum(sum(measured.faults.values()) for measured in record.best)
     return f"own error {_mm(_worst(record))} mm" + (f", {faults} answers lost" if faults else "")
 
 
 def _colour(record: EngineRecord) -> str:
+    """Return the colour of an engine's badge, by its worst own error."""
     worst = _worst(record)
     return "brightgreen" if worst < 0.001 else "yellow" if worst < 1 else "orange"
 
 
 def _mm(value: float | None) -> str:
+    """Return millimetres with two digits as text."""
     return "–" if value is None else "0" if value == 0 else f"{value:.2g}"

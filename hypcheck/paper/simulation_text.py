@@ -90,6 +90,7 @@ def _ends_of_tower(ends: dict[str, Any]) -> Iterator[str]:
 
 
 def _regime_line(names: list[str]) -> Iterator[str]:
+    """Yield the lines about trees outside the regime of Procedure 1; none if there is no such tree."""
     if names:
         listed = ", ".join(names[:SHOWN]) + (", …" if len(names) > SHOWN else "")
         text = f"Procedure 1 claims nothing about trees with (gamma/d)^2 < alpha/b: {len(names)}, {listed}"
@@ -97,6 +98,7 @@ def _regime_line(names: list[str]) -> Iterator[str]:
 
 
 def _question_lines(questions: dict[str, int]) -> Iterator[str]:
+    """Yield the lines about the numbers of questions, one for each step and tree, and how they were answered."""
     total, line = questions["asked"], questions["line"]
     share = f" ({100 * line / total:.2f} %)" if total else ""
     yield f"{counted(total, 'question')}, one for each step and tree: a line answers {line:,} of them{share} without Δ"
@@ -107,6 +109,7 @@ def _question_lines(questions: dict[str, int]) -> Iterator[str]:
 
 
 def _stop_lines(stops: list[dict[str, Any]]) -> Iterator[str]:
+    """Yield the lines about the refused steps: some phantoms, and the numbers of others."""
     phantoms = [stop for stop in stops if stop["kind"] == "phantom"]
     for stop in phantoms[:SHOWN]:
         x, y, z = stop["tried"]
@@ -146,6 +149,7 @@ def tower_lines(result: dict[str, Any]) -> Iterator[str]:
 
 
 def _assumed(scene: dict[str, Any], seed: int) -> Iterator[str]:
+    """Yield the lines about the scene and the assumptions of its flights."""
     yield f"{scene['scene']}, seed {seed}"
     yield f"  tower alpha = {scene['alpha']:g}, gamma = {scene['gamma']:g}; {_height(scene['height'])}"
     yield (
@@ -161,12 +165,14 @@ def _assumed(scene: dict[str, Any], seed: int) -> Iterator[str]:
 
 
 def _height(span: Sequence[float] | None) -> str:
+    """Return the words for the heights between which the tower exists."""
     if span is None:
         return "no end of its height is modelled"
     return f"its height from {span[0]:g} to {span[1]:g}, beyond which an up or down is drawn again"
 
 
 def _start(start: dict[str, Any]) -> str:
+    """Return the words for the places at which flights begin."""
     radius, margin, (low, high) = start["radius"], start["margin"], start["z"]
     disc = f"of radius {radius:g}" if margin is None else f"that ends {margin:g} before the wall"
     at = f"z = {low:g}" if low == high else f"z uniform from {low:g} to {high:g}"
@@ -174,6 +180,7 @@ def _start(start: dict[str, Any]) -> str:
 
 
 def _flown(flights: dict[str, Any]) -> Iterator[str]:
+    """Yield the lines about the flights of the figure."""
     paths = flights["paths"]
     yield (
         f"{counted(len(paths), 'flight')} of {counted(len(paths[0]['positions']), 'position')}, "
@@ -195,6 +202,7 @@ def _flown(flights: dict[str, Any]) -> Iterator[str]:
 
 
 def _table(table: dict[str, Any], distance: float) -> Iterator[str]:
+    """Yield the lines of Table 5, ours and the printed one."""
     yield f"Table 5: executions with Δ ≤ 0, percent; means of {counted(table['runs'], 'run')} of {distance:g} m"
     yield "  (± standard error; below: printed, and ours less printed in standard errors of the difference)"
     yield "       v (m/s)" + "".join(f"{speed:>14}" for speed in table["v"])
@@ -223,6 +231,7 @@ def _table(table: dict[str, Any], distance: float) -> Iterator[str]:
 
 
 def _between(rows: Sequence[Sequence[float]], other: Sequence[float]) -> str:
+    """Return the least and the greatest of all values as text."""
     values = [value for row in (*rows, other) for value in row]
     return f"{min(values):,.0f} to {max(values):,.0f}"
 
@@ -234,6 +243,7 @@ def _row(
     printed: Sequence[float],
     differences: Sequence[float | None],
 ) -> Iterator[str]:
+    """Yield the lines of one row of Table 5: our figures, the printed ones, and the differences in standard errors."""
     ours = "".join(f"{_with_error(percent, error):>14}" for percent, error in zip(percents, errors, strict=True))
     yield f"  t = {time:4g} s  {ours}"
     yield "  printed     " + "".join(f"{figure:>14.4f}" for figure in printed)
@@ -242,10 +252,12 @@ def _row(
 
 
 def _with_error(percent: float, error: float | None) -> str:
+    """Return a figure with its standard error as text, if there is one."""
     return f"{percent:.2f}" if error is None else f"{percent:.2f} ± {error:.2f}"
 
 
 def _ways(ways: dict[str, Any]) -> Iterator[str]:
+    """Yield the lines about contact on the sweeps and turns between positions."""
     for name in ("vertical", "horizontal"):
         moves, touching, begun = ways[name], ways[f"{name}_touching"], ways[f"{name}_begun"]
         touch = "touches" if touching == 1 else "touch"
@@ -291,9 +303,11 @@ def pitch_lines(tilt: dict[str, Any]) -> Iterator[str]:
 
 
 def _from_to(contact: dict[str, Any]) -> str:
+    """Return the start and the end of a move as text."""
     start, end = (", ".join(f"{coordinate:.3f}" for coordinate in contact[name]) for name in ("start", "end"))
     return f"({start}) to ({end})"
 
 
 def _share(part: int, whole: int) -> str:
+    """Return a part of a whole in percent as text in brackets; empty if the whole is 0."""
     return f" ({100 * part / whole:.3f} %)" if whole else ""

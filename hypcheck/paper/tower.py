@@ -312,6 +312,7 @@ def _difference(cell: FlightShare, figure: float, runs: int) -> float | None:
 
 
 def _root_mean_square(rows: Sequence[Sequence[FlightShare]]) -> float:
+    """Return the root mean square of the differences between our figures and the printed ones."""
     squares = [
         (cell.percent - figure) ** 2
         for row, figures in zip(rows, PRINTED, strict=True)

@@ -30,7 +30,7 @@ def test_in_regime_distinguishes_the_border_of_a_regime_from_the_next_floats(ulp
     assert in_regime(row, "c2>=a").tolist() == [ulps <= 0]
 
 
-def test_magnitude_range_of_a_domain_includes_its_ends_and_its_lower_end_limits_semi_axes_alone():
+def test_magnitude_range_of_a_domain_includes_its_ends_and_only_semi_axes_must_reach_its_lower_end():
     rows = np.array(
         [
             [1.0, 1.0, 0.5, 1.0, 0.0, 4.0, -1e-9],

@@ -191,7 +191,7 @@ def test_library_that_takes_heights_without_the_function_for_them_is_refused(tmp
         ({"takes": ["axis"], "tilt": False}, "takes an axis, but its tilt is false; leave tilt out, or make it true"),
     ],
 )
-def test_wrong_groups_of_a_description_are_refused_with_what_would_be_right(raw, sentence):
+def test_wrong_groups_of_a_description_are_refused_by_a_sentence_that_states_the_right_ones(raw, sentence):
     with pytest.raises(InputError, match=sentence):
         described(raw, Description("it"))
 

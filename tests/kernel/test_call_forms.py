@@ -255,7 +255,7 @@ def test_the_second_of_two_axes_given_to_passage_is_that_of_the_hyperboloid():
     assert hypcheck.passage(*way, upward=(1, 0, 0)).start == -1
 
 
-def test_heights_may_be_columns():
+def test_z_max_may_be_a_column_with_a_value_for_each_point():
     tops = np.array([4.0, 6.0, 4.0, 6.0])
     rows = [(*row, 0.0, 0.0, 1.0, -np.inf, top, 0.0) for row, top in zip(ROWS, tops.tolist(), strict=True)]
     assert hypcheck.classify(SIZES, POINTS, z_max=tops).tolist() == by_truth(rows)
@@ -315,7 +315,7 @@ def test_a_spheroid_nearer_than_the_margin_is_in_contact_and_a_farther_one_keeps
         assert yes.tolist() == [int(expected == 0)]
 
 
-def test_margins_hold_for_tilted_spheroids_and_beside_ends_and_leave_invalid_rows_marked():
+def test_margins_apply_to_tilted_spheroids_and_beside_ends_and_invalid_rows_stay_127():
     rows = np.array([(*row, *axis) for row in ROWS for axis in AXES.tolist()])
     near = hypcheck.clearance(rows)
     for margin in (0.01, 0.3, 0.7, 5.0):

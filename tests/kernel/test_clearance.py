@@ -106,7 +106,7 @@ def test_clearance_of_the_numpy_kernel_agrees_with_each_instruction_set(rows, mo
     assert module.use_level(best)
 
 
-def test_the_exact_nearest_point_is_within_the_touch_error(rows, found):
+def test_the_distance_of_touch_from_the_exact_nearest_point_is_at_most_touch_error(rows, found):
     known = np.flatnonzero(np.isfinite(found.touch_error))
     assert len(known) > len(rows) / 2
     for k in known[::4].tolist():

@@ -77,7 +77,7 @@ LONG_AND_TILTED = [1.2723, 2.2682, 0.167, 5.0219, 6.9888, -8.2508, 6.6449, 0.167
 
 
 @pytest.mark.parametrize(("unit", "axis"), [(2.0**20, 1.0), (2.0**-20, 1.0), (1.0, 2.0**30), (1.0, 2.0**-30)])
-def test_a_gap_is_measured_in_any_unit_of_lengths_and_with_an_axis_of_any_length(unit, axis):
+def test_distance_bounds_are_narrow_in_any_unit_of_lengths_and_for_an_axis_of_any_length(unit, axis):
     row = np.array([LONG_AND_TILTED])
     row[:, :7] *= unit
     row[:, 7:] *= axis

@@ -306,7 +306,7 @@ def test_a_sweep_with_invalid_heights_is_refused_and_changes_no_other_answer(ans
 
 
 @pytest.mark.parametrize("tiny", [5e-324, 2.0**-200, 2.0**200, 1e308])
-def test_sweeps_of_extreme_lengths_beside_an_end_are_left_open_or_answered_exactly(tiny):
+def test_sweeps_of_extreme_lengths_beside_an_end_are_undecided_or_answered_exactly(tiny):
     rows = np.array([row_of(sweep, ends, place % 2) for place, (sweep, ends, *_) in enumerate(BY_HAND)])
     with np.errstate(over="ignore"):
         rows[:, [4, 5, 6, 7, 8, 9, 13, 14]] *= tiny

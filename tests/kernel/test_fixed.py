@@ -34,7 +34,7 @@ def test_the_value_middle_of_the_fixed_point_program_is_the_scaled_cubic_at_its_
     assert sympy.expand(middle - 27 * N**2 * cubic.subs(x, -n2 / (3 * N))) == 0
 
 
-def test_terms_of_the_fixed_point_program_are_those_of_the_integers_up_to_a_factor():
+def test_terms_of_the_fixed_point_program_are_multiples_of_those_of_the_integers_program():
     sides = dict(zip(("alpha", "gamma", "b", "d", "x", "y", "z"), sympy.symbols("alpha gamma b d x y z"), strict=True))
     wanted = ("p", "q", "s", "t", "xx", "yy", "S")
     squares = dict(zip(wanted, outputs(INTEGERS, SYMBOLIC, sides, wanted), strict=True))
@@ -236,7 +236,7 @@ def test_the_fixed_point_stage_without_its_error_bound_answers_some_tangencies_w
     assert (found != inside.positions(rows))[found != 2].any()
 
 
-def test_the_header_has_every_step_of_fixed_point():
+def test_the_header_computes_every_result_of_the_fixed_point_programs():
     text = header()
     for program, wanted in ((fixed.TERMS, fixed.TERM_RESULTS), (fixed.DISCRIMINANT, ("delta", "middle"))):
         for name in wanted:

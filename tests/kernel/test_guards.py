@@ -57,7 +57,7 @@ def test_no_product_overflows_on_rows_that_the_certified_stage_decides():
     assert GREATEST / (2 * most * most) > far  # what x² + y² becomes when it overflows is seen
 
 
-def test_underflow_in_the_certified_stage_is_less_than_one_spare_unit_of_its_bound():
+def test_underflow_in_the_certified_stage_is_less_than_the_unit_that_its_bound_keeps_in_reserve():
     least, most = (Fraction(CERTIFIED_CONSTANTS[name]) for name in ("least", "greatest"))
     lost = 4 * most * 2 * LEAST_NORMAL / least**2  # of c1, where x², y² and z² are lost
     assert lost < U * least * least  # AB, the least of the terms' sum that e1 is measured by

@@ -58,7 +58,7 @@ def test_lines_of_the_numpy_kernel_decide_most_centres_near_the_surface_and_none
             assert not share or decided[truth == position].mean() >= share
 
 
-def test_lines_of_is_none_for_extreme_sizes_and_gives_lines_for_heights_of_zero():
+def test_lines_of_is_none_for_extreme_sizes_and_returns_lines_for_zero_tiny_and_infinite_heights():
     assert scene_lines.lines_of((1.0, 1e300, 1.0, 1.0), np.array([1.0])) is None
     for z in (np.zeros(3), np.array([5e-324]), np.array([np.nan, np.inf, 1e200])):
         lines = scene_lines.lines_of((2.0, 17.8, 0.25, 0.15), z)
@@ -75,7 +75,7 @@ def test_the_square_of_a_shortened_height_is_exact_in_float64(up):
         assert (value <= short <= value * (1 + 2.0**-24)) if up else (value * (1 - 2.0**-24) <= short <= value)
 
 
-def test_thresholds_of_lines_are_on_the_safe_side_of_the_lines_at_both_ends():
+def test_thresholds_are_on_the_safe_side_of_their_lines_at_height_0_and_at_the_greatest_height():
     lines = {"beyond": (3.0, 0.5), "under": (2.5, 0.375), "within": (1.5, 0.25), "above": None}
     reach = 7.0
     found = scene_lines.thresholds(lines, reach)
@@ -94,7 +94,7 @@ def test_thresholds_of_lines_are_on_the_safe_side_of_the_lines_at_both_ends():
 
 
 @pytest.mark.parametrize("axis", [None, (0.3, 0.1, 0.9)])
-def test_a_last_chunk_that_is_not_full_is_answered_as_the_others(axis):
+def test_rows_in_a_last_chunk_that_is_not_full_are_answered_rightly(axis):
     draw = np.random.default_rng(1)
     count = (numpy_kernel.LINES_CHUNK if axis is None else numpy_kernel.TILTED_CHUNK) + 7
     sizes, columns = (2.0, 17.8, 0.25, 0.15), draw.uniform(-4, 4, (3, count))
@@ -147,7 +147,7 @@ def test_buffers_for_a_chunk_have_the_length_of_the_chunk():
         assert [len(part) for part in (*numbers, *truths)] == [rows] * 3
 
 
-def test_a_scene_of_many_centres_is_written_into_the_given_memory_without_the_compiled_kernel(monkeypatch):
+def test_classify_scene_fills_the_given_out_array_without_the_compiled_kernel_too(monkeypatch):
     """A unit ball before a wall at 1: it touches where its centre is at 2."""
     out = np.full(4, 9, np.int8)
     monkeypatch.setenv("HYPCHECK_KERNEL", "numpy")

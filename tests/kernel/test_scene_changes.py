@@ -172,7 +172,7 @@ def test_a_mover_nearer_to_a_hyperboloid_of_a_scene_than_the_margin_is_in_contac
     assert [scene.position(*point, margin=margin) for point in points[:20].tolist()] == found[:20].tolist()
 
 
-def test_a_margin_holds_for_the_parts_of_a_mover():
+def test_a_margin_is_applied_to_the_parts_of_a_mover():
     parts = (hypcheck.MoverPart(0.1, 0.1, 0.2, 0.0), hypcheck.MoverPart(0.1, 0.1, 0.2, 180.0))
     mover = hypcheck.Mover(0.4, 0.2, parts)
     scene = hypcheck.Scene.from_arrays(1, 3, [0, 0, 0], mover=mover)

@@ -219,7 +219,7 @@ def test_passage_beside_ends_hits_if_a_sampled_position_has_contact_and_none_bef
     assert hits == {False, True}
 
 
-def test_passage_that_grazes_a_rim_at_an_irrational_time_hits_and_a_hair_above_does_not():
+def test_passage_hits_if_it_grazes_a_rim_at_an_irrational_time_but_not_2_to_the_minus_40_higher():
     """A ball of radius 1/4 comes down and goes past (15/8, 0, 1), a point of the rim, along a line at distance 1/4."""
     body = Hyperboloid("tower", 1.125, 0.75, (0.0, 0.0, 0.0), Span(0.0, 1.0))
     rim = 1.875  # 9/8 · 5/3, as 1 + 16/9 = 25/9
@@ -232,7 +232,7 @@ def test_passage_that_grazes_a_rim_at_an_irrational_time_hits_and_a_hair_above_d
         assert (exact.hit, exact.grazes) == (bool(hit), lift == 0)
 
 
-def test_parts_of_a_mover_pass_through_an_opening_that_the_mover_does_not_fit():
+def test_parts_of_a_mover_pass_through_an_opening_that_is_too_narrow_for_the_whole_mover():
     body = Hyperboloid("tower", 1.0, 4.0, (0.0, 0.0, 0.0), Span(-2.0, 1.0))
     rotors = tuple(MoverPart(0.1, 0.05, 0.8, angle) for angle in (0.0, 180.0))
     asked = scene(body, mover=Mover(1.1, 0.3, rotors))
@@ -280,7 +280,7 @@ def test_a_mover_that_would_meet_the_wall_only_beyond_an_end_is_clear():
     assert tall.classify(x, 0.0, 1.0).tolist() == [tall.position(each, 0.0, 1.0) for each in x] == [-1, -1, 0, 0, 1, 1]
 
 
-def test_a_tilted_mover_reaches_a_tree_by_its_longer_semi_axis():
+def test_a_tilted_mover_touches_a_tree_at_the_distance_of_its_longer_semi_axis():
     trees = [Hyperboloid(f"tree {x}", 0.5, 9.0, (x, 0.0, 0.0), Span(-2.0, 2.0)) for x in (0.0, 40.0, 80.0)]
     level = Span(-1.0, 1.0)
     rod = scene(*trees, mover=Mover(0.125, 3.0, axis=(1.0, 0.0, 0.0)), region=Region(z=level))
@@ -347,7 +347,7 @@ def test_a_ball_just_above_a_flat_end_is_clear_even_where_the_difference_of_cent
     assert tower.position(1.0, 0.0, 2.0 + 2.0**-50) == Position.EXTERIOR
 
 
-def test_a_tilted_disc_reaches_an_end_by_its_longer_semi_axis():
+def test_a_tilted_disc_touches_a_flat_end_at_the_distance_of_its_longer_semi_axis():
     wide = Hyperboloid("wide", 5.0, 4.0, (0.0, 0.0, 0.0), Span(-3.0, 1.0), solid=True)
     tower = scene(wide, mover=Mover(2.0, 0.5, axis=(1.0, 0.0, 0.0)))
     heights = [2.75, 3.0, 3.25]

@@ -297,7 +297,7 @@ def test_first_contact_refuses_a_value_that_is_not_a_path_in_one_sentence(path, 
 
 
 @pytest.mark.parametrize("away", [30.0, 3e4, 1e9])
-def test_a_flight_far_from_all_trees_finds_the_nearest(away):
+def test_the_least_distance_of_a_flight_far_from_all_trees_is_that_of_the_nearest_tree(away):
     """The trees' trunks are 0.1 wide at their feet at most 20 m away from each other: the nearest is in a corner."""
     world = wood(2)
     path = [[away, away, 0], [away + 1, away, 0]]

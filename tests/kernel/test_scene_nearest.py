@@ -74,7 +74,7 @@ def test_scene_nearest_bounds_the_distance_closely_where_two_points_beside_the_p
 
 
 @pytest.mark.parametrize("number", range(6))
-def test_scene_nearest_measures_to_the_end_of_a_tree_above_its_end(number):
+def test_the_distance_above_the_end_of_a_tree_is_that_to_the_end(number):
     rng = np.random.default_rng(number)
     tree = Hyperboloid("stump", 0.5, 2.0, (1, 2, 0.5), Span(-0.5, 1.5))
     centre = np.array((1, 2, 2.0)) + rng.uniform((-3, -3, 1), (3, 3, 4))
@@ -192,7 +192,7 @@ def test_the_cylinder_about_a_tree_bounds_the_distance_from_below():
     ulps=st.integers(-4, 4),
     side=st.sampled_from([-1, 1]),
 )
-def test_distance_is_0_exactly_in_contact_and_its_interval_holds_the_truth_beside_the_waist(
+def test_distance_beside_a_wide_waist_is_0_only_in_contact_and_its_interval_contains_the_exact_gap(
     mover, origin, alpha, ulps, side
 ):
     """A mover at the height of a wide waist touches it at its pole: the gap is a difference that rationals know."""
@@ -216,7 +216,7 @@ def sampled_distance(alpha, gamma, span, r, z):
 
 
 @pytest.mark.parametrize("exponent", [-1000, -400, 0, 560])
-def test_scene_nearest_bounds_the_distance_from_the_standing_part_at_any_exponent(exponent):
+def test_scene_nearest_bounds_the_distance_from_a_wall_that_ends_at_any_magnitude_of_lengths(exponent):
     """Squares of such lengths leave float64; the same numbers about 1 say what is right."""
     draw = random.Random(exponent)  # noqa: S311
     for _ in range(8):
@@ -252,7 +252,9 @@ _STEPS = st.tuples(*[st.integers(-2, 2)] * 3)
 @pytest.mark.parametrize("axis", [(0.0, 0.0, 1.0), (0.3, -0.2, 1.0)])
 @settings(max_examples=15)
 @given(st.tuples(*[st.floats(-4, 4)] * 3), st.floats(0, 6.3), st.floats(-2, 2), st.integers(-1030, 1000), _STEPS)
-def test_position_nearest_and_passage_agree_about_contact_a_hair_from_the_surface(axis, at, turn, z, exponent, ulps):
+def test_position_nearest_and_passage_agree_about_contact_a_few_floats_from_the_surface(
+    axis, at, turn, z, exponent, ulps
+):
     """Centres on both sides of the last that is in contact on a ray, and a few floats beside them."""
     alpha, gamma, b, d, *at = (float(np.ldexp(each, exponent)) for each in (1.0, 3.0, 0.7, 1.2, *at))
     tree = scene(Hyperboloid("tree", alpha, gamma, tuple(at)), mover=Mover(b, d, (), axis))

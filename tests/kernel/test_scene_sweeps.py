@@ -79,7 +79,7 @@ def test_a_sweep_whose_sizes_are_beyond_the_range_of_the_bounds_is_decided_exact
     assert Scene(scene).passage(start, end).hit == hit
 
 
-def test_a_part_that_begins_in_contact_has_its_first_contact_at_the_start():
+def test_a_sweep_that_begins_with_a_part_in_contact_has_its_first_contact_at_time_0():
     """The part reaches from 0.85 to 1.05 at the start, and the wall is at 1."""
     mover = Mover(0.4, 0.2, (MoverPart(0.1, 0.1, 0.2, 0.0),))
     scene = Scene(SceneModel("one", "position", (replace(NEAR, height=None),), mover, Region()))
@@ -246,7 +246,7 @@ def test_sweeps_in_a_turned_scene_are_answered_as_in_the_upright_one(height, axi
 
 
 @pytest.mark.parametrize("seed", [1, *(pytest.param(seed, marks=pytest.mark.thorough) for seed in (0, 2))])
-def test_sweep_beside_tilted_hyperboloids_hits_where_its_distance_comes_to_0(seed):
+def test_sweep_beside_tilted_hyperboloids_hits_exactly_if_its_least_distance_is_0(seed):
     """Euclidean distance changes no faster than the centre, so that samples bound it from both sides."""
     scene = forest(5, seed, mover=Mover(0.3, 0.6, axis=FREE), region=Region())
     draw = np.random.default_rng(seed)
@@ -363,7 +363,7 @@ def test_a_ball_that_slides_on_a_flat_end_touches_it():
     assert ball_over(end).passage(starts, ends).hit.tolist() == [True, False]
 
 
-def test_a_ball_that_leaves_from_just_beside_an_edge_touches_nothing():
+def test_a_sweep_away_from_an_edge_is_clear_even_if_rounding_hides_the_gap_at_its_start():
     """What a rounding hides at the start is decided on the sweep alone, not behind its start."""
     end = Hyperboloid("end", 5.0, 4.0, (2.0**-60, 0.0, 0.0), Span(-3.0, 1.0), solid=True)
     start, up = [[1.0, 0.0, 2.0 + 2.0**-50]], [[1.0, 0.0, 9.0]]

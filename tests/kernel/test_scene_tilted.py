@@ -217,7 +217,7 @@ def test_scene_classify_takes_one_axis_for_all_centres_or_one_for_each():
     assert len(set(each)) > 1
 
 
-def test_scene_position_answers_an_array_of_axes_by_an_array():
+def test_scene_position_answers_several_axes_with_an_array():
     axes = [(0.0, 0.0, 1.0), (1.0, 0.0, 0.0)]
     found = Scene(FREELY).position(1.4, 0.0, 0.0, axis=axes)
     assert found.tolist() == [Scene(FREELY).position(1.4, 0.0, 0.0, axis=axis) for axis in axes]

@@ -27,7 +27,7 @@ def found(row, at, constants=EXACTLY):
 
 
 @pytest.mark.parametrize("row", small_rows(11, 12))
-def test_values_of_the_tilted_program_are_those_of_the_determinant_and_the_dual_function(row):
+def test_values_of_the_tilted_program_are_multiples_of_the_determinant_and_of_the_dual_function(row):
     quartic = interpolated(*matrices(in_units_of_b(row)))
     for at in (Fraction(1, 3), Fraction(-2, 7), Fraction(5)):
         values = found(row, at)

@@ -142,7 +142,7 @@ def test_result_of_the_tower_simulation_has_three_paths_of_25_positions_with_dis
         assert path["executions"] >= 24 + path["refused"]
 
 
-def test_continuous_tower_simulation_adds_verdicts_on_the_ways_between_positions():
+def test_continuous_tower_simulation_adds_verdicts_on_the_sweeps_between_positions():
     result = simulated(runs=3, questions=Questions(continuous=True))
     assert result["flights"]["ways"]["vertical"] + result["flights"]["ways"]["horizontal"] == 72
     ways = result["table_5"]["ways"]

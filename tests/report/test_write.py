@@ -57,7 +57,7 @@ def test_reports_are_written_for_a_run_interrupted_at_any_line(kept, tmp_path):
     assert ("map.svg" in os.listdir(tmp_path)) == (kept % 6 == 0 and bool(record.of(MapLine)))
 
 
-def test_without_matplotlib_and_jinja2_reports_are_written_without_what_they_draw(tmp_path, monkeypatch):
+def test_without_matplotlib_and_jinja2_reports_are_written_without_plots_and_page(tmp_path, monkeypatch):
     for name in DRAWN:
         (tmp_path / name).write_text("of an earlier run", encoding="utf-8")
     draw_nothing(monkeypatch)

@@ -40,7 +40,7 @@ def test_a_path_that_the_system_cannot_have_is_refused_with_the_reason(source, c
         assert error.endswith(": embedded null byte\n")
 
 
-def test_a_packed_file_is_read_as_what_it_holds(tmp_path, capsys):
+def test_a_compressed_file_is_read_as_its_decompressed_content(tmp_path, capsys):
     plain, packed = tmp_path / "record.jsonl", tmp_path / "record.jsonl.xz"
     plain.write_text(record_samples.text_and_record()[0], encoding="utf-8")
     packed.write_bytes(lzma.compress(plain.read_bytes()))
@@ -49,7 +49,7 @@ def test_a_packed_file_is_read_as_what_it_holds(tmp_path, capsys):
     assert first == second.replace(str(plain), str(packed))
 
 
-def test_a_packed_table_is_answered_as_what_it_holds(source, tmp_path):
+def test_a_compressed_table_is_answered_as_its_decompressed_content(source, tmp_path):
     packed, target = tmp_path / "in.csv.xz", tmp_path / "out.csv"
     packed.write_bytes(lzma.compress(source.read_bytes()))
     assert classify(packed, target, "--format", "csv") == 0

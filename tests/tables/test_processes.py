@@ -55,7 +55,7 @@ def text_of(rows, kind):
     return "".join(json.dumps(dict(zip(COLUMNS, row, strict=True))) + "\n" for row in rows.tolist())
 
 
-def test_first_bad_row_is_reported_even_if_later_rows_are_bad_in_other_ways(rows, classify, tmp_path):
+def test_the_first_bad_row_is_reported_even_if_later_rows_have_other_faults(rows, classify, tmp_path):
     source = tmp_path / "rows.csv"
     bad = 2 * CHUNK + 3
     rows[bad, 2] = -0.25

@@ -72,7 +72,7 @@ def test_places_of_roots_of_a_tilted_pair_equal_those_of_interpolated_determinan
 
 
 @pytest.mark.parametrize(("row", "position", "limit_of"), SYMMETRIC)
-def test_rings_and_double_tangencies_are_told_apart_by_their_double_root_at_a_pole(row, position, limit_of):
+def test_rings_and_double_tangencies_are_distinguished_by_their_double_root_at_a_pole(row, position, limit_of):
     found = classify_by_roots(Pair.from_row(row))
     assert (found.position, found.tangent) == (position, limit_of is not None)
     side = found.above if EXTERIOR in (position, limit_of) else found.below

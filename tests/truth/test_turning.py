@@ -91,7 +91,7 @@ def test_distances_of_a_whole_turn_enclose_the_nearest_and_farthest_point_of_the
 
 
 @pytest.mark.parametrize("beyond", [-1, 1])
-def test_a_turn_that_misses_tangency_by_a_hair_is_decided_with_more_bits(beyond):
+def test_a_turn_that_nearly_touches_is_decided_with_more_bits(beyond):
     """The mover's centre is √2 from the axis, the arm brings the part's to √2 + l, and to l − √2 on the other side."""
     hair, root = Fraction(beyond, 2**140), Fraction(math.isqrt(2 << 800), 1 << 400)
     inner, outer = 3 - root + hair, 5 + root + hair

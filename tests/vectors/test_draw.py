@@ -113,7 +113,7 @@ def _philox(key: int, block: int) -> list[int]:
     return [x0, x1, x2, x3]
 
 
-def test_random_blocks_drawn_together_equal_blocks_drawn_alone() -> None:
+def test_random_blocks_drawn_together_equal_blocks_drawn_separately() -> None:
     names = [("side", number) for number in range(3)]
     together, alone = Draw.of_blocks(names), [Draw(*name) for name in names]
     for share in (4, 1, 7):

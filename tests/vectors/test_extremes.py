@@ -82,7 +82,7 @@ def test_extreme_magnitude_family_has_all_combinations_of_sizes_above_1e149_and_
     assert len(np.unique(sizes > 1, axis=0)) == 4
 
 
-def test_extreme_hair_rows_are_a_tiny_coordinate_away_from_tangency() -> None:
+def test_rows_of_extreme_hair_differ_from_a_tangency_by_one_tiny_coordinate() -> None:
     for row in FAMILIES["extreme-hair"].rows(0, 200).tolist():
         assert not inside.decide(Pair.from_row(row).lengths).tangent
         without = [0.0 if 0 < abs(value) < 1e-59 else value for value in row]

@@ -251,7 +251,7 @@ def test_few_rows_of_a_family_are_the_beginning_of_more_and_other_seeds_and_bloc
 @pytest.mark.parametrize(
     "family", [each for each in FAMILIES.values() if each.by_place], ids=lambda family: family.name
 )
-def test_blocks_of_a_family_generated_together_equal_blocks_generated_alone(family: Family) -> None:
+def test_blocks_of_a_family_generated_together_equal_blocks_generated_separately(family: Family) -> None:
     blocks = [family.block(5, number) for number in range(TOGETHER + 3)]
     rows = family.rows(5, len(blocks) * BLOCK)
     assert rows.tobytes() == np.concatenate(blocks).tobytes()

@@ -23,12 +23,12 @@ SCHEMA = "1.4.0"
 
 
 def lines(chosen: Selection) -> Iterator[str]:
-    """The object, indented."""
+    """Yield the object, indented."""
     yield json.dumps(document(chosen), ensure_ascii=False, indent=1)
 
 
 def document(chosen: Selection) -> dict[str, Any]:
-    """The object; parts that were not requested are missing."""
+    """Return the object; parts that were not requested are missing."""
     parts: dict[str, Any] = {}
     if "derivation" in chosen.parts:
         parts["derivation"] = list(map(_chain, chosen.sections))
@@ -50,7 +50,7 @@ def document(chosen: Selection) -> dict[str, Any]:
 
 
 def _fields(value: object, *names: str) -> dict[str, Any]:
-    """The fields of those names: a tuple as a list, an empty text as null."""
+    """Return the fields of those names: a tuple as a list, an empty text as null."""
     fields = {name: getattr(value, name) for name in names}
     return {
         name: list(field) if isinstance(field, tuple) else field or None if isinstance(field, str) else field

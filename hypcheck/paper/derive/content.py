@@ -1,4 +1,4 @@
-"""What `hypcheck derive` shows: a selection, and its content as a document, which every format for people renders.
+"""The content of `hypcheck derive`: a selection, and the document made from it, which every format for people renders.
 
 A selection is whole parts (PARTS), or one claim of the paper with all evidence for its verdict.
 """
@@ -85,7 +85,7 @@ class Selection:
 
 
 def _with_needs(name: str) -> tuple[str, ...]:
-    """A chain's name, where there is one, and the names of those that it needs."""
+    """Return a chain's name, where there is one, and the names of those that it needs."""
     return (
         (name, *(chain_name for needed in chains()[name].needs for chain_name in _with_needs(needed))) if name else ()
     )
@@ -95,12 +95,12 @@ FAILS = "FAILS"
 
 
 def remark(holds: bool) -> str:
-    """The remark at a formula or at a reason."""
+    """Return the remark at a formula or at a reason."""
     return "checked" if holds else FAILS
 
 
 def sections(chosen: Selection) -> Iterator[Section]:
-    """The content, section by section; each is computed when it is read."""
+    """Yield the content, section by section; each is computed when it is read."""
     if "derivation" in chosen.parts:
         how = f"Each formula marked {remark(True)} was held against what sympy {sympy.__version__} makes of the two "
         yield _part("derivation", Paragraph(f"{how}surfaces, now."))
@@ -121,7 +121,7 @@ def _part(name: str, *blocks: Block) -> Section:
 
 
 def _chain(chain: Chain) -> Section:
-    """The links of a chain as numbered steps, each with its formulas."""
+    """Return the links of a chain as numbered steps, each with its formulas."""
     steps = tuple(
         Item(
             (prose(link.statement), " ", Emphasis(f"({link.because})")),
@@ -141,7 +141,10 @@ _LEDGER = (
 
 
 def _ledger(chosen: Selection) -> Iterator[Section]:
-    """The ledger: formulas that hold as printed in a table, and a section for each other entry; or a claim in full."""
+    """Yield the sections of the ledger, or those of a claim with all details.
+
+    In the ledger, formulas that hold as printed are in one table, and each other entry has a section.
+    """
     shown, whole = chosen.entries, chosen.entries == entries()
     if chosen.claim is not None:
         yield from map(_entry_in_full, shown)
@@ -171,25 +174,25 @@ def _ledger(chosen: Selection) -> Iterator[Section]:
 
 
 def _tally(shown: Sequence[LedgerEntry]) -> str:
-    """The number of statements, in total and by verdict."""
+    """Return the number of statements, in total and by verdict."""
     counts = Counter(entry.verdict for entry in shown)
     return f"{len(shown)} statements: {', '.join(f'{counts[name]} {name}' for name in VERDICTS)}."
 
 
 def verdict(entry: LedgerEntry) -> str:
-    """The verdict, with a remark that it fails if the evidence does not support it."""
+    """Return the verdict, with a remark that it fails if the evidence does not support it."""
     return entry.verdict if entry.confirmed else f"{FAILS}: {entry.verdict}"
 
 
 def _entry_in_full(entry: LedgerEntry) -> Section:
-    """An entry with its section and all evidence."""
+    """Return an entry with its section and all evidence."""
     evidence = [item for evidence in entry.evidence for item in _evidence(evidence)]
     blocks = (Paragraph(prose(entry.statement)), terms(details(entry, in_full=True)), bullets(evidence))
     return Section(f"{entry.number} (section {entry.section}): {verdict(entry)}", blocks)
 
 
 def details(entry: LedgerEntry, *, in_full: bool = False) -> Iterator[tuple[Text, Text]]:
-    """The details with their titles: reason, finding, correction, fault, where it is harmless, consequences.
+    """Return the details with their titles: reason, finding, correction, fault, where it is harmless, consequences.
 
     `in_full`: with the printed formula, and without the finding, which follows with its proof.
     """
@@ -212,7 +215,7 @@ def details(entry: LedgerEntry, *, in_full: bool = False) -> Iterator[tuple[Text
 
 
 def _evidence(evidence: Evidence) -> Iterator[Item]:
-    """A reason and whether it holds; witnesses as rows that can be classified, each with its certificate."""
+    """Yield a reason and whether it holds; witnesses as rows that can be classified, each with its certificate."""
     if not (evidence.witnesses or evidence.tilted):
         yield Item((prose(f"{evidence.kind}: {evidence.text}"), f": {remark(evidence.holds)}"))
     for witness in evidence.witnesses:
@@ -259,7 +262,7 @@ def _costs(counted: Sequence[Cost]) -> Iterator[Block]:
 
 
 def _cost_cells(cost: Cost) -> list[str]:
-    """The numbers of a formula, for a scene and for a position."""
+    """Return the numbers of a formula, for a scene and for a position."""
     scene, query = cost.scene, cost.query
     divisions = f"{query.divisions}({cost.by_fixed})" if cost.by_fixed else str(query.divisions)
     numbers = (

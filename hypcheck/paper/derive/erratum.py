@@ -33,19 +33,19 @@ _PLACE = re.compile(r"<<([a-z0-9-]+)>>")
 
 
 def lines(_: Selection) -> Iterator[str]:
-    """The whole note; the selection does not matter, because an erratum has no parts."""
+    """Yield the whole note; the selection does not matter, because an erratum has no parts."""
     text = resources.files("hypcheck.paper.derive").joinpath("erratum.tex").read_text(encoding="utf-8")
     values = _values({entry.number: entry for entry in entries()})
     yield from filled(text, values).splitlines()
 
 
 def filled(text: str, values: Mapping[str, str]) -> str:
-    """The text with a value for each name in it. Raises KeyError for a name without one."""
+    """Return the text with a value for each name in it. Raises KeyError for a name without one."""
     return _PLACE.sub(lambda match: values[match[1]], text)
 
 
 def _values(ledger: dict[str, LedgerEntry]) -> dict[str, str]:
-    """The values from the ledger, by their names in the note."""
+    """Return the values from the ledger, by their names in the note."""
     return {
         "version": VERSION,
         **_counterexamples(ledger),
@@ -91,11 +91,15 @@ def _quadcopters(ledger: dict[str, LedgerEntry]) -> dict[str, str]:
 
 
 def _witnesses(entry: LedgerEntry) -> list[PointWitness]:
+    """Return all witnesses in the evidence of an entry."""
     return [witness for evidence in entry.evidence for witness in evidence.witnesses]
 
 
 def _named(name: str, facts: PointFacts, shown: PointFacts | None = None) -> dict[str, str]:
-    """A pair by its name, and the numbers of its cubic, or of another cubic; each number is a separate formula."""
+    """Return a pair and the numbers of its cubic, each as a separate formula, by names that begin with `name`.
+
+    With `shown` the numbers are those of another cubic.
+    """
     point, cubic = facts.point, shown or facts
     numbers = ((r"\Delta", cubic.delta), ("c_2", cubic.c2), ("c_1", cubic.c1))
     first, second, third = (f"${letter}={number}$" for letter, number in numbers)
@@ -114,7 +118,7 @@ def _point(coordinates: Iterable[Fraction | float]) -> str:
 
 
 def _tilted(entry: LedgerEntry) -> dict[str, str]:
-    """The pair that is clear upright and in contact tilted."""
+    """Return the pair that is clear upright and in contact tilted."""
     witnesses = [witness for evidence in entry.evidence for witness in evidence.tilted]
     (dangerous,) = (witness for witness in witnesses if witness.certificate.position is Position.CONTACT)
     return _words_of(dangerous)
@@ -142,7 +146,7 @@ def _steps() -> dict[str, str]:
 
 
 def _times_a_power(units: str) -> str:
-    """A number of 10¹⁸ with three digits as LaTeX: "158" is 1.58·10²⁰."""
+    """Return three digits, a number of units of 10¹⁸, as LaTeX: "158" becomes 1.58·10²⁰."""
     return rf"{int(units) / 100:.2f}\cdot10^{{20}}"
 
 

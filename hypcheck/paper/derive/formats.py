@@ -34,7 +34,7 @@ the wording or the figures of Table 5, must be looked up on the printed page bef
 
 
 def markdown_lines(chosen: Selection) -> Iterator[str]:
-    """The page: a document in Markdown after an introduction."""
+    """Yield the page: a document in Markdown after an introduction."""
     lines = [_INTRODUCTION, "", *markdown.section_lines(sections(chosen))]
     yield from lines[:-1]  # the last line is empty
 

@@ -73,13 +73,13 @@ class UnknownCharacterError(ValueError):
 
 
 def formula(text: str) -> str:
-    """A formula for math mode; words in it are set as text. Raises UnknownCharacterError."""
+    """Return a formula for math mode; words in it are set as text. Raises UnknownCharacterError."""
     runs = _runs(_tokens(text), edge="math")
     return "".join(tex if kind == "math" else rf"\text{{{tex}}}" for tex, kind in runs)
 
 
 def sentence(text: str) -> str:
-    """A sentence with formulas in it, for text mode. Raises UnknownCharacterError."""
+    """Return a sentence with formulas in it, for text mode. Raises UnknownCharacterError."""
     runs = _runs(_tokens(text, articles=True), edge="text")
     return "".join(f"${tex}$" if kind == "math" else tex for tex, kind in runs)
 
@@ -88,7 +88,7 @@ Run = tuple[str, str]
 
 
 def _runs(tokens: list[Run], edge: str) -> list[Run]:
-    """The tokens joined to runs of one mode; a space has the mode of its two sides if they are equal, else text."""
+    """Join tokens to runs of one mode. A space has the mode of its two sides if they are equal, else it is text."""
     kinds = ["text" if kind == "space" else kind for _, kind in tokens]
     for place, (_, kind) in enumerate(tokens):
         if kind == "mark":  # brackets and commas go with a formula that they touch
@@ -108,7 +108,7 @@ def _runs(tokens: list[Run], edge: str) -> list[Run]:
 
 
 def _tokens(text: str, *, articles: bool = False) -> list[Run]:
-    """The tokens. In sentences (`articles`), "a" before a word is text and not a symbol, and "cosine" is a word."""
+    """Divide a text into tokens. With `articles`, as in sentences, "a" before a word and "cosine" are text."""
     return [
         (match[0], "text")
         if articles and (match[0] in _OF_ROTORS or _ARTICLE.match(text, match.start()))
@@ -118,7 +118,7 @@ def _tokens(text: str, *, articles: bool = False) -> list[Run]:
 
 
 def _token(match: re.Match[str]) -> Run:
-    """One token in LaTeX, and whether it is "math", "text", a "space" or a "mark" that can be either."""
+    """Return one token in LaTeX and its mode: "math", "text", "space", or "mark", which can be math or text."""
     text = match[0]
     if match["code"]:
         return rf"\texttt{{{plain(text.strip('`'))}}}", "text"
@@ -156,7 +156,10 @@ def _word(text: str) -> Run:
 
 
 def plain(text: str) -> str:
-    """Words without formulas. Raises UnknownCharacterError."""
+    """Return words without formulas, with the characters that are special in LaTeX escaped.
+
+    Raises UnknownCharacterError.
+    """
     escaped = "".join(_PUNCTUATION.get(character, character) for character in text)
     if not escaped.isascii():
         raise UnknownCharacterError(f"there is no LaTeX here for a character of {text!r}")
@@ -174,7 +177,7 @@ _ROOM = 88
 
 
 def lines(sections: Iterable[document.Section]) -> Iterator[str]:
-    """The whole document."""
+    """Yield the whole document."""
     yield _BEGIN
     for section in sections:
         yield rf"\{'sub' * (section.level - 2)}section*{{{_inline(section.title)}}}"
@@ -184,7 +187,7 @@ def lines(sections: Iterable[document.Section]) -> Iterator[str]:
 
 
 def _block(block: document.Block) -> Iterator[str]:
-    """The lines of a block; a document in LaTeX has no pictures and no folded blocks."""
+    """Yield the lines of a block; a document in LaTeX has no pictures and no folded blocks."""
     match block:
         case document.Paragraph(words):
             yield _text(words)
@@ -202,7 +205,7 @@ def _block(block: document.Block) -> Iterator[str]:
 
 
 def _table(block: document.TableBlock) -> Iterator[str]:
-    """A table that may be longer than a page; the columns of one that is too wide have fixed widths."""
+    """Yield a table that may be longer than a page; the columns of one that is too wide have fixed widths."""
     rows = [tuple(column.title for column in block.columns), *(tuple(cell.text for cell in row) for row in block.rows)]
     shown = [[document.plain(words) for words in row] for row in rows]
     natural, fitting = (column_widths(block, shown, room) for room in (sys.maxsize, _ROOM))
@@ -218,7 +221,7 @@ def _table(block: document.TableBlock) -> Iterator[str]:
 
 
 def _text(words: document.Text) -> str:
-    """A text of its own: a formula is displayed. A bracket at its beginning would be read as an option."""
+    """Return a text of its own: a formula is displayed. A bracket at its beginning would be read as an option."""
     if isinstance(words, document.Formula):
         return _display(words)
     shown = _inline(words)
@@ -242,7 +245,7 @@ def _inline(words: document.Text) -> str:
 
 
 def _display(shown: document.Formula) -> str:
-    """A formula on its own, with its remark as its tag; one that is too long in several lines."""
+    """Return a formula on its own, with its remark as its tag; one that is too long in several lines."""
     if (named := matrix_of(shown.text)) is not None:
         name, cells = named
         rows = (" & ".join(map(formula, row)) for row in cells)

@@ -80,7 +80,7 @@ def test_bounds_of_emitted_clearance_code_contain_the_clearance_of_each_frozen_c
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_emitted_sweeps_give_times_before_the_first_contact(library, language):
+def test_emitted_code_for_sweeps_gives_right_hits_and_times_that_are_not_after_the_first_contact(library, language):
     rows, answers, cases = with_axes("end", "end axis")
     found, times = sweeps_of(library("passage", language), rows)
     assert ((found == answers) | (found == 2)).all()

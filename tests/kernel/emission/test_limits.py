@@ -108,7 +108,7 @@ def test_an_emitted_kernel_is_right_if_a_modelled_height_is_beyond_its_float_for
 
 
 @pytest.mark.parametrize("precision", ["float64", "float32"])
-def test_the_error_bound_of_an_emitted_kernel_holds_on_the_border_of_its_region(precision, tmp_path):
+def test_an_emitted_kernel_is_within_its_error_bound_on_the_border_of_its_region(precision, tmp_path):
     skip_without("c")
     kernel = asking(built(tmp_path, replace(HILLS, question="position"), "c", precision), "c")
     for body, stages in zip(HILLS.hyperboloids, plan_of(HILLS).settings, strict=True):

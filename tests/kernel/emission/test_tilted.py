@@ -303,7 +303,7 @@ def test_the_description_of_a_kernel_for_a_tilted_mover_names_its_axis(axis):
         (replace(tower(PITCHED), mover=Mover(0.25, 1e-5, axis=FREE)), "float64", "where a spheroid is tilted, alpha/b"),
     ],
 )
-def test_emit_refuses_unsupported_scenes_with_a_tilted_mover_in_one_sentence(scene, precision, message):
+def test_plan_of_refuses_unsupported_scenes_with_a_tilted_mover_in_one_sentence(scene, precision, message):
     with pytest.raises(InputError, match=message):
         plan_of(scene, precision)
 

@@ -102,7 +102,7 @@ def test_rows_of_a_frozen_file_are_the_first_rows_of_its_family_without_duplicat
 
 
 @pytest.mark.parametrize("name", FULLY_COMPARED)
-def test_frozen_files_are_those_that_freezing_from_nothing_makes(name):
+def test_frozen_files_equal_those_that_freezing_without_earlier_files_makes(name):
     assert cases_text(freezing.frozen(name)) == text_of(name)
 
 
@@ -216,7 +216,7 @@ def test_each_ladder_of_the_family_tangent_ladder_has_all_rungs_and_changes_its_
     assert sides == set(Position)
 
 
-def test_frozen_invalid_rows_include_each_column_invalid_alone_and_every_kind_of_nan():
+def test_frozen_invalid_rows_include_a_single_invalid_value_in_each_column_and_every_kind_of_nan():
     file = vectors.load("invalid")
     assert invalid(file.rows).all()
     alone = Counter(case.columns for case in file.cases if len(case.columns) == 1)
