@@ -109,7 +109,7 @@ def _question_lines(questions: dict[str, int]) -> Iterator[str]:
 
 
 def _stop_lines(stops: list[dict[str, Any]]) -> Iterator[str]:
-    """Yield the lines about the refused steps: some phantoms, and the numbers of others."""
+    """Yield the lines about phantoms: some of them, and the number of the others."""
     phantoms = [stop for stop in stops if stop["kind"] == "phantom"]
     for stop in phantoms[:SHOWN]:
         x, y, z = stop["tried"]
