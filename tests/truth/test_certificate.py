@@ -133,7 +133,7 @@ def test_certificates_beside_ends_are_accepted_if_they_prove_their_position_and_
     assert check_certificate(pair, certificate) is holds
 
 
-def test_certificate_of_contact_accepts_points_on_the_spheroid_and_none_beyond_it():
+def test_certificate_of_contact_is_accepted_with_a_point_on_the_spheroid_and_refused_with_one_beyond_it():
     pair, center, outside = Pair(5, 5, 3, 0.5, 4, 3, 0.25), _point(4, 3, 0.25), _point(7, 3, 0.25)
     for axis, radius in enumerate((3, 3, Fraction(1, 2))):
         for way in (radius, -radius):

@@ -67,7 +67,7 @@ def test_certificate_with_a_double_root_at_a_double_pole_is_refused_for_a_crossi
     assert not check_certificate(crossing, Certificate(CONTACT, double_root=Fraction(-1, 4)))
 
 
-def test_two_points_prove_contact_only_within_the_spheroid_and_on_two_sides():
+def test_two_points_prove_contact_only_if_they_are_within_the_spheroid_and_on_two_sides_of_the_surface():
     pair = Pair(1, 1, 0.5, 2, 2, 0, 0, 1, 0, 0)  # from (0, 0, 0) to (4, 0, 0)
     for points, proves in (
         ([(2, 0, 0), (Fraction(1, 2), 0, 0)], True),

@@ -162,7 +162,7 @@ def test_a_spheroid_scaled_by_slightly_less_than_its_clearance_is_clear_and_by_s
             assert (exact_position(scaled.lengths) is CONTACT) == meets
 
 
-def test_the_clearance_of_a_centre_on_wall_or_disc_is_minus_one():
+def test_the_clearance_of_a_spheroid_with_its_centre_on_the_wall_or_a_disc_is_minus_1():
     for row, ends, solid in (((*RIM, 1, 1, 3.75, 0, 3), (-1, 3), 0), ((*RIM, 1, 0.5, 2, 0, 3, 1, 0, 1), (-1, 3), 1)):
         pair = pair_of(row, ends, solid)
         assert ended_clearance(pair, decide(pair.lengths)) == -1

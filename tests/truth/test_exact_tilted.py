@@ -73,7 +73,7 @@ def determinant(matrix):
     )
 
 
-def test_tangency_from_a_rational_rotation_is_tangent_and_turns_clear_when_shrunk():
+def test_a_tangency_from_a_rational_rotation_is_tangent_and_a_slightly_smaller_spheroid_is_clear():
     assert {side for _, side in TANGENT} == {Position.EXTERIOR, Position.INTERIOR}
     step = Fraction(1, 2**200)
     for row, side in TANGENT:

@@ -37,7 +37,7 @@ def test_fewer_than_5_percent_of_ordinary_rows_need_an_exact_distance_exponent()
 
 
 @pytest.mark.parametrize("sign", [-1, 1])
-def test_next_to_a_power_of_two_distance_exponents_are_nan_or_right(sign):
+def test_distance_exponents_are_nan_or_right_if_the_distance_is_near_a_power_of_two(sign):
     """x = α + b + δ at the waist: the distance is about δ/(α + b + x), here about a power of two."""
     steps = np.concatenate([2.0 ** np.arange(-12, -6), -(2.0 ** np.arange(-12, -6)), [0.0]])
     rows = np.zeros((20 * len(steps), 7))

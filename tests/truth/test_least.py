@@ -61,7 +61,7 @@ def border(pair, point):
 
 
 @pytest.mark.parametrize("scale", [1.0, 2.0**-150, 2.0**150])
-def test_bounds_of_the_least_value_hold_for_every_point_and_are_as_near_as_requested(scale):
+def test_bounds_of_the_least_value_hold_for_sampled_points_and_are_as_narrow_as_requested(scale):
     for pair in drawn(10, seed=int(math.log2(scale)), scale=scale):
         found = least.to_border(pair)
         assert found.lower <= found.upper <= found.lower * (1 + 2.0**-39) + 1e-9
@@ -154,7 +154,7 @@ def test_parts_of_a_cut_cell_cover_the_cell_in_spite_of_the_rounding_of_their_mi
 
 
 @pytest.mark.parametrize("stage", STAGES)
-def test_roundings_of_a_value_and_its_slopes_are_within_their_bounds_far_from_the_axis(stage):
+def test_errors_of_a_value_and_of_its_slopes_are_within_their_bounds_far_from_the_axis(stage):
     draw = np.random.default_rng(7)
     for far in (1.0, 1e4, 1e8):
         for large in drawn(3, seed=8, scale=far):

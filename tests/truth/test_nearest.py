@@ -168,14 +168,14 @@ def test_spheroid_centred_in_the_waist_plane_has_one_or_two_nearest_points(alpha
         assert (found.clearance == 0) is (P == (a + 1) ** 2 or (a >= 1 and P == (a - 1) ** 2))
 
 
-def test_tangency_is_not_claimed_for_a_multiplier_beside_the_maximum():
+def test_a_multiplier_that_is_not_the_maximum_of_the_dual_does_not_count_as_a_tangency():
     """Here g has three roots, the middle one halfway, at λ = −1: D = 1 there, but it rises further towards −A."""
     pair = Pair(3, 1, 2, 2, 0, 0, 0)
     assert not Dual.of(pair.lengths).touches(Fraction(-1))
     assert nearest(pair).clearance == 0.5
 
 
-def test_an_optimum_that_is_a_binary_fraction_is_enclosed():
+def test_a_tangency_whose_optimum_is_a_binary_fraction_has_the_clearance_0():
     """The slope is exactly 0 there, and no wider enclosure has it of one sign."""
     (case,) = (case for case in frozen.load("tangent").cases if case.id == "tangent-0060")
     found = nearest(Pair.from_row(case.row))
@@ -216,7 +216,7 @@ def tangent_pair(triple, k, v, sign, distance):
     st.sampled_from((-1, 1)),
     st.builds(lambda order, up: Fraction(up, 2**order), st.integers(0, 30), st.sampled_from((-1, 0, 1))),
 )
-def test_clearances_at_rational_tangents_and_beside_them_are_right(triple, k, v, sign, step):
+def test_clearances_of_rational_tangencies_and_of_pairs_beside_them_are_right(triple, k, v, sign, step):
     built = tangent_pair(triple, k, v, sign, 1 + step)
     if built is None:
         return

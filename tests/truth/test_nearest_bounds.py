@@ -160,7 +160,7 @@ def test_clearances_are_right_even_if_newton_starts_badly_and_takes_short_steps(
 
 @pytest.mark.parametrize("column", [0, 1, 4, 5, 6])
 @pytest.mark.parametrize("order", [-61, 61])
-def test_rows_beyond_the_limits_of_the_bounds_get_exact_enclosures(column, order):
+def test_rows_beyond_the_limits_of_the_float_bounds_are_computed_with_exact_enclosures(column, order):
     row = [1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 1.0]
     row[4 if column == 6 else column] = 1.0
     row[column] = 2.0**order

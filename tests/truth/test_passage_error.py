@@ -132,7 +132,7 @@ def test_times_are_right_from_the_first_contact_of_a_larger_spheroid_to_that_of_
     assert [time_is_within(ACROSS, time, Fraction(1, 100)) for time in wrong] == [False] * 4
 
 
-def test_no_time_is_too_late_if_the_smaller_spheroid_is_clear():
+def test_no_time_of_contact_counts_as_too_late_if_a_slightly_smaller_spheroid_is_clear():
     touching = (2.0, 3.0, 1.0, 1.0, -4.0, 3.0, 0.0, 4.0, 3.0, 0.0)
     change = Fraction(1, 2**20)
     assert [time_is_within(touching, time, change) for time in (0, 0.25, 0.5, 1)] == [False, False, True, True]

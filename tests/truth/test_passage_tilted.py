@@ -234,7 +234,7 @@ def test_ring_between_two_times_is_found_only_if_its_time_lies_between_them(low,
     assert _ring_between(at_pole, slope, curvature, Fraction(low), Fraction(high)) is ring
 
 
-def test_a_sweep_without_length_grazes_where_it_touches_and_a_sweep_that_leaves_a_touch_does_too():
+def test_a_sweep_grazes_if_it_touches_at_its_start_and_stays_there_or_moves_away():
     touching, away = (2.0, 0.0, 0.0), (5.0, 0.0, 0.0)
     for end in (touching, away):
         found = passage((1, 1, 1, 1), touching, end)

@@ -134,14 +134,14 @@ def test_unit_ball_beside_a_cylinder_or_a_plane_is_clear_only_where_they_do_not_
     assert quadrics.position(ball, beside) is position
 
 
-def test_ball_is_decided_where_the_corner_of_a_tried_matrix_is_0():
+def test_contact_of_a_ball_is_decided_even_if_the_first_entry_of_a_tried_matrix_is_0():
     """The ellipsoid 4x² + 2y² + z² = 1 goes through the ball that touches x = 0 at its centre."""
     ball = [[1, 0, 0, -1], [0, 1, 0, 0], [0, 0, 1, 0], [-1, 0, 0, 0]]
     ellipsoid = [[-4, 0, 0, 0], [0, -2, 0, 0], [0, 0, -1, 0], [0, 0, 0, 1]]
     assert quadrics.position(ball, ellipsoid) is Position.CONTACT
 
 
-def test_determinant_above_0_is_no_proof_where_two_pivots_are_below_0():
+def test_a_positive_determinant_is_not_taken_for_a_proof_if_two_pivots_are_negative():
     """(a, c, r, z) = (2, ½, 4, 0) crosses, and f(−8) > 0."""
     assert quadrics.position(*surfaces(Pair(2, 0.5, 1, 1, 4, 0, 0))) is Position.CONTACT
 

@@ -137,7 +137,7 @@ def test_reach_is_slightly_below_the_distance_to_the_next_root_of_the_quadratic(
             assert distance * (1 - Fraction(1, 2**37)) < found < distance
 
 
-def test_reach_of_a_quadratic_is_none_if_no_root_lies_ahead():
+def test_reach_is_none_if_the_quadratic_has_no_later_root():
     one, two, three = Fraction(1, 3), Fraction(2, 3), Fraction(1)
     assert reach(quadratic(5, one, two), three) is None
     assert reach(quadratic(5, two, None), three) is None

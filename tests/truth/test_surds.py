@@ -40,7 +40,7 @@ def test_sign_of_a_quadratic_at_the_one_root_of_another_is_that_at_sympys_root(f
 
 
 @given(st.integers(1, 9), st.integers(-9, 9), st.integers(1, 5))
-def test_a_quadratic_that_vanishes_at_the_root_has_the_sign_0_there(square, shift, factor):
+def test_sign_at_root_is_0_for_a_quadratic_with_the_same_root(square, shift, factor):
     """The root is shift + √square."""
     f = (1, -2 * shift, shift * shift - square)
     low = Fraction(shift)

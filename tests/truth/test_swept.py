@@ -64,7 +64,7 @@ def test_answer_about_a_sweep_agrees_with_exact_positions_on_it(sizes, start, en
             assert found.first[0] < time
 
 
-def test_the_first_contact_is_enclosed_narrowly_where_steps_shrink_too_slowly():
+def test_the_first_contact_is_enclosed_narrowly_even_if_the_steps_towards_it_shrink_slowly():
     """Each of 64 steps reaches about half way to the contact: their end says little, the roots say it to 60 bits."""
     found = passage((0.0625, 0.0625, 0.0625, 65 / 1024), (0.0, 129 / 1024, 0.0), (0.0, 1 / 1024, 0.0))
     low, high = found.first
@@ -372,7 +372,7 @@ def test_contact_that_begins_just_before_the_end_of_a_sweep_beside_a_disc_is_fou
 
 
 @pytest.mark.parametrize("lean", [(0, 1, 1), (1, 0, 1)])
-def test_a_flat_spheroid_that_sweeps_over_a_small_body_tilted_as_much_as_itself_meets_it(lean):
+def test_a_flat_spheroid_that_sweeps_over_a_small_body_with_the_same_axis_has_contact(lean):
     """It is 16 times as wide as thick, and moves partly along its axis: in contact for a thirtieth of the way."""
     start, end = ([side * part for part in (lean[0], lean[1], 0)] for side in (-2.2, 2))
     found = passage((0.01, 0.01, 1, 0.0625), start, end, lean, lean, z_min=-0.01, z_max=0.01, solid=True)
