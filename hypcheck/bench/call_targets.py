@@ -77,7 +77,7 @@ def with_products(sizes: Sizes, x: Floats, y: Floats, z: Floats) -> NDArray[np.i
 
 
 def textbook(alpha: float, gamma: float, b: float, d: float, x: float, y: float, z: float) -> int:
-    """Return Table 2 in plain Python, 1 for exterior: the coefficients and the discriminant, without error bounds."""
+    """Decide by the paper's Table 2 in plain Python, without error bounds: 1 if the spheroid is exterior, else 0."""
     a, c, p, q, r = alpha / b, gamma / d, x / b, y / b, z / d
     A, B, P, Q = a * a, c * c, p * p + q * q, r * r
     AB = A * B

@@ -260,7 +260,7 @@ def _certified(plan: ScenePlan, rows: Rows) -> PreparedWork:
 
 
 def _all_of(parts: Sequence[Clocked]) -> Clocked:
-    """Return the work of all parts, as one piece of work."""
+    """Return one piece of work that does all parts in turn: its time and its total are the sums of theirs."""
 
     def run(repeat: int) -> tuple[int, int]:
         times = [part(repeat) for part in parts]

@@ -73,7 +73,7 @@ def surface_mesh(sizes: Sizes, triangles: int) -> SurfaceMesh:
 
 
 def write_scene(folder: Path, sizes: Sizes, mesh: SurfaceMesh) -> None:
-    """Write the three files of a scene."""
+    """Write the files of a scene that an adapter reads: sizes.txt, surface.off and body.off."""
     folder.mkdir(parents=True, exist_ok=True)
     _, _, b, d = sizes
     (folder / "sizes.txt").write_text(" ".join(map(repr, sizes)) + "\n")

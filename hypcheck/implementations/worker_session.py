@@ -62,7 +62,11 @@ _LANGUAGES = {"python": "python", "library": ""}
 
 
 class WorkerSession(ProcessSession):
-    """A Python function or a shared library in a process of its own. Addresses vary with `run`, its number."""
+    """A Python function or a shared library that answers in a process of its own.
+
+    `run` is the number of the run. The process puts its arrays at other addresses of memory in each run, so that
+    answers which depend on an address change.
+    """
 
     max_batch = frames.LARGEST
 

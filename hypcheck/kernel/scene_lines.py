@@ -135,11 +135,10 @@ def lines_of(sizes: Sizes, z: Floats) -> SceneLines | None:
 
 
 def _heights(z: Floats) -> tuple[float, float, float]:
-    """Return 0, a height below most of the sample or about the middle, one above nearly all of it.
+    """Return the three heights at which lines are made: 0, a middle one, and one above nearly all of the sample.
 
-    Their squares are exact.
-
-    The last is not 0: T ≤ reach must not hold for heights whose squares have underflowed.
+    The middle one is 0.55 of the last, or lies just below the least height of the sample if that is higher. The square
+    of each is exact. The last is never 0: T = z² must not pass as within reach where z² has underflowed to 0.
     """
     sample = np.abs(z[:: len(z) // SAMPLE + 1])
     sample = sample[sample < GREATEST_HEIGHT]

@@ -217,7 +217,8 @@ class Section:
 def table(name: str, heads: str | Iterable[Column], rows: Iterable[Row]) -> TableBlock:
     """Make a table. `heads` are its columns, or their titles with bars between them: "method | # rows".
 
-    A # stands before the title of a column of numbers. Such titles are our own words; foreign text needs a Column.
+    A # stands before the title of a column of numbers. Use a string only for titles that this project wrote; other text
+    needs a Column.
     """
     cells = tuple(tuple(cell if isinstance(cell, TableCell) else TableCell(cell) for cell in row) for row in rows)
     return TableBlock(name, columns(heads) if isinstance(heads, str) else tuple(heads), cells)

@@ -37,7 +37,7 @@ class MeasuredMethod:
 
     @property
     def tier(self) -> str:
-        """The language in which it is written."""
+        """The language in which the method is written."""
         return self.line.tier
 
     @property

@@ -251,7 +251,10 @@ def _imported(node: ast.AST, path: str) -> Iterator[str]:
 
 
 def _modules(name: str, folders: Sequence[str]) -> Iterator[str]:
-    """Yield the files of a module and of the packages around it, in the first of the folders that has any of them."""
+    """Yield the files of a module and of the packages that hold it, in the first of the folders that has any of them.
+
+    A name with a separator of paths is a path: its files are found without the folders.
+    """
     if os.sep in name:
         yield from _existing(name.rstrip(os.sep))
         return

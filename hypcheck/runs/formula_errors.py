@@ -192,7 +192,7 @@ def _swapped(first: str, second: str) -> Rule:
 
 
 def _ignored(name: str) -> Rule:
-    """Return the rule that takes 0 for a column."""
+    """Return the rule that computes with 0 in the place of a column."""
     return with_columns(**{name: lambda c: 0 * c[name]})
 
 

@@ -145,9 +145,10 @@ class FormulaComparison:
 
 
 def compare_formula(formula: Formula, format_name: str, row: Row) -> FormulaComparison | None:
-    """Evaluate a formula on a valid row, in a format of float_arithmetic and exactly; None if it has no values.
+    """Evaluate a formula on a valid row, in a format of float_arithmetic and exactly.
 
-    The dual form is evaluated at the λ that its method finds in that format; it has no values if that λ is not finite.
+    The dual form is evaluated at the λ that its method finds in that format. The result is None if that λ is not
+    finite.
     """
     program, machine_inputs, exact_inputs = _dual(format_name, row) if formula.name == "dual" else _plain(formula, row)
     if not exact_inputs:

@@ -258,7 +258,10 @@ def _with_steps(text: str, project: Project, path: Path) -> str:
 
 
 def _with_install(text: str, wanted: Requirement | None, path: Path, notes: list[str]) -> str:
-    """Replace the step that fails because nothing was named by one that installs `wanted`; add a note if it cannot."""
+    """Put a step that installs `wanted` in the place of the step that fails because no package was named.
+
+    Add a note where the user has to edit the file.
+    """
     nothing = _install(None)
     if wanted is None:
         if nothing in text:

@@ -137,7 +137,9 @@ def _file(name: str) -> tuple[str, str]:
     try:
         return toml.text_of(name), name
     except FileNotFoundError:
-        meant = suggestion(name.removesuffix(SUFFIX), shipped_scenes(), otherwise="it must be one, or a shipped scene:")
+        meant = suggestion(
+            name.removesuffix(SUFFIX), shipped_scenes(), otherwise="it must be a file, or a shipped scene:"
+        )
         raise InputError(f"{name}: there is no such file; {meant}") from None
 
 

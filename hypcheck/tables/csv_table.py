@@ -186,7 +186,10 @@ def _chunk_of_block(
     *,
     mark: bool,
 ) -> TableChunk:
-    """Read the chunk of a block: without quotes, the text between two commas is a cell."""
+    """Read the rows of a block that has no quotes, so that every comma in it separates two cells.
+
+    `pick` takes the cells of the wanted columns; `mark` is as in read_csv.
+    """
     texts = block.plain_lines()
     records = [text.split(",") for text in texts]
     for index, record in enumerate(records):

@@ -86,11 +86,14 @@ class _NpyLayout:
 
 
 def _layout(reader: Reader) -> _NpyLayout:
-    """Read the header of a .npy file. Raises InputError unless it holds float64 of an allowed shape, and all of it."""
+    """Read the header of a .npy file.
+
+    Raises InputError if its numbers are not float64, its shape is not allowed, or its length does not fit its shape.
+    """
     shape, by_columns, stored = _header(reader)
     if stored.kind != "f" or stored.itemsize != 8:
         raise InputError(f"{reader.name} holds {stored}; it must hold float64")
-    if max(map(abs, shape), default=0) >= _TOO_LONG:  # which could have more digits than Python writes
+    if max(map(abs, shape), default=0) >= _TOO_LONG:  # Python may refuse to print so long a number
         raise InputError(f"{reader.name} has a number of 2^63 or more in its shape; the shape must be {_SHAPES}")
     if len(shape) != 2 or shape[1] not in PAIRS.widths or shape[0] < 0:
         raise InputError(f"{reader.name} has shape {shape}; it must be {_SHAPES}")

@@ -45,7 +45,8 @@ _LARGEST = 1 - Fraction(1, 2**53)
 class SizeError:
     """Bounds of the least relative change of b and d together that makes an answer right.
 
-    Both are 0 for a right answer and for the limit of right ones, inf where no change below 1 is enough.
+    Both are 0 if the answer is right, or if arbitrarily small changes make it right. Both are inf if no change below 1
+    is enough.
     """
 
     lower: float

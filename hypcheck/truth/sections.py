@@ -134,7 +134,7 @@ class Sections:
         return c0 == c1 == 0 or self.sign(discriminant(self.cubic), height) > 0
 
     def disc_misses(self, height: int) -> bool:
-        """Decide whether the disc within the circle at this height and the spheroid have no point in common."""
+        """Decide whether the flat end at this height, a disc, and the spheroid have no point in common."""
         return self.circle_misses(height) and (self.sign(self.inside, height) < 0 or self.sign(self.off, height) > 0)
 
     def disc_crosses(self, height: int) -> bool:

@@ -168,7 +168,7 @@ def read_cases(path: str, content: Content | None = None) -> CaseFile:
 
 
 def cases_of(document: JsonDocument, content: Content | None = None) -> CaseFile:
-    """Read a document as a vector file, as read_cases does. Raises InputError."""
+    """Read a document as a vector file, which must have this `content` if it is given. Raises InputError."""
     actual = content_of(document)
     if content is not None and content is not actual:
         wanted = f"{content.name!r}, rows of {len(content.columns)} numbers"

@@ -218,11 +218,11 @@ def tunnelling(draw: Draw, n: int) -> Rows:
     b, d = np.minimum(b, alpha / 8), np.minimum(d, gamma / 8)
     cosine, sine = draw.circle(n)
     aside = draw.between(n, -0.5, 0.5) * alpha
-    far = alpha * draw.between(n, 1.5, 4.0) + 2 * b
-    near = turns(n, 0.0, -1.0) * alpha * draw.between(n, 1.5, 4.0)
+    first = alpha * draw.between(n, 1.5, 4.0) + 2 * b
+    last = turns(n, 0.0, -1.0) * alpha * draw.between(n, 1.5, 4.0)
     z0, z1 = (gamma * draw.between(n, -0.5, 0.5) for _ in range(2))
-    start = (far * cosine - aside * sine, far * sine + aside * cosine, z0)
-    end = (near * cosine - aside * sine, near * sine + aside * cosine, z1)
+    start = (first * cosine - aside * sine, first * sine + aside * cosine, z0)
+    end = (last * cosine - aside * sine, last * sine + aside * cosine, z1)
     return np.stack([alpha, gamma, b, d, *start, *end], axis=1) + 0.0
 
 

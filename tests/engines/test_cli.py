@@ -36,7 +36,7 @@ def test_engines_install_quotes_a_package_manager_that_fails_and_leaves_nothing(
     assert not (tmp_path / "cache" / "cannon-es").exists()
 
 
-def test_the_engines_cache_is_the_folder_of_its_variable_or_in_the_users_cache(monkeypatch, tmp_path):
+def test_the_engines_cache_is_the_folder_in_the_environment_variable_or_else_in_the_users_cache(monkeypatch, tmp_path):
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     monkeypatch.delenv(installing.VARIABLE, raising=False)
     assert installing.cache_folder() == tmp_path / "hypcheck" / "engines"

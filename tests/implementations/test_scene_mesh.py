@@ -116,7 +116,7 @@ def test_rows_by_sizes_groups_rows_of_the_same_four_sizes():
         assert (rows[places, :4] == sizes).all()
 
 
-def test_height_of_is_increased_for_rows_with_a_centre_above_the_usual_height():
+def test_the_mesh_is_made_higher_for_a_row_whose_centre_is_above_its_usual_height():
     rows = WORKLOADS["uniform"].rows(1, 3)
     rows[1, 6] = 90.0
     assert height_of(TOWER, rows) == pytest.approx(90.0 + 1.1 * 0.15)

@@ -113,7 +113,7 @@ def test_answers_about_sweeps_get_the_expected_mistake_and_status(name, hit, tim
     assert (case.mistake, case.status) == (mistake, status)
 
 
-def test_judge_accepts_the_time_of_a_graze_while_the_grown_spheroid_touches():
+def test_judge_accepts_any_time_of_a_graze_at_which_a_spheroid_larger_by_the_tolerance_touches():
     start, end, _ = BY_HAND["grazes in the middle"]
     rows = np.array([[*BODY, *start, *end]])
     near, far = 0.5 + 2.0**-27, 0.5 + 1e-3

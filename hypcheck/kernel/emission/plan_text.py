@@ -275,7 +275,10 @@ Numbered = tuple[int, Stages]
 
 
 def plan_lines(plan: ScenePlan) -> Iterator[str]:
-    """Yield the lines of the plan for people. Settings that leave out the same for the same reasons are grouped."""
+    """Yield the lines that explain a plan to people.
+
+    Settings in which the kernel leaves out the same steps for the same reasons share one group of lines.
+    """
     yield f"{escaped(plan.scene.name, 60)}: {_question_in_words(plan.question)}, in {plan.format.name}"
     for group in _alike(plan):
         yield ""

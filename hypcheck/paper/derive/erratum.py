@@ -58,6 +58,10 @@ def _values(ledger: dict[str, LedgerEntry]) -> dict[str, str]:
 
 
 def _counterexamples(ledger: dict[str, LedgerEntry]) -> dict[str, str]:
+    """Return the numbers of the counterexamples, as TeX, by the name of their place in the erratum.
+
+    They are those of the ledger's witnesses.
+    """
     exterior, interior = (witness.facts for witness in _witnesses(ledger["(12)"]))
     ring, beyond = _witnesses(ledger["Proposition 3.1"])[0].facts, _witnesses(ledger["Proposition 5.2"])[0].facts
     without_c2, without_c1 = (witness.facts for witness in _witnesses(ledger["Proposition 5.1"]))

@@ -70,7 +70,7 @@ def test_rows_deep_in_contact_do_not_count_in_the_slices_near_contact(rows):
 
 
 @pytest.mark.parametrize("name", UPRIGHT)
-def test_spread_of_rows_reports_the_width_of_the_widest_untested_slice(rows, name):
+def test_the_widest_range_of_values_without_a_tested_row_is_reported(rows, name):
     places = COORDINATES[name](rows)
     left = evenness(rows[(places < 0.4) | (places > 0.5)], UPRIGHT)
     assert left.one > 0.1 - 1e-12
