@@ -22,11 +22,12 @@ from hypcheck.geometry.rows import PAIRS, Mask, Positions, Rows, require_valid, 
 from hypcheck.kernel.classify import classify
 from hypcheck.kernel.in_use import kernel
 from hypcheck.processes import in_order, usable_processors
+from hypcheck.tables import Route
 from hypcheck.tables.chunk import Answers, SweepAnswers, Table, TableAnswers, TableChunk, UnreadChunk
 from hypcheck.tables.csv_table import read_csv, write_csv
 from hypcheck.tables.jsonl_table import read_jsonl, write_jsonl
 from hypcheck.tables.npy_table import read_npy, write_npy
-from hypcheck.tables.streams import Route, open_input, replace_output, same_file
+from hypcheck.tables.streams import open_input, replace_output, same_file
 from hypcheck.truth import exact, float_filter, nearest_rows
 from hypcheck.truth.nearest import NearestStage
 from hypcheck.truth.swept import passage_of_row

@@ -12,8 +12,8 @@ import click
 from hypcheck.cli.running import watched
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import AXIS, CENTER, END, NO_DIRECTION, SIZES, Pair, trouble_with
+from hypcheck.tables import FORMATS, route
 from hypcheck.tables.numbers import number_of_text
-from hypcheck.tables.streams import FORMATS, route
 
 _HELP = """Give the position of a spheroid relative to a hyperboloid: exterior, contact (with tangency) or interior.
 

@@ -19,8 +19,8 @@ from click.shell_completion import CompletionItem
 
 from hypcheck.errors import InputError
 from hypcheck.messages import escaped
+from hypcheck.tables import STREAM
 from hypcheck.tables.numbers import is_number, shown
-from hypcheck.tables.streams import STREAM
 
 if TYPE_CHECKING:
     from hypcheck.bench.plan import BenchPlan

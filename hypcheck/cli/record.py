@@ -14,7 +14,8 @@ from hypcheck.cli.running import summary_options
 from hypcheck.errors import Exit, InputError
 from hypcheck.messages import counted, escaped, printable
 from hypcheck.report import REPORTS, kept_formats
-from hypcheck.tables.streams import STREAM, replace_output, same_file
+from hypcheck.tables import STREAM
+from hypcheck.tables.streams import replace_output, same_file
 
 if TYPE_CHECKING:
     from hypcheck.record import Record

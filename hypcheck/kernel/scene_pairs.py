@@ -29,8 +29,6 @@ end, in the hyperboloid's frame:
 If these do not decide and the hyperboloid is vertical, the kernel answers about a slightly larger and a slightly
 smaller spheroid; truth/exact.py decides the rest. h and ϱ have a bound of their error; ρ is wrong by α/γ of the error
 of the height and MARGIN of itself.
-
-Each of these bounds is written once: for the numbers of one pair, and for columns (n,) of many.
 """
 
 from __future__ import annotations

@@ -20,7 +20,8 @@ from hypcheck.errors import InputError
 from hypcheck.geometry.rows import Columns
 from hypcheck.paper.ends import EndVerdicts, require_ends
 from hypcheck.paper.flights import LANES, VERSION, Moves, Tallies, fly
-from hypcheck.paper.motion import MoveVerdicts, PitchVerdicts, near_wall
+from hypcheck.paper.motion import MoveVerdicts
+from hypcheck.paper.pitch import PitchVerdicts, near_wall
 from hypcheck.paper.quadcopter import Craft, Procedures, craft_of, require_valid_start
 from hypcheck.processes import Advance, perform
 from hypcheck.scene.model import Flight, SceneModel

@@ -22,8 +22,9 @@ from hypcheck.record import lines, measurements, progress
 from hypcheck.record.fields import RecordLine, decoded
 from hypcheck.record.integrity import Raw, RecordScan
 from hypcheck.record.lines import SCHEMA, FaultPart, FooterLine, GroupLine, HeaderLine, NotStartedLine, WrongAnswer
+from hypcheck.tables import STREAM
 from hypcheck.tables.numbers import shown_json
-from hypcheck.tables.streams import STREAM, open_input
+from hypcheck.tables.streams import open_input
 
 FILE = "record.jsonl"
 """The record's name in the folder of a run."""

@@ -6,8 +6,8 @@ implementation is right, it has not.
 
 This file defines a cause, rules that answer changed rows, and the numbers of the plain formula with bounds of their
 rounding errors. place_causes.py has the causes that are limited to some places: on the ring, outside a regime, where
-rounding decides. formula_errors.py has the causes that apply to every row: a wrong sign, a column taken for another, a
-time counted from the wrong end. causes.toml has the texts of all causes.
+rounding decides. formula_errors.py has the causes that apply to every row: a wrong sign, a column taken for another.
+sweep_causes.py has those of sweeps: a time counted from the wrong end. causes.toml has the texts of all causes.
 """
 
 from __future__ import annotations

@@ -32,9 +32,10 @@ from hypcheck.record.fields import Extended, Unsigned, numbers_of, row_fields, r
 from hypcheck.record.progress import Explained, Place, Tally, WorstCase
 from hypcheck.runs import judge
 from hypcheck.runs.causes import SILENT, AnsweredRows, Answers, Cause, Scope
-from hypcheck.runs.formula_errors import SWEEP_CAUSES, TILTED_FORMULA_ERRORS, UPRIGHT_FORMULA_ERRORS
+from hypcheck.runs.formula_errors import TILTED_FORMULA_ERRORS, UPRIGHT_FORMULA_ERRORS
 from hypcheck.runs.judge import Criterion, Mistake, Status, WrongCase
 from hypcheck.runs.place_causes import PLACES, ROOT_CAUSES, WIDER_ROUNDINGS
+from hypcheck.runs.sweep_causes import SWEEP_CAUSES
 from hypcheck.vectors import frozen
 from hypcheck.vectors.families import is_extreme
 from hypcheck.vectors.invalid_rows import INVALID_CONTENTS

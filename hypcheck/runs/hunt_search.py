@@ -1,4 +1,10 @@
-"""The search of a hunt: first rows of all strata (hunt_surfaces.py), then local search and further rows in turn.
+"""The search of a hunt: first rows of all strata, then local search and further rows in turn.
+
+A stratum is a thin set of rows on a surface where wrong answers are likely (hunt_surfaces.py). Each family of vectors
+is a stratum: tangencies and other double roots (Δ = 0), the ring, vanishing coefficients, the axis, the waist, the
+borders of the regimes, long ratios. The other strata are the crossings of four surfaces, z = 0, r = 0, a = 1 and
+c² = a, with each other and with the border of contact: rows on them and very close to them. An implementation with
+fixed sizes is tested only with their families; one that takes heights first with hyperboloids that end.
 
 Local search goes from a wrong answer to worse ones, as a pattern search with halving steps. The neighbours of a row
 have one of the six unknowns multiplied by 1 ± step (the search space is logarithmic), or lie exactly on a surface.
@@ -12,23 +18,27 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import combinations
 
 import numpy as np
 
-from hypcheck.geometry.pair import Groups
-from hypcheck.geometry.rows import PAIRS, SWEEPS, Floats, Layout, Mask, Row, Rows, as_wide, invalid
+from hypcheck.geometry.pair import NO_GROUPS, Groups
+from hypcheck.geometry.rows import PAIRS, SWEEPS, FixedSizes, Floats, Layout, Mask, Row, Rows, as_wide, fits, invalid
 from hypcheck.runs.hunt import ClusterKey, Hunt
 from hypcheck.runs.hunt_surfaces import (
     EXPONENTS,
     SIZE,
-    HuntStratum,
+    SURFACES,
     border_factors,
     columns_of,
+    crossing,
     moved,
     movers_of,
-    strata,
+    movers_within,
 )
-from hypcheck.vectors.draw import Draw, Integers, stepped
+from hypcheck.vectors.draw import Draw, Family, Integers, stepped
+from hypcheck.vectors.families import ENDED_FAMILIES, ENDED_SWEEP_FAMILIES, FAMILIES, SWEEP_FAMILIES, TILTED_FAMILIES
+from hypcheck.vectors.fixed_sizes import families_for
 
 FIRST_STEP = 0.5
 LAST_STEP = 2.0**-44
@@ -56,6 +66,61 @@ _MOVES: dict[Groups, list[tuple[int, ...]]] = {
 
 If the set holds all lengths of one unit, or an axis, the answer is the same in exact arithmetic; only roundings change.
 """
+
+CROSSING_BLOCK = 96
+"""The number of rows of a crossing that are made at a time: to move them to the border takes longer than to test
+them."""
+
+SWEEPS_TOGETHER = 24
+"""The number of sweeps of a family that are tested at a time: one takes milliseconds to decide."""
+
+VERSION = 1
+"""The version of the generator of crossings, part of its seed."""
+
+
+@dataclass(frozen=True, slots=True)
+class HuntStratum:
+    """A set of rows: `rows(seed, number)` is its block with that number, of valid rows."""
+
+    name: str
+    rows: Callable[[int, int], Rows]
+
+
+_FAMILIES = ENDED_SWEEP_FAMILIES | SWEEP_FAMILIES | ENDED_FAMILIES | TILTED_FAMILIES | FAMILIES
+
+
+def strata(settings: tuple[FixedSizes, ...] = (), taken: Groups = NO_GROUPS) -> tuple[HuntStratum, ...]:
+    """Return all strata for an implementation that takes these groups, families of vectors first.
+
+    For fixed sizes and for sweeps there are only the families for them.
+    """
+    families = [family for family in _FAMILIES.values() if fits(family.groups, taken)]
+    if "end" in taken:
+        return tuple(map(_of_sweeps, families))
+    if settings:
+        return tuple(map(_of_family, families_for(settings)))
+    crossings = [names for size in (1, 2, 3) for names in combinations(SURFACES, size) if movers_within(names)]
+    return (*map(_of_family, families), *map(_of_crossing, crossings))
+
+
+def _of_family(family: Family) -> HuntStratum:
+    """Return the stratum of a family of pairs."""
+    return HuntStratum(f"the family {family.name}", family.block)
+
+
+def _of_sweeps(family: Family) -> HuntStratum:
+    """Return the stratum of a family of sweeps, with small blocks."""
+
+    def rows(seed: int, number: int) -> Rows:
+        return family.columns_between(seed, number * SWEEPS_TOGETHER, (number + 1) * SWEEPS_TOGETHER).T
+
+    return HuntStratum(f"the family {family.name}", rows)
+
+
+def _of_crossing(surfaces: tuple[str, ...]) -> HuntStratum:
+    """Return the stratum of rows on these surfaces at the border of contact."""
+    name = f"contact beside {' and '.join(surfaces)}"
+    return HuntStratum(name, lambda seed, number: crossing(Draw(name, VERSION, seed, number), CROSSING_BLOCK, surfaces))
 
 
 @dataclass(slots=True)

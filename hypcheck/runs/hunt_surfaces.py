@@ -1,15 +1,12 @@
-"""The surfaces of a hunt: those next to a row, by which findings are grouped, and the strata of rows on them.
+"""The surfaces of a hunt: those next to a row, by which findings are grouped, and rows on their crossings.
 
 Wrong answers are likely on a few surfaces in the space of rows, on which a case distinction about the pair changes. In
 their names a = α/b, c = γ/d; r and z are the centre's distances from the axis and from the plane of the waist, in radii
 of the spheroid; c1, c2 and Δ belong to the cubic g (docs/mathematics.md). For a sweep, the events on it are used
 instead of surfaces.
 
-A stratum is a thin set of rows on such a surface. Each family of vectors is a stratum: tangencies and other double
-roots (Δ = 0), the ring, vanishing coefficients, the axis, the waist, the borders of the regimes, long ratios. The other
-strata are the crossings of four surfaces, z = 0, r = 0, a = 1 and c² = a, with each other and with the border of
-contact: rows on them and very close to them. An implementation with fixed sizes is tested only with their families; one
-that takes heights first with hyperboloids that end.
+The rows of a crossing lie on some of the four surfaces z = 0, r = 0, a = 1 and c² = a, or very close to them, at the
+border of contact.
 
 Rows are brought to the border of contact by bisection on exact positions. The position is monotone in every input
 (docs/mathematics.md, "Monotone in every input"), so it changes at most twice along a factor on one length, or on x and
@@ -19,10 +16,9 @@ y together.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,23 +26,19 @@ from numpy.typing import NDArray
 from hypcheck.geometry.pair import (
     COLUMNS,
     HEIGHTS,
-    NO_GROUPS,
     SIZES,
     SWEEP_COLUMNS,
-    Groups,
     Lengths,
     Pair,
     Position,
 )
-from hypcheck.geometry.rows import PAIRS, SWEEPS, FixedSizes, Floats, Layout, Mask, Positions, Row, Rows, fits, invalid
+from hypcheck.geometry.rows import PAIRS, SWEEPS, Floats, Layout, Mask, Positions, Row, Rows, invalid
 from hypcheck.runs.judge import truth_of
 from hypcheck.truth import exact
 from hypcheck.truth.kinds import Kind
 from hypcheck.truth.passage_error import passage_of, sweep_in_radii
 from hypcheck.truth.pencil import Cubic, cubic
-from hypcheck.vectors.draw import Draw, Family, ldexp, stepped
-from hypcheck.vectors.families import ENDED_FAMILIES, ENDED_SWEEP_FAMILIES, FAMILIES, SWEEP_FAMILIES, TILTED_FAMILIES
-from hypcheck.vectors.fixed_sizes import families_for
+from hypcheck.vectors.draw import Draw, ldexp, stepped
 from hypcheck.vectors.random_pairs import Sizes, centred, heights, offsets
 
 NEAR = Fraction(1, 64)
@@ -370,61 +362,6 @@ def beside_border(draw: Draw, rows: Rows, movers: NDArray[np.str_]) -> Rows:
 SURFACES = {"z = 0": "height", "r = 0": "radius", "a = 1": "alpha", "c² = a": "alpha"}
 """The four surfaces, each with the mover (a name in MOVERS) that would move a row away from it."""
 
-CROSSING_BLOCK = 96
-"""The number of rows of a crossing that are made at a time: to move them to the border takes longer than to test
-them."""
-
-SWEEPS_TOGETHER = 24
-"""The number of sweeps of a family that are tested at a time: one takes milliseconds to decide."""
-
-VERSION = 1
-"""The version of the generator of crossings, part of its seed."""
-
-
-@dataclass(frozen=True, slots=True)
-class HuntStratum:
-    """A set of rows: `rows(seed, number)` is its block with that number, of valid rows."""
-
-    name: str
-    rows: Callable[[int, int], Rows]
-
-
-_FAMILIES = ENDED_SWEEP_FAMILIES | SWEEP_FAMILIES | ENDED_FAMILIES | TILTED_FAMILIES | FAMILIES
-
-
-def strata(settings: tuple[FixedSizes, ...] = (), taken: Groups = NO_GROUPS) -> tuple[HuntStratum, ...]:
-    """Return all strata for an implementation that takes these groups, families of vectors first.
-
-    For fixed sizes and for sweeps there are only the families for them.
-    """
-    families = [family for family in _FAMILIES.values() if fits(family.groups, taken)]
-    if "end" in taken:
-        return tuple(map(_of_sweeps, families))
-    if settings:
-        return tuple(map(_of_family, families_for(settings)))
-    crossings = [names for size in (1, 2, 3) for names in combinations(SURFACES, size) if _movers_within(names)]
-    return (*map(_of_family, families), *map(_of_crossing, crossings))
-
-
-def _of_family(family: Family) -> HuntStratum:
-    """Return the stratum of a family of pairs."""
-    return HuntStratum(f"the family {family.name}", family.block)
-
-
-def _of_sweeps(family: Family) -> HuntStratum:
-    """Return the stratum of a family of sweeps, with small blocks."""
-
-    def rows(seed: int, number: int) -> Rows:
-        return family.columns_between(seed, number * SWEEPS_TOGETHER, (number + 1) * SWEEPS_TOGETHER).T
-
-    return HuntStratum(f"the family {family.name}", rows)
-
-
-def _of_crossing(surfaces: tuple[str, ...]) -> HuntStratum:
-    """Return the stratum of rows on these surfaces at the border of contact."""
-    name = f"contact beside {' and '.join(surfaces)}"
-    return HuntStratum(name, lambda seed, number: crossing(Draw(name, VERSION, seed, number), CROSSING_BLOCK, surfaces))
-
 
 def crossing(draw: Draw, n: int, surfaces: tuple[str, ...]) -> Rows:
     """Make at most n rows on or very close to these surfaces, each at a random distance from the border of contact."""
@@ -432,7 +369,7 @@ def crossing(draw: Draw, n: int, surfaces: tuple[str, ...]) -> Rows:
     height = heights(draw, size.c) * _slack(draw, n, pinned="z = 0" in surfaces)
     radius = np.abs(size.a + offsets(draw, n)) * _slack(draw, n, pinned="r = 0" in surfaces)
     rows = centred(draw, size, radius, height)
-    movers = np.asarray(_movers_within(surfaces))
+    movers = np.asarray(movers_within(surfaces))
     return beside_border(draw, rows, movers[draw.integers(n, 0, len(movers) - 1)])
 
 
@@ -461,7 +398,7 @@ def _nearly_one(draw: Draw, n: int) -> Floats:
     return np.asarray(1 + draw.signs(n) * np.where(draw.signs(n) < 0, 0.0, draw.log_uniform(n, -52, -3)))
 
 
-def _movers_within(surfaces: tuple[str, ...]) -> list[str]:
+def movers_within(surfaces: tuple[str, ...]) -> list[str]:
     """Return the movers that can bring a row to the border without leaving these surfaces."""
     kept = {SURFACES[surface] for surface in surfaces}
     return [mover for mover in ("radius", "height", "alpha") if mover not in kept]

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from hypcheck.paper.flights import Moves
-from hypcheck.paper.motion import PitchVerdicts, Tilt, near_wall, tilted_interior, valid_tilted
+from hypcheck.paper.pitch import PitchVerdicts, Tilt, near_wall, tilted_interior, valid_tilted
 from hypcheck.paper.quadcopter import any_angle, craft_of
 from hypcheck.paper.tower import Questions, TowerPlan, simulate_tower
 from hypcheck.scene.reading import read_scene

@@ -7,8 +7,8 @@ import pytest
 
 import hypcheck
 from hypcheck.runs.causes import SILENT, AnsweredRows
-from hypcheck.runs.formula_errors import SWEEP_CAUSES
 from hypcheck.runs.judge import Criterion
+from hypcheck.runs.sweep_causes import SWEEP_CAUSES
 from tests.support.fractions_truth import exact_position
 
 SIZES = (2.0, 3.0, 0.25, 0.15)

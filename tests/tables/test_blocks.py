@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from hypcheck.answers import classify_table
 from hypcheck.errors import HypcheckError
 from hypcheck.geometry.pair import COLUMNS
-from hypcheck.tables import streams
-from hypcheck.tables.streams import Reader, Route, TextBlock, TextLines
+from hypcheck.tables import Route, streams
+from hypcheck.tables.streams import Reader, TextBlock, TextLines
 
 GOOD = ("1.0", "2.0", "0.25", "0.5", "2.5", "-1", "1e-3")
 CELLS = st.sampled_from(

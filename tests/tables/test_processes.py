@@ -14,8 +14,8 @@ from hypcheck.answers import classify_table
 from hypcheck.errors import InputError
 from hypcheck.geometry.pair import COLUMNS
 from hypcheck.processes import in_order
+from hypcheck.tables import Route
 from hypcheck.tables.chunk import CHUNK
-from hypcheck.tables.streams import Route
 
 ROWS = 5 * CHUNK + 7
 

@@ -69,7 +69,7 @@ SURFACES = {
 }
 
 
-@pytest.mark.parametrize("stratum", [each for each in hunt_surfaces.strata() if each.name.startswith("contact")])
+@pytest.mark.parametrize("stratum", [each for each in hunt_search.strata() if each.name.startswith("contact")])
 def test_rows_of_a_crossing_are_on_or_next_to_its_surfaces_and_near_contact(stratum):
     rows = stratum.rows(1, 0)
     assert not invalid(rows).any()
@@ -87,13 +87,13 @@ def test_rows_of_a_crossing_are_on_or_next_to_its_surfaces_and_near_contact(stra
 
 
 def test_hunt_strata_are_reproducible_and_differ_by_seed_and_number():
-    stratum = hunt_surfaces.strata()[-1]
+    stratum = hunt_search.strata()[-1]
     assert stratum.rows(1, 0).tobytes() == stratum.rows(1, 0).tobytes()
     assert len({stratum.rows(*which).tobytes() for which in ((1, 0), (1, 1), (2, 0))}) == 3
 
 
 def test_hunt_has_a_stratum_for_every_family_and_every_crossing_of_surfaces_with_a_free_length():
-    names = [stratum.name for stratum in hunt_surfaces.strata()]
+    names = [stratum.name for stratum in hunt_search.strata()]
     assert len(set(names)) == len(names)
     assert {f"the family {name}" for name in FAMILIES} < set(names)
     assert "contact beside z = 0 and a = 1 and c² = a" in names

@@ -9,7 +9,7 @@ import pytest
 from hypcheck.cli.main import main
 from hypcheck.geometry.pair import Pair
 from hypcheck.geometry.rows import PAIRS, SWEEPS, invalid
-from hypcheck.runs import hunt_search, hunt_surfaces
+from hypcheck.runs import hunt_search
 from hypcheck.runs.hunt_search import Climber, neighbours
 from hypcheck.runs.hunt_surfaces import ENDED, place_of, place_of_row
 from hypcheck.vectors.cases import read_cases
@@ -105,11 +105,11 @@ def test_minimise_takes_rows_with_ends_and_proves_the_right_answer(text, row, ca
 def test_strata_have_the_families_with_ends_where_heights_are_taken():
     for groups, families in (({"axis"}, ENDED_FAMILIES), ({"end", "axis"}, ENDED_SWEEP_FAMILIES)):
         without, all_of_them = (
-            {stratum.name for stratum in hunt_surfaces.strata(taken=frozenset(taken))}
+            {stratum.name for stratum in hunt_search.strata(taken=frozenset(taken))}
             for taken in (groups, {*groups, "heights"})
         )
         assert all_of_them - without == {f"the family {name}" for name in families}
-    upright = {stratum.name for stratum in hunt_surfaces.strata(taken=frozenset({"heights"}))}
+    upright = {stratum.name for stratum in hunt_search.strata(taken=frozenset({"heights"}))}
     assert not any("tilted" in name for name in upright)
 
 

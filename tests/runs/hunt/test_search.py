@@ -14,7 +14,7 @@ from hypcheck.implementations.description import Description
 from hypcheck.implementations.domain import Domain
 from hypcheck.implementations.implementation import open_implementation
 from hypcheck.implementations.session import Answered, Outcome
-from hypcheck.runs import hunt_search, hunt_surfaces
+from hypcheck.runs import hunt_search
 from hypcheck.runs.hunt import Hunt, HuntPlan, target_of
 from hypcheck.runs.hunt_search import neighbours, run_hunt
 from hypcheck.runs.judge import Mistake, Status
@@ -81,7 +81,7 @@ def test_hunt_finds_unsafe_answers_of_procedure_1_outside_its_regimes():
 
 
 def test_local_search_grows_from_ordinary_near_misses_to_large_errors():
-    ordinary = tuple(each for each in hunt_surfaces.strata() if "near-tangent" in each.name)
+    ordinary = tuple(each for each in hunt_search.strata() if "near-tangent" in each.name)
     assert len(ordinary) == 2
     first = hunted("local-maximum-float64", 2 * hunt_search.FIRST_LOOK, everywhere=ordinary)
     assert max((cluster.worst.error_u for cluster in first.clusters.values()), default=0) < 100
@@ -97,7 +97,7 @@ def test_local_search_halves_its_step_until_it_rests_if_it_finds_nothing_worse()
     block = np.concatenate([[ring], np.tile((2.0, 5.0, 1.0, 1.0, 4.0, 0.0, 0.0), (1000, 1))])
     double = Double(lambda rows: np.where((rows == ring).all(axis=1), 0, inside.positions(rows)))
     run = Hunt(target_of("double", double), HuntPlan(None, 85_000))
-    run_hunt(run, everywhere=[hunt_surfaces.HuntStratum("one row", lambda seed, number: block)])
+    run_hunt(run, everywhere=[hunt_search.HuntStratum("one row", lambda seed, number: block)])
     rows = np.concatenate(double.rows)
     beside = rows[(rows[:, [0, 2, 3, 4, 5, 6]] == ring[[0, 2, 3, 4, 5, 6]]).all(axis=1) & (rows[:, 1] > 2)]
     steps = sorted({step for step in (beside[:, 1] / 2 - 1).tolist() if step in {2.0**-power for power in range(53)}})
@@ -115,7 +115,7 @@ def test_local_search_restarts_with_the_first_step_at_a_worse_answer():
     run_hunt(
         run,
         lambda run: worst.append(run.worst_first()[0].worst.case.row),
-        [hunt_surfaces.HuntStratum("one clear row", lambda seed, number: block)],
+        [hunt_search.HuntStratum("one clear row", lambda seed, number: block)],
     )
     *passed, _ = dict.fromkeys(worst)
     assert passed[0] == clear

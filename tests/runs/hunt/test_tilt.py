@@ -11,8 +11,7 @@ import pytest
 from hypcheck.cli.main import main
 from hypcheck.geometry.pair import Pair
 from hypcheck.geometry.rows import PAIRS
-from hypcheck.runs import hunt_surfaces
-from hypcheck.runs.hunt_search import Climber, neighbours
+from hypcheck.runs.hunt_search import Climber, neighbours, strata
 from hypcheck.runs.hunt_surfaces import TILTED, place_of
 from hypcheck.runs.minimise import same_query
 from hypcheck.vectors.cases import read_cases
@@ -45,9 +44,7 @@ def test_a_hunt_finds_wrong_answers_about_tilted_spheroids_and_shows_their_rows_
 
 
 def test_strata_have_tilted_families_where_the_implementation_takes_tilt():
-    upright, both = (
-        {stratum.name for stratum in hunt_surfaces.strata(taken=taken)} for taken in (frozenset(), frozenset({"axis"}))
-    )
+    upright, both = ({stratum.name for stratum in strata(taken=taken)} for taken in (frozenset(), frozenset({"axis"})))
     assert both - upright == {f"the family {name}" for name in TILTED_FAMILIES}
 
 

@@ -20,7 +20,7 @@ from hypcheck.report.plots import PLOTS
 from hypcheck.report.write import render as render_report
 from hypcheck.runs.known_failures import read_known_failures, render
 from hypcheck.scene.reading import read_scene
-from hypcheck.tables.streams import Route
+from hypcheck.tables import Route
 from hypcheck.vectors.cases import read_cases
 from hypcheck.vectors.checking import examine
 from tests.support.inside import emitted, plan_as_json, plan_lines, plan_of
