@@ -188,14 +188,16 @@ def tower(
         _show(name)
         return
     from hypcheck.paper.simulation_text import tower_lines
-    from hypcheck.paper.tower import Questions, TowerPlan, simulate_tower
+    from hypcheck.paper.tower import ExactQuestions, TowerPlan, simulate_tower
     from hypcheck.processes import processes, usable_processors
 
     flown = table is not None or pitch is not None
     if runs is not None and not flown:
         raise InputError("--runs is for the table; it needs --table 5 or --pitch")
     flights = (1000 if runs is None else runs) if flown else 0
-    plan = TowerPlan(_scene(name), seed, speed, time, flights, Questions(flags["continuous"], pitch, flags["ends"]))
+    plan = TowerPlan(
+        _scene(name), seed, speed, time, flights, ExactQuestions(flags["continuous"], pitch, flags["ends"])
+    )
     moves = [block.moves for blocks in plan.blocks().values() for block in blocks]
     count = min(workers or usable_processors(), len(moves))
     with _ready_folder("tower", out), processes(count) as executor, watched(sum(moves), "flights") as pace:

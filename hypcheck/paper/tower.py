@@ -33,7 +33,7 @@ POSITIONS = 25
 
 
 @dataclass(frozen=True, slots=True)
-class Questions:
+class ExactQuestions:
     """The questions about flights that are decided exactly, in addition to the answers of Procedure 2.b.
 
     `continuous`: whether the sweeps between positions are decided. `pitch`: the tilt of the quadcopter in horizontal
@@ -54,7 +54,7 @@ class FlightVerdicts:
     pitch: PitchVerdicts = field(default_factory=PitchVerdicts)
     ends: EndVerdicts = field(default_factory=EndVerdicts)
 
-    def watch(self, craft: Craft, questions: Questions, moves: Moves) -> None:
+    def watch(self, craft: Craft, questions: ExactQuestions, moves: Moves) -> None:
         """Count the results of a draw of many flights."""
         if questions.continuous:
             self.ways.watch(craft, moves)
@@ -75,7 +75,7 @@ class FlightVerdicts:
 
 
 def paths(
-    craft: Craft, flight: Flight, step: float, seed: int, questions: Questions
+    craft: Craft, flight: Flight, step: float, seed: int, questions: ExactQuestions
 ) -> tuple[list[dict[str, Any]], FlightVerdicts]:
     """Return three flights of 25 positions, from the tower's centre, for JSON; and exact verdicts on them.
 
@@ -164,7 +164,7 @@ class FlightBlock:
     seed: int
     number: int
     lanes: int
-    questions: Questions
+    questions: ExactQuestions
 
     @property
     def moves(self) -> int:
@@ -214,7 +214,7 @@ def fly_block(block: FlightBlock) -> tuple[Tallies, FlightVerdicts]:
 
 
 def blocks(
-    craft: Craft, flight: Flight, seed: int, runs: int, questions: Questions = Questions()
+    craft: Craft, flight: Flight, seed: int, runs: int, questions: ExactQuestions = ExactQuestions()
 ) -> dict[tuple[float, float], list[FlightBlock]]:
     """Return the blocks of each cell (t, v): the cells of the table, and its second row read as t = 0.25."""
     return {
@@ -337,7 +337,7 @@ class TowerPlan:
     speed: float
     time: float
     runs: int
-    questions: Questions = Questions()
+    questions: ExactQuestions = ExactQuestions()
 
     @property
     def craft(self) -> Craft:

@@ -44,14 +44,14 @@ class Emphasis:
 
 
 @dataclass(frozen=True, slots=True)
-class Formula:
+class ShownFormula:
     """A formula as hypcheck writes it, in Unicode: x_c² + y_c². `remark` says whether it was checked."""
 
     text: str
     remark: str = ""
 
 
-Text = Union[str, Code, Strong, Emphasis, Formula, "tuple[Text, ...]"]
+Text = Union[str, Code, Strong, Emphasis, ShownFormula, "tuple[Text, ...]"]
 """Running text: a string, a marked part, or a tuple of parts."""
 
 _MARKS = re.compile(r"`([^`]+)`|\*\*(.+?)\*\*|\*(.+?)\*")
@@ -99,7 +99,7 @@ def plain(text: Text) -> str:
         return text
     if isinstance(text, Code):
         return text.text
-    if isinstance(text, Formula):
+    if isinstance(text, ShownFormula):
         return f"{text.text} {text.remark}".rstrip()
     if isinstance(text, (Strong, Emphasis)):
         return plain(text.text)

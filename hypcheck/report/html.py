@@ -47,7 +47,7 @@ def html_text(words: document.Text) -> markupsafe.Markup:
             drawn, numbers = small_picture(words.row), row_as_text(words.row)
             return markupsafe.Markup('<code data-row="{}">{}</code> {}').format(numbers, shown, _trusted(drawn))
         return markupsafe.Markup("<code>{}</code>").format(shown) if words.text else markupsafe.Markup()
-    if isinstance(words, document.Formula):
+    if isinstance(words, document.ShownFormula):
         return markupsafe.Markup("<code>{}</code> {}").format(words.text, words.remark)
     if isinstance(words, (document.Strong, document.Emphasis)):
         tag = _TAGS[type(words)]

@@ -75,7 +75,7 @@ def _inline(words: document.Text) -> str:
         return f"{' ' * words[:1].isspace()}{escape_text(document.bounded(words))}{' ' * words[-1:].isspace()}"
     if isinstance(words, document.Code):
         return code_span(document.bounded(words.text))
-    if isinstance(words, document.Formula):
+    if isinstance(words, document.ShownFormula):
         return f"{code_span(words.text)} {words.remark}".rstrip()
     if isinstance(words, document.Strong):
         return f"**{running_text(words.text)}**"

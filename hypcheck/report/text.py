@@ -72,7 +72,7 @@ def _below(item: document.Item, indent: int) -> Iterator[str]:
 
 def _text(words: document.Text, indent: int, first: str = "") -> Iterator[str]:
     """Yield a text in lines; `first` replaces the indent of the first line."""
-    if isinstance(words, document.Formula):
+    if isinstance(words, document.ShownFormula):
         yield from _formula(words, indent, first)
     elif isinstance(words, document.Code):
         yield padded(first, indent) + inline(words)  # whole, so that a command can be copied
@@ -111,7 +111,7 @@ def paragraph(text: str, indent: int = 0, first: str = "", width: int = WIDTH) -
         yield (padded(first if number == 0 else "", indent) + line.replace("\u00a0", " ")).rstrip()
 
 
-def _formula(formula: document.Formula, indent: int, first: str) -> Iterator[str]:
+def _formula(formula: document.ShownFormula, indent: int, first: str) -> Iterator[str]:
     """Yield the lines of a formula, its remark at the right edge.
 
     A matrix is shown in rows. A long formula is broken (see `broken`).

@@ -10,7 +10,7 @@ import pytest
 from hypcheck.paper.flights import Moves
 from hypcheck.paper.pitch import PitchVerdicts, Tilt, near_wall, tilted_interior, valid_tilted
 from hypcheck.paper.quadcopter import any_angle, craft_of
-from hypcheck.paper.tower import Questions, TowerPlan, simulate_tower
+from hypcheck.paper.tower import ExactQuestions, TowerPlan, simulate_tower
 from hypcheck.scene.reading import read_scene
 from tests.support.tilted_fractions import exact_position
 
@@ -128,10 +128,10 @@ def test_pitch_changes_more_answers_near_the_wall_if_the_craft_is_tilted_outward
 
 
 def test_pitch_totals_are_the_sums_over_all_cells_of_the_table():
-    plan = TowerPlan(SHORT, 7, 5.0, 0.2, 2, Questions(pitch=35.0))
+    plan = TowerPlan(SHORT, 7, 5.0, 0.2, 2, ExactQuestions(pitch=35.0))
     told = simulate_tower(plan, None, lambda _: None)["pitch"]
     assert len(told["cells"]) == 24
     for name, total in told["total"].items():
         assert total == sum(cell[name] for cell in told["cells"])
     assert told["total"]["moves"] > 0
-    assert simulate_tower(replace(plan, questions=Questions()), None, lambda _: None)["pitch"] is None
+    assert simulate_tower(replace(plan, questions=ExactQuestions()), None, lambda _: None)["pitch"] is None

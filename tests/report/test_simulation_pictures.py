@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from hypcheck.paper.forest import ForestPlan, simulate_forest
-from hypcheck.paper.tower import Questions, TowerPlan, simulate_tower
+from hypcheck.paper.tower import ExactQuestions, TowerPlan, simulate_tower
 from hypcheck.report.plots.simulations import TRUNKS, forest_plots, tower_plots
 from hypcheck.report.plots.style import colour, standalone, styled
 from hypcheck.scene.reading import read_scene
@@ -22,7 +22,7 @@ SHORT = replace(TOWER, flight=replace(TOWER.flight, distance=3.0))
 
 @cache
 def flown(scene=SHORT, runs=2, pitch=None):
-    return simulate_tower(TowerPlan(scene, 1, 5.0, 0.2, runs, Questions(pitch=pitch)), None, lambda _: None)
+    return simulate_tower(TowerPlan(scene, 1, 5.0, 0.2, runs, ExactQuestions(pitch=pitch)), None, lambda _: None)
 
 
 @cache

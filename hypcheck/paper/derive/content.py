@@ -26,10 +26,10 @@ from hypcheck.report.document import (
     Bullets,
     Code,
     Emphasis,
-    Formula,
     Item,
     Paragraph,
     Section,
+    ShownFormula,
     Text,
     bullets,
     prose,
@@ -125,7 +125,7 @@ def _chain(chain: Chain) -> Section:
     steps = tuple(
         Item(
             (prose(link.statement), " ", Emphasis(f"({link.because})")),
-            tuple(Formula(part.text, remark(part.holds)) for part in link.parts),
+            tuple(ShownFormula(part.text, remark(part.holds)) for part in link.parts),
         )
         for link in chain.links
     )
@@ -220,7 +220,7 @@ def _evidence(evidence: Evidence) -> Iterator[Item]:
         yield Item((prose(f"{evidence.kind}: {evidence.text}"), f": {remark(evidence.holds)}"))
     for witness in evidence.witnesses:
         pair = witness.facts.point.pair
-        shown = Formula(described(witness.facts), remark(evidence.holds and witness.holds))
+        shown = ShownFormula(described(witness.facts), remark(evidence.holds and witness.holds))
         yield Item(shown, (witness.shows, Code(classify_command(pair.row)), _proof(pair, witness.certificate)))
     for tilted in evidence.tilted:
         upright = f"Without --axis: {_proof(tilted.upright, tilted.vertical)}"
@@ -230,7 +230,7 @@ def _evidence(evidence: Evidence) -> Iterator[Item]:
             _proof(tilted.pair, tilted.certificate),
             upright,
         )
-        yield Item(Formula(tilted.text, remark(evidence.holds and tilted.holds)), below)
+        yield Item(ShownFormula(tilted.text, remark(evidence.holds and tilted.holds)), below)
 
 
 def _proof(pair: Pair, certificate: Certificate) -> str:

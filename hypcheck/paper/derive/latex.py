@@ -222,7 +222,7 @@ def _table(block: document.TableBlock) -> Iterator[str]:
 
 def _text(words: document.Text) -> str:
     """Return a text of its own: a formula is displayed. A bracket at its beginning would be read as an option."""
-    if isinstance(words, document.Formula):
+    if isinstance(words, document.ShownFormula):
         return _display(words)
     shown = _inline(words)
     return f"{{}}{shown}" if shown.startswith("[") else shown
@@ -238,13 +238,13 @@ def _inline(words: document.Text) -> str:
             return rf"\textbf{{{_inline(text)}}}"
         case document.Emphasis(text):
             return rf"\emph{{{_inline(text)}}}"
-        case document.Formula(text, remark):
+        case document.ShownFormula(text, remark):
             return f"${formula(text)}$ {remark}".rstrip()
         case _:
             return "".join(map(_inline, words))
 
 
-def _display(shown: document.Formula) -> str:
+def _display(shown: document.ShownFormula) -> str:
     """Return a formula on its own, with its remark as its tag; one that is too long in several lines."""
     if (named := matrix_of(shown.text)) is not None:
         name, cells = named

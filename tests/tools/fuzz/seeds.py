@@ -11,7 +11,7 @@ import numpy as np
 from hypcheck.implementations import frames
 from hypcheck.record.fields import as_json
 from hypcheck.scene.reading import shipped_scenes, shipped_text
-from hypcheck.tables.streams import FORMATS as TABLES
+from hypcheck.tables import FORMATS as TABLES
 from hypcheck.vectors import frozen
 from tests.report import bench_lines, record_samples
 from tests.support.records import resealed
