@@ -13,6 +13,7 @@ section 3.2: where its rotors are, and the cubic of one rotor's spheroid.
 `read` and `plain` turn plain text into sympy expressions and back, as in "(α/b)²·B1 − λ". A product is written with a
 dot, never by juxtaposition; raised digits are powers; √2 is a root; diag(…) is a diagonal matrix. Greek letters stand
 for the symbols of their names. Arguments that only say what a letter depends on, as in f(λ) and c1(g_i), are skipped.
+`SYMBOLIC` is the arithmetic that evaluates a program in symbols, and `INPUTS` has the letters of its inputs.
 """
 
 from __future__ import annotations
@@ -24,6 +25,8 @@ from functools import cache
 
 import sympy
 from sympy.parsing.sympy_parser import parse_expr
+
+from hypcheck.derivation.evaluation import OPERATORS, Arithmetic
 
 _GREEK = {"α": "alpha", "γ": "gamma", "λ": "lambda", "φ": "phi", "Δ": "delta"}
 _SPELLED = {name: letter for letter, name in _GREEK.items()}
@@ -340,3 +343,32 @@ def rotor_cubic() -> SymbolicCubic:
     """Derive the cubic of the rotor's spheroid, whose semi-axes are b_s, b_s, d_s."""
     x, y, z = rotor_centre()
     return _substituted(cubic_in_seven(), {SMALL_B: ROTOR_B, SMALL_D: ROTOR_D, X0: x, Y0: y, Z0: z})
+
+
+SYMBOLIC = Arithmetic(
+    name="symbolic",
+    convert=sympy.sympify,
+    operations={
+        **OPERATORS,
+        "sqrt": sympy.sqrt,
+        "cos": sympy.cos,
+        "arccos": sympy.acos,
+        "eq": sympy.Equality,
+        "ne": sympy.Unequality,
+        "not": sympy.Not,
+        "select": lambda condition, yes, no: sympy.Piecewise((yes, condition), (no, True)),
+    },
+)
+"""Inputs may be expressions, integers or rationals; comparisons become relations, and a selection is a Piecewise."""
+
+
+INPUTS = {
+    **dict(zip(("alpha", "gamma", "b", "d", "x", "y", "z"), SEVEN, strict=True)),
+    "b_s": ROTOR_B,
+    "d_s": ROTOR_D,
+    "l": ARM,
+    "cosine": COSINE,
+    "sine": SINE,
+    "lambda_": LAMBDA,
+}
+"""The letter that each input of a program represents."""

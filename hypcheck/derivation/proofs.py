@@ -17,40 +17,12 @@ import numpy as np
 import sympy
 
 from hypcheck.derivation import links, pencil
-from hypcheck.derivation.evaluation import OPERATORS, Arithmetic, evaluate, outputs
+from hypcheck.derivation.evaluation import evaluate, outputs
 from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS, REPAIRED, Formula
 from hypcheck.derivation.paper_listings import ROTORS
-from hypcheck.derivation.pencil import LAMBDA, A, B, P, Q, symbol
+from hypcheck.derivation.pencil import INPUTS, LAMBDA, SYMBOLIC, A, B, P, Q, symbol
 from hypcheck.derivation.program import Program, cut
-
-SYMBOLIC = Arithmetic(
-    name="symbolic",
-    convert=sympy.sympify,
-    operations={
-        **OPERATORS,
-        "sqrt": sympy.sqrt,
-        "cos": sympy.cos,
-        "arccos": sympy.acos,
-        "eq": sympy.Equality,
-        "ne": sympy.Unequality,
-        "not": sympy.Not,
-        "select": lambda condition, yes, no: sympy.Piecewise((yes, condition), (no, True)),
-    },
-)
-"""Inputs may be expressions, integers or rationals; comparisons become relations, and a selection is a Piecewise."""
-
-
-INPUTS = {
-    **dict(zip(("alpha", "gamma", "b", "d", "x", "y", "z"), pencil.SEVEN, strict=True)),
-    "b_s": pencil.ROTOR_B,
-    "d_s": pencil.ROTOR_D,
-    "l": pencil.ARM,
-    "cosine": pencil.COSINE,
-    "sine": pencil.SINE,
-    "lambda_": LAMBDA,
-}
-"""The letter that each input of a program represents."""
 
 
 @dataclass(frozen=True)

@@ -13,8 +13,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hypcheck.derivation.evaluation import EXACT, evaluate, outputs
+from hypcheck.derivation.pencil import SYMBOLIC
 from hypcheck.derivation.program import Program, program_of
-from hypcheck.derivation.proofs import SYMBOLIC
 from hypcheck.kernel.programs import fixed
 from hypcheck.vectors.families import FAMILIES
 from tests.kernel.compiling import HEADER, needs_compiler, shared_library

@@ -11,9 +11,8 @@ from hypothesis import strategies as st
 
 from hypcheck.derivation.evaluation import EXACT, evaluate, outputs
 from hypcheck.derivation.formulas import FORMULAS
-from hypcheck.derivation.pencil import A, B, P, Q
+from hypcheck.derivation.pencil import SYMBOLIC, A, B, P, Q
 from hypcheck.derivation.program import cut, needed
-from hypcheck.derivation.proofs import SYMBOLIC
 from hypcheck.derivation.rounding import gamma, relative_error_counts
 from hypcheck.geometry.pair import COLUMNS
 from tests.support.inside import CERTIFIED, CERTIFIED_CONSTANTS, INTEGERS, SLACK, bits_counted, certified, lines

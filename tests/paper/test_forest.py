@@ -14,7 +14,8 @@ import pytest
 from hypcheck.derivation.float_arithmetic import float_arithmetic
 from hypcheck.derivation.formulas import FORMULAS, answers
 from hypcheck.errors import InputError
-from hypcheck.paper.forest import ForestPlan, Procedure1, Trees, judged, simulate_forest, walk
+from hypcheck.paper.forest import ForestPlan, Procedure1, judged, simulate_forest, walk
+from hypcheck.paper.trees import Trees
 from hypcheck.scene.model import Hyperboloid, Region, Span
 from hypcheck.scene.reading import read_scene
 from hypcheck.vectors.draw import Draw
