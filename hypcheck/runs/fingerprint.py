@@ -251,10 +251,7 @@ def _imported(node: ast.AST, path: str) -> Iterator[str]:
 
 
 def _modules(name: str, folders: Sequence[str]) -> Iterator[str]:
-    """Yield the files of a module and of the packages that hold it, in the first of the folders that has any of them.
-
-    A name with a separator of paths is a path: its files are found without the folders.
-    """
+    """Yield the files of a module, or of a path, and of the packages that hold it, in the first folder that has any."""
     if os.sep in name:
         yield from _existing(name.rstrip(os.sep))
         return
