@@ -36,7 +36,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import inf, nan
+from math import inf, nan, sqrt
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -154,18 +154,24 @@ def _where(condition: Any, value: Any, otherwise: Any) -> Any:  # noqa: ANN401 -
     return value if condition else otherwise
 
 
+def _root(square: Any) -> Any:  # noqa: ANN401 - a number, or a column
+    """Return the square root, rounded correctly, which a power with the exponent 0.5 need not be."""
+    return np.sqrt(square) if isinstance(square, np.ndarray) else sqrt(square)
+
+
 def along_and_across(centre: Parts, origin: Parts, axis: Parts) -> tuple[Any, Any, Any]:
     """Return a centre's height along an axis, its distance from it, and a bound of both errors, nan if not known."""
     (u, v, w), (x, y, z), (here_x, here_y, here_z) = axis, centre, origin
     size = abs(x) + abs(y) + abs(z) + abs(here_x) + abs(here_y) + abs(here_z)
-    largest = abs(u) + abs(v) + abs(w)
+    largest = _where(abs(u) > abs(v), abs(u), abs(v))
+    largest = _where(largest > abs(w), largest, abs(w))
     u, v, w = u / largest, v / largest, w / largest
-    length = (u * u + v * v + w * w) ** 0.5
+    length = _root(u * u + v * v + w * w)
     u, v, w = u / length, v / length, w / length
     x, y, z = x - here_x, y - here_y, z - here_z
     p, q, r = v * z - w * y, w * x - u * z, u * y - v * x
     ordinary = (largest > LEAST) & (largest < GREATEST) & (size < GREATEST)
-    return u * x + v * y + w * z, (p * p + q * q + r * r) ** 0.5, _where(ordinary, ERROR * size + LEAST, nan)
+    return u * x + v * y + w * z, _root(p * p + q * q + r * r), _where(ordinary, ERROR * size + LEAST, nan)
 
 
 def _by_ball(sizes: Parts, centre: Parts, origin: Parts, axis: Parts) -> tuple[Any, Any]:
@@ -175,8 +181,8 @@ def _by_ball(sizes: Parts, centre: Parts, origin: Parts, axis: Parts) -> tuple[A
     longest = _where(b > d, b, d) * (1 + MARGIN) + error
     above, below = (abs(height) + longest) / gamma, (abs(height) - longest) / gamma
     below = _where(below > 0, below, 0.0)
-    outside = distance - longest > alpha * (1 + above * above) ** 0.5 * (1 + MARGIN)
-    inside = distance + longest < alpha * (1 + below * below) ** 0.5 * (1 - MARGIN)
+    outside = distance - longest > alpha * _root(1 + above * above) * (1 + MARGIN)
+    inside = distance + longest < alpha * _root(1 + below * below) * (1 - MARGIN)
     return outside, inside
 
 
@@ -318,9 +324,8 @@ def _with_ends(whole: Positions, places: tuple[Rows, Rows, Rows, Rows], bodies: 
     spans, solid, pairs = bodies.spans[body], bodies.solid[body], (*places, bodies.axes[body])
     sizes, centres, origins, movers, axes = (column.T for column in pairs)
     with np.errstate(all="ignore"):
-        place, exterior, known, inner, outer = _by_bounds(
-            whole, (sizes, centres, origins, movers, axes), spans.T, solid
-        )
+        pair = sizes, centres, origins, movers, axes
+        place, exterior, known, inner, outer = _by_bounds(whole, pair, spans.T, solid)
         known |= place.crosses() & (whole == Position.CONTACT)
     result = np.where(exterior, Position.EXTERIOR, whole).astype(np.int8)
     rest = np.flatnonzero(~(exterior | known))
@@ -331,8 +336,8 @@ def _with_ends(whole: Positions, places: tuple[Rows, Rows, Rows, Rows], bodies: 
         rest = np.setdiff1d(rest, stands[result[stands] != CANNOT_SAY])
     for index in rest.tolist():
         size, centre, origin, mover, axis = (column[index].tolist() for column in pairs)
-        pair = size, centre, origin, mover, axis
-        result[index] = _ended_exactly(int(whole[index]), pair, spans[index].tolist(), bool(solid[index]))
+        numbers = size, centre, origin, mover, axis
+        result[index] = _ended_exactly(int(whole[index]), numbers, spans[index].tolist(), bool(solid[index]))
     return result
 
 
@@ -364,11 +369,8 @@ def _by_kernel(rows: Rows, centres: Rows, origins: Rows, inner: Mask, outer: Mas
     return np.where(fits, positions, CANNOT_SAY).astype(np.int8)
 
 
-Limits = tuple[float, float, float, float]
-"""The four heights of limits_of for one hyperboloid."""
-
-Numbers = tuple[BodyNumbers, Limits]
-"""One hyperboloid, and the limits of a scene's mover beside it."""
+Numbers = tuple[BodyNumbers, tuple[float, float, float, float]]
+"""One hyperboloid, and the four heights of limits_of beside it for a scene's mover."""
 
 
 def limits_of(bodies: Bodies, mover: Mover) -> Floats:
@@ -411,11 +413,7 @@ class _Place:
 
     def between_and_beyond(self) -> tuple[Any, Any]:
         """Whether the mover surely lies between the ends, and beyond an end."""
-        below, above, far = (
-            self.along - self.low,
-            self.high - self.along,
-            self.reach * (1 + MARGIN) + self.error,
-        )
+        below, above, far = self.along - self.low, self.high - self.along, self.reach * (1 + MARGIN) + self.error
         return (below > far) & (above > far), (below < -far) | (above < -far)
 
     def centre_between_and_beyond(self) -> tuple[Any, Any]:
@@ -428,7 +426,7 @@ class _Place:
         share, away = self.level / self.gamma, abs(self.level - self.along)
         fall = (away + self.error) / self.half
         room = 1 - fall * fall
-        radius, least = self.alpha * (1 + share * share) ** 0.5, self.least * ((room + abs(room)) / 2) ** 0.5
+        radius, least = self.alpha * _root(1 + share * share), self.least * _root((room + abs(room)) / 2)
         loose = self.error * (2 + self.alpha / self.gamma) + MARGIN * (radius + self.across + self.least)
         crosses = (self.across + least > radius + loose) & (self.across - least < radius - loose)
         return crosses & (self.centre_between_and_beyond()[0] | (self.half < inf))
