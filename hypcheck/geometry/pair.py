@@ -257,7 +257,7 @@ def counted_along(
     axis: Vector, upward: Sequence[float | Fraction], low: int | None, high: int | None
 ) -> tuple[int | None, int | None]:
     """Turn heights along `upward` into heights along a parallel `axis`, maybe opposite; None is infinite."""
-    if sum(a * b for a, b in zip(axis, upward, strict=True)) > 0:
+    if all((a > 0) == (b > 0) for a, b in zip(axis, upward, strict=True)):  # a product may be beyond float64
         return low, high
     return None if high is None else -high, None if low is None else -low
 

@@ -347,3 +347,15 @@ def test_the_length_of_a_hyperboloids_axis_changes_no_position_and_raises_no_err
     one_by_one, together = answers(length)
     assert one_by_one == together
     assert (one_by_one, together) == answers(1.0)
+
+
+def test_a_hyperboloid_whose_axis_has_components_of_very_different_sizes_ends_where_an_almost_parallel_one_does():
+    """As whole numbers without a common factor its components are beyond float64."""
+
+    def answers(axis):
+        body = Hyperboloid("tilted", 1.0, 2.0, (0.0, 0.0, 0.0), height=Span(-1.0, 1.0), axis=axis)
+        scene = Scene(SceneModel("sizes", "position", (body,), Mover(0.3, 0.9)))
+        return [scene.position(x, y, 0.5) for x in (-2.5, -1.5, 0.1, 1.5) for y in (0.0, 0.8, 1.2)]
+
+    assert answers((3.3e300, 3.9, 0.0)) == answers((1.0, 0.0, 0.0))
+    assert answers((-3.3e300, -3.9, 0.0)) == answers((-1.0, 0.0, 0.0))
