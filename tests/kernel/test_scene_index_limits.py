@@ -1,4 +1,4 @@
-"""Answers about a scene at its limits: heights, far centres, values that are no numbers, arrays of every layout."""
+"""Answers about a scene at its limits: heights, far centres, axes of any length, values that are no numbers, arrays."""
 
 from __future__ import annotations
 
@@ -138,3 +138,31 @@ def test_scene_position_beside_a_hyperboloid_farther_out_than_cells_are_numbered
     bodies = tuple(Hyperboloid(name, 1.0, 9.0, (x, 0.0, 0.0)) for name, x in (("here", 0.0), ("far", far)))
     scene = Scene(model.SceneModel("s", "position", bodies, Mover(0.25, 0.25), Region(z=Span(-1.0, 1.0))))
     assert scene.position(far + 1.0, 0.0, 0.0) == 0
+
+
+@pytest.mark.parametrize("span", [None, Span(-1.0, 1.0)], ids=["without ends", "with ends"])
+@pytest.mark.parametrize("length", [5e-324, 1e-308, 1e308])
+def test_the_length_of_a_hyperboloids_axis_changes_no_position_and_raises_no_error(length, span):
+    """The sum of three components of 1e308 is no float64, and a subnormal one has no precise reciprocal."""
+
+    def answers(component):
+        body = Hyperboloid("tilted", 1.0, 2.0, (0.0, 0.0, 0.0), height=span, axis=(component,) * 3)
+        scene = Scene(model.SceneModel("length", "position", (body,), Mover(0.3, 0.9)))
+        points = [(x, 0.3, z) for x in (0.1, 1.5, 5.0) for z in (0.0, 0.9, 3.0)]
+        return [scene.position(*point) for point in points], scene.classify(*np.transpose(points)).tolist()
+
+    one_by_one, together = answers(length)
+    assert one_by_one == together
+    assert (one_by_one, together) == answers(1.0)
+
+
+def test_a_hyperboloid_whose_axis_has_components_of_very_different_sizes_ends_where_an_almost_parallel_one_does():
+    """As whole numbers without a common factor its components are beyond float64."""
+
+    def answers(axis):
+        body = Hyperboloid("tilted", 1.0, 2.0, (0.0, 0.0, 0.0), height=Span(-1.0, 1.0), axis=axis)
+        scene = Scene(model.SceneModel("sizes", "position", (body,), Mover(0.3, 0.9)))
+        return [scene.position(x, y, 0.5) for x in (-2.5, -1.5, 0.1, 1.5) for y in (0.0, 0.8, 1.2)]
+
+    assert answers((3.3e300, 3.9, 0.0)) == answers((1.0, 0.0, 0.0))
+    assert answers((-3.3e300, -3.9, 0.0)) == answers((-1.0, 0.0, 0.0))
